@@ -1,7 +1,7 @@
 """All checks of the project: `python -m tests [--long] [--tests] [pytest arguments]`.
 
-With `--long`, as CI runs them, the tests come along that take more than some seconds. With `--tests`, for one Python
-more, no code is linted, and those are left out that show the same with every Python.
+`--long` adds the tests that take more than a few seconds, as in CI. `--tests`, for a further Python, leaves out the
+linter, and the tests whose result does not depend on the Python.
 """
 
 import os
@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 
-# one more process than cores, since those that watch folders mostly wait
+# one more process than cores, since tests that watch folders mostly wait
 PYTEST = ["pytest", "-n", str((os.cpu_count() or 1) + 1), "--dist", "worksteal", "-m"]
 STATIC = {
     "lint": ["ruff", "check", "."],
@@ -22,17 +22,17 @@ STATIC = {
 EXAMPLES = {"examples in step": ["urdfsync", "build", "--check"]}
 QUICK = {"tests": [*PYTEST, "not slow and not large"]}
 ONE_MORE = {"tests": [*PYTEST, "not slow and not large and not once"]}
-# in one run with the others: each process takes 13 s to find all tests
+# in one run with the other tests: each process takes 13 s to find all tests
 LONG = {"tests": [*PYTEST, "not large"]}
 OPTIONS = ("--long", "--tests")
-# a thread each and large pieces of memory: rumoca takes a quarter of its time for locks and for giving memory back
+# one thread, large pieces of memory: rumoca takes a quarter of its time for locks and for freeing memory
 COMPILER = {"RAYON_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "1", "MALLOC_TOP_PAD_": str(2**26)}
 
 
 def main() -> int:
     """Run every check, even after one has failed; the exit code is 1 if any did."""
     failed, types = list[str](), None
-    # without bytecode on disk each of thousands of processes compiles all modules: three quarters of their time
+    # without bytecode on disk, thousands of processes compile all modules, which takes three quarters of their time
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     environment |= COMPILER
     given = [argument for argument in sys.argv[1:] if argument not in OPTIONS]
@@ -46,7 +46,7 @@ def main() -> int:
         command = [sys.executable, "-m", module]
         if module == "lint-imports":  # which is no module
             command = [str(Path(sys.executable).with_name(module))]
-        if name == "types":  # a minute on one core, which the tests after it leave now and then
+        if name == "types":  # takes a minute on one core, which later tests leave now and then
             types = subprocess.Popen([*command, *arguments], cwd=ROOT, env=environment, stdout=subprocess.PIPE)
         elif subprocess.run([*command, *arguments, *extra], cwd=ROOT, env=environment, check=False).returncode:
             failed.append(name)

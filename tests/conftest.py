@@ -1,4 +1,4 @@
-"""Fixtures for all tests, a guard against tests that write where they must not, and a count of what was skipped."""
+"""Fixtures for all tests, a guard against writes outside of their folders, and a count of skipped tests."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in a build: numpy's threads wait busily for each other
 
-# a busy machine is no reason to fail; who asks for cases gets fresh ones
+# a busy machine must fail no test; `URDFSYNC_CASES` gives fresh cases
 settings.register_profile("urdfsync", deadline=None, derandomize=not CASES, max_examples=max(40, CASES))
 settings.load_profile("urdfsync")
 
@@ -62,9 +62,9 @@ audit.listeners.append(_guard)
 
 @pytest.fixture(scope="session", autouse=True)
 def _default_signals() -> None:
-    """What `nohup` or a shell's `&` lets the tests ignore, the processes that they start do not ignore.
+    """Signals that `nohup` or a shell's `&` lets the tests ignore are not ignored by processes that the tests start.
 
-    A process inherits what is ignored, and not what is handled.
+    A process inherits ignored signals, but no handlers.
     """
     for number in (signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)):
         if signal.getsignal(number) is signal.SIG_IGN:
@@ -73,7 +73,7 @@ def _default_signals() -> None:
 
 @pytest.fixture(scope="session", autouse=True)
 def _no_waiting_for_disks() -> Iterator[None]:
-    """Builds leave it to the system when the disk gets to know: only a power failure makes a difference."""
+    """Builds do not wait for the disk: only a power failure would show the difference."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(os, "fsync", lambda _: None)
         patch.setattr(os, "sync", lambda: None, raising=False)
@@ -99,14 +99,14 @@ def _plain_environment(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(autouse=True)
 def _no_reading_of_another_test() -> None:
-    """A test that breaks a reader meets no source that an earlier test has read in the same process."""
+    """A test that breaks a reader gets no source that an earlier test has read in the same process."""
     if source := sys.modules.get("urdfsync.engine.source"):
         source._read_model.cache_clear()
 
 
 @pytest.fixture(autouse=True)
 def _schema_agrees() -> Iterator[None]:
-    """A test fails in which the schema of configurations takes what the program refuses, or the other way round."""
+    """A test fails if the schema of configurations accepts a file that the program refuses, or the other way round."""
     from support import configurations
 
     differing: list[str] = []
@@ -128,8 +128,8 @@ def corpus() -> Path:
 def modelica_library() -> Iterator[Path]:
     """The folder with the Modelica Standard Library, in a version that the embedded compiler takes.
 
-    Checks in this process parse its files once, hash it and their compiler once, and take it apart once: each would do
-    that for a second, or for four if a test gives it an empty cache.
+    Checks in this process parse, hash and take apart the library only once, which saves each of them one to four
+    seconds.
     """
     from urdfsync.checks import libraries
     from urdfsync.checks.cache import UserCache
@@ -181,7 +181,7 @@ def rc_domain(rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def project(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder, also the working one, with a network, its signal and the configuration that builds `Ladder`."""
+    """The working folder with a network, its signal and the configuration that builds `Ladder`."""
     folder = tmp_path / "project"
     shutil.copytree(RC_FOLDER / "examples", folder)
     (folder / "urdfsync.toml").write_text(
@@ -222,14 +222,14 @@ def start(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Start]:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty folder, also the working one: no configuration in it or above."""
+    """An empty working folder: no configuration is in it or above."""
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
 @pytest.fixture
 def execute(capsys: pytest.CaptureFixture[str]) -> Execute:
-    """A function that runs a command, which has to end with this code unless that is None; what it printed."""
+    """A function that runs a command and returns the output; the exit code must be `code`, unless this is None."""
     from urdfsync import cli
 
     def run(*arguments: object, code: int | None = 0) -> Printed:
@@ -244,8 +244,8 @@ def execute(capsys: pytest.CaptureFixture[str]) -> Execute:
 
 @pytest.fixture(scope="session")
 def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A project with all that a decision may look at, built; tests work on copies of it."""
-    from support import answers  # needs what only its tests import
+    """A built project with all inputs of a decision; tests work on copies of this project."""
+    from support import answers  # needs modules that only its tests import
 
     return answers.built(tmp_path_factory.mktemp("built") / "project")
 
@@ -258,12 +258,12 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     return files.snapshot
 
 
-@pytest.hookimpl(wrapper=True, tryfirst=True)  # before `-m` looks at the marks
+@pytest.hookimpl(wrapper=True, tryfirst=True)  # before `-m` reads the marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None]:
-    """Mark what shows the same with every Python, and all but the first case of a test, and put long tests first.
+    """Mark tests whose result does not depend on the Python, and all but a test's first case; put long tests first.
 
-    xdist gives each process a piece of this list, and what is left of others' pieces later. So each piece begins with
-    long tests, those of a file in one piece: no process ends late.
+    xdist gives each process a piece of this list, and later the rests of other pieces. So each piece begins with long
+    tests, with those of a file in one piece, and no process ends late.
     """
     cases = Counter[str]()
     for item in items:
@@ -292,7 +292,7 @@ _SAME = tuple(f"tests/{name}" for name in (
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave out the files that `-m "not once"` would deselect whole: a process takes 13 s to find all tests."""
+    """Leave out files of which `-m "not once"` deselects all tests: a process takes 13 s to find all tests."""
     is_one_more = "not once" in config.option.markexpr and collection_path.is_relative_to(REPOSITORY)
     return True if is_one_more and str(collection_path.relative_to(REPOSITORY)).startswith(_SAME) else None
 
@@ -300,7 +300,7 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 def _is_same_with_every_python(item: pytest.Item) -> bool:
     """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own.
 
-    So do texts and numbers that follow from others, what git makes of them, and what a build decides.
+    So do computed texts and numbers, git's merges, and the decisions of a build.
     """
     if item.nodeid.startswith(_SAME):
         return True
@@ -310,13 +310,13 @@ def _is_same_with_every_python(item: pytest.Item) -> bool:
 
 
 def pytest_collection_finish() -> None:
-    """What stays until the end is no garbage: nobody looks for any in it."""
+    """The garbage collector ignores all objects that stay until the end."""
     gc.collect()
     gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Say how many tests need what is not here."""
+    """Report how many tests need a missing program or folder."""
     skipped = [str(report.longrepr) for report in terminalreporter.stats.get("skipped", [])]
     for reason in (NO_LIBRARY, NO_CORPUS):
         if count := sum(reason in text for text in skipped):

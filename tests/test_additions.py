@@ -1,4 +1,4 @@
-"""An edit that only adds something, and then an export that changes the tree: the fresh package with that addition.
+"""An edit that only adds code, then an export that changes the tree: the result is a fresh package with the addition.
 
 Both approaches at once: the package, and the record of the whole robot. `-m large` takes all robots of the corpus.
 """
@@ -35,19 +35,19 @@ DRAWING = ',\n      Ellipse(extent={{0, 0}, {1, 1}}, fillColor={7, 7, 7}, textSt
 
 
 def in_front(text: str) -> str | None:
-    """A parameter before all else in the class."""
+    """Add a parameter before all other statements of the class."""
     found = re.search(r'^(?:record|model) \w+ ".*"', text, re.MULTILINE)
     return found and f"{text[: found.end()]}{PARAMETER}{text[found.end() :]}"
 
 
 def behind(text: str) -> str | None:
-    """A component with a place of its own, where everybody puts it: behind all others."""
+    """Add a component with a place of its own, behind all others."""
     place = next((text.find(word) for word in ("\n\nequation\n", "\n\n  annotation (", "\nend ") if word in text), -1)
     return f"{text[:place]}{SENSOR}{text[place:]}"
 
 
 def in_the_middle(text: str) -> str | None:
-    """A parameter behind some component in the middle."""
+    """Add a parameter behind a component in the middle."""
     *_, body = re.split(r'^(?:record|model) \w+ "', text, maxsplit=1, flags=re.MULTILINE)
     declared = body.partition("\nequation\n")[0].partition("\n  annotation (")[0]
     places = [len(text) - len(body) + found.end() for found in re.finditer(r";(?=\n\n  )", declared)]
@@ -56,14 +56,14 @@ def in_the_middle(text: str) -> str | None:
 
 
 def equation(text: str) -> str | None:
-    """An equation behind all others."""
+    """Add an equation behind all others."""
     head, word, rest = text.partition("\nequation\n")
     place = rest.rfind("\n\n  annotation (")
     return f"{head}{word}{rest[:place]}{EQUATION}{rest[place:]}" if word and place >= 0 else None
 
 
 def drawing(text: str) -> str | None:
-    """Graphics on the icon, upon all others."""
+    """Add graphics to the icon, on top of all others."""
     place = text.rfind(")}),\n    Diagram(")
     return f"{text[: place + 1]}{DRAWING}{text[place + 1 :]}" if "\n    Icon(" in text and place >= 0 else None
 
@@ -74,7 +74,7 @@ ADDITIONS = {
 
 
 def words(text: str) -> list[str]:
-    """What a text says, word for word, comments included."""
+    """The words of a text, comments included."""
     return [*(token.text for token in lex(text)[0]), *comments(text)]
 
 
@@ -87,7 +87,7 @@ class Robots:
         self._fresh: dict[bytes, Mapping[str, str]] = {}
 
     def project(self, name: str, content: bytes) -> Project | None:
-        """A new project with a build; None where that is refused."""
+        """A new project with a build; None if the build refuses the source."""
         shutil.rmtree(self.work / name, ignore_errors=True)
         project = Project(self.work / name, self.base)
         project.configure(CONFIGURATION)
@@ -95,7 +95,7 @@ class Robots:
         return None if project.build().failed else project
 
     def fresh(self, content: bytes) -> Mapping[str, str]:
-        """The texts of a package that is built anew; none if that is refused."""
+        """The texts of a freshly built package; none if the build refuses the source."""
         if content not in self._fresh:
             built = self.project("fresh", content)
             self._fresh[content] = texts(built) if built else {}
@@ -108,7 +108,7 @@ def texts(project: Project) -> dict[str, str]:
 
 
 def differences(content: bytes, work: Path, random: Random, tally: collections.Counter[str]) -> Iterator[str]:
-    """Where a package with additions, after an export, is not the fresh package with these additions."""
+    """The differences of a package with additions, after an export, from the fresh package with these additions."""
     if read(content).snapshot is None:
         tally["robots that are refused"] += 1
         return

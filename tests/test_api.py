@@ -1,4 +1,4 @@
-"""The API: `urdfsync.build` and the others return values, print nothing, and raise what their commands say."""
+"""The API: `urdfsync.build` and other functions return values, print nothing, and raise their commands' errors."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def test_a_compiler_that_does_not_exist_is_an_error_of_urdfsync(project: Path, f
 
 def test_all_names_are_there_and_on_the_page_and_nothing_is_loaded_before() -> None:
     assert all(hasattr(urdfsync, name) for name in urdfsync.__all__)
-    assert set(urdfsync.__all__) < set(dir(urdfsync))  # notebooks complete by this
+    assert set(urdfsync.__all__) < set(dir(urdfsync))  # notebooks complete names by this list
     functions = {name for name in urdfsync.__all__ if name[0].islower()}
     assert functions <= set(re.findall(r"`urdfsync\.(\w+)\(?", PAGE))
     with pytest.raises(AttributeError, match="has no attribute 'biuld'"):

@@ -1,4 +1,4 @@
-"""The benchmarks: costs of processes, pairs taken in turn, and robots that are as they should be."""
+"""The benchmarks: costs of processes, pairs measured in turn, and correct robots."""
 
 from __future__ import annotations
 

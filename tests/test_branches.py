@@ -32,7 +32,7 @@ def repository(project: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
 
 
 def branch(repository: Repository, name: str, *steps: Callable[[], object], start: str = "main") -> None:
-    """A branch from another one: each step is built and committed."""
+    """Make a branch from another one; build and commit each step."""
     repository.git("checkout", "-q", "-B", name, start)
     for step in steps:
         step()
@@ -41,7 +41,7 @@ def branch(repository: Repository, name: str, *steps: Callable[[], object], star
 
 
 def unite(repository: Repository, how: str) -> None:
-    """Bring the branch `theirs` together with `ours`, which is checked out then."""
+    """Bring the branch `theirs` together with `ours`, and check `ours` out."""
     start = repository.git("merge-base", "ours", "theirs").strip()
     repository.git("checkout", "-q", "ours")
     if how == "merge":
@@ -70,7 +70,7 @@ def test_exports_and_edits_of_two_branches_meet(repository: Repository, tmp_path
 
 
 def merge_and_settle(repository: Repository) -> None:
-    """Merge `theirs` into `ours`, whatever git makes of that."""
+    """Merge `theirs` into `ours`, with or without conflicts."""
     repository.git("checkout", "-q", "ours")
     repository.merge("theirs")
     repository.commit()
@@ -182,7 +182,7 @@ def test_a_source_that_goes_back_to_an_earlier_export_after_the_merge(repository
 
 
 def test_an_orphan_that_one_branch_keeps_stays_the_users(repository: Repository) -> None:
-    """The other branch still generates it, and records another text."""
+    """The other branch still generates the file, and records another text."""
 
     def keep() -> None:
         note(C1, "ours")

@@ -1,7 +1,7 @@
-"""A change of the program is seen wherever it is: nobody has to announce it.
+"""urdfsync notices each change of its own program; nobody has to raise a number.
 
 One line of a template, of the reader or of the model is changed in a copy of the program, so that a text changes. Every
-verdict changes with it, though the source, the package and all that is recorded are as before.
+verdict changes with the program, although the source, the package and the recorded state stay unchanged.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ CHANGES = {
     ),
     "model": ("urdfsync/urdf/model/joint.py", "{joint.type} joint", "the {joint.type} joint"),
 }
-"""A file of the program, one of its lines, and another one."""
+"""A file of the program, one of its lines, and the new line."""
 
 
 @pytest.fixture(scope="module")

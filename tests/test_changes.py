@@ -1,4 +1,4 @@
-"""Comparing two versions: equality first, deepdiff on what differs, meanings from the domain, files that follow."""
+"""Comparing two versions: equality first, deepdiff of the differences, meanings from the domain, and affected files."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ each_source = pytest.mark.parametrize("source", sampled(SOURCES, 4))
 
 @functools.cache
 def package(file: str) -> Package:
-    """The package of a file of the corpus, stationary or mobile as `init` proposes."""
+    """The package of a file of the corpus, with the `base` that `init` proposes."""
     return generate(FOLDER / file, BOT, base=proposed_base((FOLDER / file).read_bytes()))
 
 
@@ -71,9 +71,9 @@ def code(text: str) -> str:
 
 @each_source
 def test_packages_are_sound_and_full_copies(source: str, corpus: Path) -> None:
-    """As `check` sees texts, names, folders and orders; besides, links and joints extend no others.
+    """`check` finds no fault in texts, names, folders and orders; besides, links and joints extend no other ones.
 
-    Versions that differ in numbers and strings alone are one to that. LF ends each line, and there are no tabs.
+    Versions that differ only in numbers and strings count as one. LF ends each line, and there are no tabs.
     """
     distinct = {}
     for made in map(package, SOURCES[source]):
@@ -92,11 +92,11 @@ def test_packages_are_sound_and_full_copies(source: str, corpus: Path) -> None:
 
 @each_source
 def test_models_contain_no_number_of_the_urdf(source: str, corpus: Path) -> None:
-    """A robot with all its numbers changed has other records, and the same models to the byte; benches have none."""
+    """If all numbers of a robot change, its records change, and its models stay equal to the byte."""
     for made in map(package, SOURCES[source]):
         other = scaled(made, 1.37)
         for path, text in made.texts.items():
-            # where nothing drives a freedom of a loop, the numbers say which joint is its state
+            # if nothing drives a freedom of a loop, the numbers decide which joint is its state
             if made.roles[path] is not Role.RECORD and not source.startswith(("drake-robotiq", "pollen-robotics")):
                 assert other.texts[path] == text, path
         for suffix in ("Run", "Test"):
@@ -126,7 +126,7 @@ def nasty_package(tmp_path_factory: pytest.TempPathFactory) -> Package:
         material = f'<material name={quoted}><color rgba="1 0.5 0 1"/></material>'
         mesh = f"<visual name={quoted}><geometry><mesh filename={quoteattr(MESH)}/></geometry>{material}</visual>"
         shapes = f"{mesh}<visual>{box}</visual><collision name={quoted}>{box}</collision>"
-        shapes = "" if is_identifier(name) else shapes  # of which the longest part of the compilation is
+        shapes = "" if is_identifier(name) else shapes  # which take the longest part of the compilation
         elements.append(link("", 1).replace('name=""', f"name={quoted}").replace("</link>", f"{shapes}</link>"))
         if number:
             kind = {1: "revolute", 2: "continuous", 3: "prismatic"}.get(number % 10, "fixed")
@@ -150,7 +150,7 @@ def test_nasty_names_stay_in_the_folder(nasty_package: Package, tmp_path: Path) 
 
 
 def test_every_nasty_name_is_in_its_record(nasty_package: Package) -> None:
-    """As a string literal that reads back as the name: the mapping can be undone."""
+    """The text has the name as a string literal, so the mapping can be undone."""
     for kind, name in nasty_package.skeleton.names:
         identifier = nasty_package.skeleton.names[kind, name]
         text = nasty_package.texts[f"{kind.capitalize()}s/{identifier.record}.mo"]

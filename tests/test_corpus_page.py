@@ -1,4 +1,4 @@
-"""The table of the corpus: what real robots say beside links and joints, and what becomes of it; nothing is silent.
+"""The table of the corpus: elements of real robots beside links and joints, and their effect; none is ignored silently.
 
 `python tests/test_corpus_page.py` writes it.
 """
@@ -29,7 +29,7 @@ KNOWN = ("link", "joint", "material")
 
 
 def table() -> str:
-    """The rows of all robots that have anything beside links and joints, with numbers only."""
+    """The rows of all robots that have elements beside links and joints, with numbers only."""
     return HEADER + "".join(row for file in corpora.robots() for row in rows(file))
 
 
@@ -55,7 +55,7 @@ def rows(file: str) -> Iterator[str]:
 
 
 def count_of(found: Diagnostic) -> int:
-    """For how many findings of its code a warning stands."""
+    """The number of findings with its code that a warning counts."""
     more = re.search(r"\(and (\d+) more like it", found.message)
     return 1 + int(more[1]) if more else 1
 
@@ -69,7 +69,7 @@ def test_the_table_is_what_becomes_of_the_corpus() -> None:
 @pytest.mark.usefixtures("corpus")
 @pytest.mark.parametrize("file", corpora.robots())
 def test_nothing_is_silent(file: str) -> None:
-    """Each element beside links and joints is modelled, or its line is said."""
+    """Each element beside links and joints is modelled, or a finding names its line."""
     if file == ABSENT:
         return
     reading = read((FOLDER / file).read_bytes(), file)

@@ -1,4 +1,4 @@
-"""What the core expects of every domain that is installed."""
+"""Each installed domain meets the requirements of the core."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ SAMPLES: dict[str, tuple[bytes, bytes | None]] = {
     "urdf": (URDF, stl(height=0.5).encode()),
     "rcnetwork": ((EXAMPLES / "ladder.json").read_bytes(), (EXAMPLES / "step.csv").read_bytes()),
 }
-"""Per domain: a source, and the content of the one file that it refers to; None if it refers to none."""
+"""Per domain: a source, and the content of the file that it refers to; None without such a file."""
 
 TARGET = Target("Plant.Robots.Sample", "Sample")
 
@@ -245,7 +245,7 @@ def test_what_has_to_compile_is_in_the_package() -> None:
 
 def test_a_domain_need_not_answer_more_than_a_build_asks() -> None:
     class Least(Domain):
-        """No more than has no default."""
+        """A domain with nothing but the fields without a default."""
 
     public = {name for name in vars(Domain) if not name.startswith("_")}
     methods = {name for name in public if callable(getattr(Domain, name))} - {"options"}

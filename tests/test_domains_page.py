@@ -1,4 +1,4 @@
-"""The page on domains of one's own: its code is a domain, and everything works for it."""
+"""The page on domains of one's own: its code is a domain that works with all commands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What people do in a month: edits in every model of a package, and then the next export of the robot."""
+"""A month of work: edits in every model of a package, and then the next export of the robot."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ LARGER = (
     turn("shoulder", "base", "upper_arm", dynamics(0.5, 0.1)),
     *(turn("elbow", "upper_arm", "forearm"), turn("wrist", "forearm", "hand")),
 )
-"""What is new in it adds to each model: a visual, friction, a link with its joint, a drive."""
+"""The new export adds elements to each model: a visual, friction, a link with its joint, a drive."""
 
 
 @pytest.fixture
@@ -53,7 +53,7 @@ def arm(folder: Path, execute: Execute) -> Path:
 
 
 def edit_all(edit: Callable[[str, Random], str | None]) -> dict[str, str]:
-    """Edit every model; their texts then."""
+    """Edit every model, and return the edited texts."""
     edited = {name: edit((PACKAGE / name).read_text(), Random(3)) for name in MODELS}
     texts = {name: text for name, text in edited.items() if text is not None}
     for name, text in texts.items():
@@ -62,7 +62,7 @@ def edit_all(edit: Callable[[str, Random], str | None]) -> dict[str, str]:
 
 
 def assert_larger() -> None:
-    """Every model has what the larger arm adds."""
+    """Every model has the elements that the larger arm adds."""
     new = ("visual", "friction", "Joints.Wrist wrist", "wrist_phi", "wrist")
     for name, words in zip(MODELS, new, strict=True):
         assert words in (PACKAGE / name).read_text(), name

@@ -1,4 +1,4 @@
-"""The example robots: other readers take them without a word, and they have the masses that their comments say."""
+"""The example robots: other readers accept them without a warning, and their masses agree with their comments."""
 
 from __future__ import annotations
 

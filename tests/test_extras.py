@@ -1,4 +1,4 @@
-"""Extras: what is to be installed exists."""
+"""Extras: the packages to install exist."""
 
 from __future__ import annotations
 

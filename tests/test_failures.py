@@ -1,4 +1,4 @@
-"""Whatever happens to a command has its exit code, and is told in one line."""
+"""Each failure of a command has its exit code, and is reported in one line."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_a_signal_ends_a_build_with_130(
     environment = os.environ | {"PYTHONPATH": str(REPOSITORY)}
     with Lock(tmp_path / ".urdfsync/lock", 0) as lock:
         lock.acquire()
-        # Python may lose a signal that arrives while it imports, so all that the lock needs is there
+        # Python may lose a signal that arrives during an import, so all modules for the lock are imported
         code = "import sys; from urdfsync import cli; from urdfsync.state.lock import Lock"
         code += "\nacquire = Lock.acquire"
         code += "\ndef tell(*a, **k): print('waits', flush=True); return acquire(*a, **k)"

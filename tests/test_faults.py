@@ -1,4 +1,4 @@
-"""Outputs that are gone, that are something else, or that may not be written: a repair or one clear error, no loss."""
+"""Outputs that are missing, of another kind, or not writable: a repair or one clear error, and no loss."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ CAN_CHANGE_MODES = os.name == "posix"
 
 
 def contents(folder: Path) -> Contents:
-    """Every file below a folder but for the lock; links count with where they lead to."""
+    """Every file below a folder except the lock; a link counts with its target."""
     found = workplace.contents(folder).items()
     return {n: c for n, c in found if c != "folder" and not re.search(r"\.urdfsync/lock$", n)}
 
@@ -44,14 +44,14 @@ def edited(project: Path, execute: Execute) -> Path:
 
 @pytest.fixture
 def stale(edited: Path) -> Path:
-    """The same after a change of its source that concerns the edited model and its record."""
+    """The network after a change of its source that concerns the edited model and its record."""
     edit("ladder.json", '"ohm": 100', '"ohm": 120')
     edit("ladder.json", '"R2"', '"R3"')
     return edited
 
 
 def assert_error(execute: Execute, command: list[str], words: str) -> None:
-    """The command exits with 2 after a line that says what has become of the robot, and one about the error."""
+    """The command exits with 2 after a line with the state of the robot, and a line about the error."""
     lines = execute(*command, code=Exit.ERROR).errors
     assert len([line for line in lines if ": error: " in line]) == 1, lines
     assert words in lines[-1].replace("\\", "/"), lines
@@ -66,7 +66,7 @@ def test_a_package_that_was_removed_is_written_again_and_that_is_said(edited: Pa
     shutil.rmtree(edited / LADDER)
     assert execute("build").out == "ladder: 14 restored because you deleted them\n"
     generated = model.removesuffix(MINE.encode())
-    other = {MANIFEST: b"", ".urdfsync/notes/ladder.json": b""}  # what was written, and that nothing is edited
+    other = {MANIFEST: b"", ".urdfsync/notes/ladder.json": b""}  # written files, and no edits
     assert {**before, **other} == {**contents(edited), MODEL: before[MODEL], **other}
     assert (edited / MODEL).read_bytes() == generated
     assert cli.main(["build", "--check"]) == Exit.IN_STEP
@@ -126,7 +126,7 @@ def test_a_file_or_folder_that_is_something_else(
 
 
 _ABOVE_MODES = 0b110
-"""CAP_DAC_OVERRIDE and CAP_DAC_READ_SEARCH: what lets root pass over the modes of files."""
+"""CAP_DAC_OVERRIDE and CAP_DAC_READ_SEARCH, by which root ignores the modes of files."""
 
 
 @contextlib.contextmanager

@@ -1,4 +1,4 @@
-"""Files: how they are shown and hashed, which are read, and that none is left half written."""
+"""Files: how they are shown and hashed, which ones are read, and that none stays half written."""
 
 from __future__ import annotations
 

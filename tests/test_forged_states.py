@@ -1,7 +1,7 @@
-"""A recorded state may be a stranger's: whatever it says, nothing wrong is in step, and nothing of a person's is lost.
+"""A recorded state may be a stranger's: no state makes a wrong package count as in step, or loses a person's text.
 
-A project with edits, a class of the user's, and an export that was not built is judged with its honest state and with
-forged ones. `URDFSYNC_FORGERIES=1000` makes so many, with fresh seeds.
+The tests judge a project with edits, a user's class and an export that was not built, by its honest and by forged
+states. `URDFSYNC_FORGERIES=1000` makes 1000 forgeries, with fresh seeds.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def source(*, mass: float = 1, tool: bool = True) -> str:
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Edited files with and without news, a class and a line of the user's, and a link less in the last export."""
+    """A project: edited files with and without new texts, a class and a line of the user's, and a removed link."""
     folder = tmp_path_factory.mktemp("honest")
     (folder / "arm.urdf").write_text(source())
     (folder / "leg.urdf").write_text(source(tool=False))
@@ -96,7 +96,7 @@ def take_all_that_is_there(record: Record, _: Random) -> Record:
 
 
 def add_base(path: Path) -> None:
-    """Store a text as one that was generated."""
+    """Store a text as a generated one."""
     content = path.read_bytes().replace(b"\r\n", b"\n")
     file = Path(".urdfsync/bases/arm") / digest(content)[0]
     file.write_bytes(file.read_bytes() + bases.dumps({digest(content): content.decode()}))
@@ -133,7 +133,7 @@ def another_number(record: Record, random: Random) -> Record:
 
 
 def another_element(record: Record, random: Random) -> Record:
-    """An element more, one less, or one of another name."""
+    """Add, remove or rename an element."""
     model = msgspec.json.decode(msgspec.json.encode(record.snapshot))
     kind = random.choice(["links", "joints"])
     name = random.choice(sorted(model[kind]))
@@ -150,7 +150,7 @@ def no_model(record: Record, random: Random) -> Record:
 
 
 def the_model_now(record: Record, _: Random) -> Record:
-    """As if the export had been built."""
+    """Record the export as built."""
     from urdfsync.urdf.domain import DOMAIN
 
     reading = DOMAIN.read(source(mass=1.5, tool=False).encode(), "arm.urdf", DOMAIN.options())
@@ -178,10 +178,10 @@ def invent_an_import(record: Record, _: Random) -> Record:
 
 
 def exchange_robots(record: Record, random: Random) -> Record:
-    """The state of one robot in the place of another's."""
+    """Replace the state of one robot by another's."""
     other, _ = statefile.loads(Path(".urdfsync/robots/leg.state").read_text(), "leg.state")
     assert other is not None
-    if random.random() < 0.5:  # said to be of this package
+    if random.random() < 0.5:  # with the name of this package
         files = {key.replace("Leg", "Arm"): file for key, file in other.files.items()}
         other = msgspec.structs.replace(other, package="Arm", class_="Arm", folder=record.folder, files=files)
     return other
@@ -194,13 +194,13 @@ FORGERIES: tuple[Forgery, ...] = (
 
 
 def forge(random: Random) -> list[str]:
-    """Forge the state in the working folder by one to three means; return what was done."""
+    """Forge the state in the working folder in one to three ways; return their names."""
     record, _ = statefile.loads(STATE.read_text(), "arm.state")
     assert record is not None
-    # what changes a model needs one
+    # some forgeries need a model
     chosen = sorted(random.sample(FORGERIES, random.randint(1, 3)), key=lambda forgery: forgery is no_model)
     for forgery in chosen:
-        record = forgery(record, random) if len(record.files) > 1 else record  # another one has taken the files away
+        record = forgery(record, random) if len(record.files) > 1 else record  # another forgery has removed the files
     text = statefile.dumps(record)
     if random.random() < 0.15:
         text = text[: random.randrange(len(text))]
@@ -255,7 +255,7 @@ def test_nothing_wrong_is_in_step_and_nothing_is_lost(
 
 
 def rebind(folder: Path) -> None:
-    """Let copies of notes be those that were written in their place."""
+    """Make copied notes count as written in their present place."""
     for file in (folder / ".urdfsync/notes").iterdir():
         text, status = msgspec.json.decode(file.read_bytes()), file.stat()
         file.write_bytes(msgspec.json.encode({**text, "inode": status.st_ino, "written_at": status.st_mtime_ns}))

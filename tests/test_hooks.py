@@ -1,6 +1,6 @@
-"""The hook that builds, called by git and by the real pre-commit: real commits, stashes and roll-backs.
+"""The building hook, called by git and by the real pre-commit: real commits, stashes and roll-backs.
 
-What differs in the hook that checks is shown by `commands/test_hook.py` without commits.
+`commands/test_hook.py` tests the differences of the checking hook, without commits.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ pytestmark = [
 
 
 def commit(*arguments: str, code: int = 0) -> str:
-    """Commit what is staged; what the hooks print."""
+    """Commit the staged files; return the output of the hooks."""
     done = subprocess.run(["git", "commit", "-m", "next", *arguments], check=False, capture_output=True, text=True)
     said = done.stdout + done.stderr
     assert done.returncode == code, said
@@ -42,7 +42,7 @@ def git(*arguments: str) -> str:
 
 @pytest.fixture
 def make(project: Path, rc_site: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[], None]:
-    """A function that makes a repository with a network in step, committed, and the hook installed that builds."""
+    """A function that makes a repository with a committed network in step, and installs the building hook."""
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(map(str, (REPOSITORY, rc_site, RC_FOLDER))))
     monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "store"))
     monkeypatch.setenv("PRE_COMMIT_ALLOW_NO_CONFIG", "1")
@@ -82,7 +82,7 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[[], No
 
 
 def test_a_staged_source_with_later_changes(make: Callable[[], None]) -> None:
-    """pre-commit puts the later change aside, so what is staged is built, and brings it back."""
+    """pre-commit stashes the later change, so the hook builds the staged one; then the later one comes back."""
     make()
     resistor(120)
     git("add", ".")
@@ -99,7 +99,7 @@ def test_a_staged_source_with_later_changes(make: Callable[[], None]) -> None:
 
 
 def test_what_pre_commit_takes_back_leaves_nothing_half_done(make: Callable[[], None]) -> None:
-    """It takes back what hooks wrote to tracked files, if they wrote to lines that have changes put aside."""
+    """pre-commit reverts hooks' writes to tracked files, if a stashed change concerns the same lines."""
     make()
     edit("ladder.json", '"ohm": 220.5},', '"ohm": 220.5},\n    {"name": "R3", "between": ["in", "out"], "ohm": 5},')
     git("add", "ladder.json")
@@ -139,7 +139,7 @@ def test_partial_and_implicit_commits_have_an_index_of_their_own(
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a daemon is ended by a signal")
 def test_the_daemon_beside_it(make: Callable[[], None], project: Path, rc_site: Path) -> None:
-    """The daemon builds the later change; commits of what was staged before neither lose it nor mix it in."""
+    """The daemon builds the later change; a commit of earlier staged files neither loses nor contains this change."""
     make()
     store = os.environ["PRE_COMMIT_HOME"]
     quick = ("--settle", "50", "--sample", "20")

@@ -1,8 +1,8 @@
 """A repository of a stranger's: no command runs code of it, writes outside of it, hangs, or ends in a traceback.
 
-Each attack of `support.hostile` meets every command in this process; in CI all meet a build, and one of three the other
-commands. Modules of the working folder meet the programs, as does a clone with all attacks at once. Audit events of
-Python tell what happens, and a comparison of all folders.
+Each attack of `support.hostile` meets every command in this process. In CI, all attacks meet a build, and a third of
+them the other commands. Modules of the working folder meet the programs, as does a clone with all attacks at once.
+Audit events of Python and a comparison of all folders show violations.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from urdfsync.urdf.meshes import process
 BIN = Path(sys.executable).parent
 TESTS = Path(__file__).parent
 ROBOTS = 6
-"""So many stale robots are planned in several processes."""
+"""A number of stale robots that a build plans in several processes."""
 PATIENCE = 120.0
 READING = (
     *(["build", "--check"], ["build", "--dry-run"], ["status", "--verbose"], ["diff"], ["hook", "check"]),
@@ -37,10 +37,10 @@ WRITING = (["build"], ["resolve", "--all", "--take"], ["hook", "build"])
 OF_SOURCES = (["record", "arm.urdf"], ["init", "--config", "new.toml"])
 """Commands that read no configuration and no state."""
 SOURCES = ("source", "chain", "entities", "numbers", "terminal", "meshes")
-"""Words of the attacks that those commands can meet."""
+"""Words of the attacks that concern these commands."""
 LARGE = ("a long chain", "200 MB", "meshes")
 READ = (".urdfsync/stamp", ".urdfsync/notes/", ".urdfsync/lock", ".git/index", "page.html")
-"""What commands that read may change in the project; a link is changed only where it leads, which is outside."""
+"""Files of the project that reading commands may change."""
 WRITTEN = (*READ, "modelica/Arm", ".urdfsync", "new.toml", "modelica/package.order")
 
 pytestmark = [
@@ -65,14 +65,14 @@ def stale(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(autouse=True)
 def _little_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Meshes without end are given up sooner in this process."""
+    """Give up endless meshes sooner in this process."""
     monkeypatch.setattr(process, "CPU_SECONDS", 1.0)
 
 
 def _attack(
     work: Workplace, stale: Path, name: str, commands: Sequence[Sequence[str]], allowed: tuple[str, ...], afresh: bool
 ) -> None:
-    """Run commands in a project under attack; with `afresh` each in one of its own."""
+    """Run commands in a project under attack; with `afresh`, each command gets its own project."""
     for number, command in enumerate(commands):
         if number == 0 or afresh:
             work.fill(stale)
@@ -86,7 +86,7 @@ def _attack(
 
 
 ATTACKS = [name for name in hostile.ATTACKS if name not in ("modules", "a domain of the repository")]
-"""In this process: modules of the working folder can only meet programs."""
+"""Attacks for commands in this process; only programs can import modules of the working folder."""
 BIG = [name for name in ATTACKS if any(word in name for word in LARGE)]
 OTHERS = [name for name in ATTACKS if name not in BIG]
 
@@ -114,7 +114,7 @@ def test_an_attack_meets_every_other_command(tmp_path: Path, stale: Path, name: 
 def _started(
     work: Workplace, command: Sequence[str], program: Sequence[str] = (), **variables: str
 ) -> subprocess.Popen[str]:
-    """A console script in the project as a user starts it, with nothing said to Python; or another program."""
+    """Run a console script in the project as a user does, without options for Python; or another program."""
     own = {key: value for key, value in os.environ.items() if not key.startswith(("XDG_", "PYTHON"))}
     return subprocess.Popen(
         [*(program or [str(BIN / "urdfsync")]), *command],
@@ -167,7 +167,7 @@ def test_no_module_of_the_working_folder_runs(
 
 
 class Clone(Workplace):
-    """A clone of a repository that has all attacks at once; its programs write their events to a log."""
+    """A clone of a repository with all attacks at once; programs in the clone log their events."""
 
     def __init__(self, folder: Path, stale: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         super().__init__(folder)
@@ -183,7 +183,7 @@ class Clone(Workplace):
         (folder / "site/sitecustomize.py").write_text(f"{text}audit.log_to({str(folder / 'events')!r})\n")
 
     def start(self, command: Sequence[str], program: Sequence[str] = ()) -> tuple[int, str]:
-        """Run a program; its exit code and output."""
+        """Run a program; return exit code and output."""
         (self.folder / "events").unlink(missing_ok=True)
         variables = {"PYTHONPATH": str(self.folder / "site"), "PYTHONDONTWRITEBYTECODE": "1"}
         with _started(self, command, program, **variables) as process:
@@ -191,7 +191,7 @@ class Clone(Workplace):
         return process.returncode, said
 
     def faults(self) -> list[tuple[str, str]]:
-        """The events that must not be."""
+        """The forbidden events."""
         events = dict.fromkeys((self.folder / "events").read_text().splitlines())
         found = [json.loads(event) for event in events]
         return [(kind, what) for kind, what in found if not self.is_allowed(kind, what)]
@@ -222,7 +222,7 @@ def test_a_program_that_reads_is_safe_in_a_clone_with_all_attacks(clone: Clone, 
 
 @pytest.mark.slow
 def test_the_audit_sees_what_must_not_be(clone: Clone) -> None:
-    """So that the tests above can fail."""
+    """The tests above can fail."""
     code = "import os, socket; open('../x', 'w').close(); os.system('true'); exec(compile('1', 'evil.py', 'exec'))"
     code += "; os.remove('../x'); socket.socket().connect_ex(('127.0.0.1', 9))"
     assert clone.start(["-P", "-c", code], [sys.executable]) == (0, "")

@@ -1,7 +1,7 @@
-"""Random hostile configurations and states, then a random command: it is refused with a line, or does what it may.
+"""Random hostile configurations and states, then a random command, which ends with one line, or does its allowed work.
 
 There is no traceback, no odd exit code and no hang, nothing outside of the project changes, and no edit is lost.
-`URDFSYNC_CASES=2000` runs so many fresh cases of each.
+`URDFSYNC_CASES=2000` runs 2000 fresh cases of each.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ COMMANDS = st.sampled_from(
     ]
 )
 OUTSIDE = "{outside}"
-"""Stands for the folder beside the project, as an absolute path: no other absolute folder, or a fault would harm it."""
+"""Stands for the folder beside the project. Cases use no other absolute path, since a fault would harm it."""
 PATHS = (
     *("bot.urdf", "bot.urdf", "modelica", "modelica", "templates", "templates", ".", "..", "", "../outside", "~"),
     *("../outside/victim.mo", OUTSIDE, f"{OUTSIDE}/folder", "/dev/zero", "/dev/tty", "fifo", "modelica/Bot", ".git"),
@@ -82,7 +82,7 @@ def urdf(mass: float) -> str:
 
 
 def built(work: Workplace, source: str) -> None:
-    """Make the project one that is built, edited, built again and committed."""
+    """Make a project that is built, edited, built again and committed."""
     new = work.folder / "new"
     (new / "templates/joint").mkdir(parents=True)
     (new / "templates/joint/fixed.mo.jinja").write_text("<< cycler.__init__.__globals__.os.popen('touch x') >>")
@@ -102,9 +102,9 @@ def built(work: Workplace, source: str) -> None:
 
 
 def run_one(work: Workplace, command: Sequence[str]) -> None:
-    """Run a command: every edit stays where it was, and all that is no output is as it was.
+    """Run a command: every edit stays in its place, and all files but outputs stay unchanged.
 
-    `Workplace.run` says what else must not happen.
+    `Workplace.run` forbids more.
     """
     before = contents(work.project)
     work.run(command)
@@ -142,7 +142,7 @@ FITTING: Mapping[str, Sequence[Any]] = {
     "driven": ([], ["arm"]),
     "inputs": ("names", "vector"),
 }
-"""Values of keys that are right, or nearly."""
+"""Values of keys, valid or nearly valid."""
 KEYS = (*FITTING, "on_build", "command", "library", "sources", "name", "", "x.y", "é")
 OF_PATHS = ("source", "output", "templates", "package_paths", "users", "library", "command")
 NAMES = (
@@ -178,7 +178,7 @@ def tables(most: int) -> st.SearchStrategy[dict[str, Any]]:
 
 @st.composite
 def configurations(draw: st.DrawFn) -> bytes:
-    """The right tables and keys, with values that fit, that do not or that mean harm; then some damage to the text."""
+    """Valid tables and keys, with valid, wrong or hostile values, and then some damage to the text."""
     document: dict[str, Any] = {"defaults": draw(tables(3))}
     if seldom(draw):
         document["check"] = draw(tables(1)) | {"library": draw(st.sampled_from(PATHS))}
@@ -254,13 +254,13 @@ PLANNED = '{"robot":"bot","token":"12","files":[{"path":"x"}],"emptied":[],"inod
 
 
 def damage_one(draw: st.DrawFn, work: Workplace) -> None:
-    """Damage one file or folder of the state, or put one there."""
+    """Damage, or add, one file or folder of the state."""
     state = work.project / ".urdfsync"
     if not state.is_dir() or state.is_symlink():
         return
     there = sorted(path.relative_to(state).as_posix() for path in state.rglob("*"))
     path = state / draw(st.sampled_from([".", *there, *there, *STATE_NAMES]))
-    with contextlib.suppress(OSError, ValueError, RecursionError):  # the damage before has left something else
+    with contextlib.suppress(OSError, ValueError, RecursionError):  # earlier damage has left another kind of file
         path.parent.mkdir(parents=True, exist_ok=True)
         damage_place(draw, path, work)
         if path.name == "planned.json" and path.is_file() and not path.is_symlink() and draw(st.booleans()):
@@ -270,7 +270,7 @@ def damage_one(draw: st.DrawFn, work: Workplace) -> None:
 def damage_place(draw: st.DrawFn, path: Path, work: Workplace) -> None:
     damage = draw(st.sampled_from(DAMAGES))
     content = path.read_bytes() if path.is_file() and not path.is_symlink() else b""
-    if damage == "copy":  # the same file again: with another inode
+    if damage == "copy":  # the unchanged file with another inode
         shutil.copy2(path, path.with_name("copied"))
         path.with_name("copied").replace(path)
         return
@@ -310,7 +310,7 @@ def damage_place(draw: st.DrawFn, path: Path, work: Workplace) -> None:
 
 @st.composite
 def with_other_facts(draw: st.DrawFn, text: str) -> str:
-    """A state in which some lines say something else, are gone or stand twice; mostly their sum fits again."""
+    """A state in which some lines are changed, removed or repeated, mostly with a corrected checksum."""
     lines = [line for line in text.splitlines() if line and not line.startswith(("#", "sum "))]
     for _ in range(draw(st.sampled_from((1, 1, 3)))):
         at = draw(st.integers(0, len(lines) - 1))

@@ -1,4 +1,4 @@
-"""Templates of a stranger's: the sandbox holds in all their parts, and time, memory and size have limits."""
+"""A stranger's templates: the sandbox holds for all parts of a template, and time, memory and size have limits."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SHELL = "cycler.__init__.__globals__.os.popen({command!r}).read()"
 
 @pytest.fixture
 def marker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A project, which is the working folder, with templates of its own; the file that a command in one would make."""
+    """Make a project with its own templates; return the file that a command in a template would make."""
     hostile.write_project(tmp_path / "project")
     monkeypatch.chdir(tmp_path / "project")
     configure('templates = "templates"\n')
@@ -36,7 +36,7 @@ def _template(text: str, name: str = TEMPLATE) -> None:
 
 
 def _status(capsys: Capture) -> str:
-    """The error of `urdfsync status`, which is the only one, and is no traceback."""
+    """The only error of `urdfsync status`, which is no traceback."""
     assert cli.main(["status"]) == 2
     said = "".join(capsys.readouterr())
     assert "Traceback" not in said

@@ -1,4 +1,4 @@
-"""What a configuration ignores, no command says; and all that can be ignored is known and documented."""
+"""No command shows findings that a configuration ignores; all codes that can be ignored are known and documented."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ UNRELATED = {
     "no-conflict",
     "not-watched",
 }
-"""Warnings of commands, not of what a configuration is about."""
+"""Codes of warnings about commands, not about a configuration."""
 WORDS = "no node is called `ground`"
 
 
 @pytest.fixture
 def noted(project: Path) -> Path:
-    """A network with a note, and a pattern of a search path that is not there."""
+    """A network with a note, and a search path that does not exist."""
     edit("ladder.json", '"ground"', '"earth"')
     configure('package_paths = ["nowhere"]\n')
     return project
@@ -52,7 +52,7 @@ def test_check_does_not_either(project: Path, execute: Execute, monkeypatch: pyt
     monkeypatch.setattr("urdfsync.checks.run.workers", checks.thread_workers)
     execute("build", "-q")
     edit("modelica/Ladder/package.order", "Ladder\n", "")
-    edit("modelica/Ladder/Elements/R1.mo", "end R1;", "")  # an error, so that nothing is compiled
+    edit("modelica/Ladder/Elements/R1.mo", "end R1;", "")  # an error keeps the check from compiling
     assert "[order-lacks]" in execute("check", code=None).err
     configure('ignore = ["order-lacks"]\n')
     assert "[order-lacks]" not in execute("check", code=None).words

@@ -1,4 +1,4 @@
-"""`docs/json.md` is true: its examples are what the commands print, and its tables name every key."""
+"""`docs/json.md` is true: its examples equal the output of commands, and its tables name every key."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def folder(folder: Path) -> Path:
 
 
 def printed(execute: Execute, folder: Path, *arguments: str) -> Any:
-    """What a command prints, as if the folder was that of the examples."""
+    """The output of a command, with the folder of the examples."""
     streams = execute(*arguments, "--format=json", code=None)
     assert streams.err == ""
     assert streams.out.isascii()
@@ -72,7 +72,7 @@ def printed(execute: Execute, folder: Path, *arguments: str) -> Any:
 
 
 def matches(example: Any, real: Any) -> bool:
-    """Whether two documents are equal, but for items of lists that an example leaves out."""
+    """Whether two documents are equal, except items of lists that an example leaves out."""
     if isinstance(example, dict):
         return example.keys() == real.keys() and all(matches(example[key], real[key]) for key in example)
     if isinstance(example, list):
@@ -81,7 +81,7 @@ def matches(example: Any, real: Any) -> bool:
 
 
 def keys(document: Any) -> set[str]:
-    """All keys in a document, but those of values of the model."""
+    """All keys in a document, except keys of the model's values."""
     if isinstance(document, dict):
         of_model = ("old", "new", "worst")
         return set(document).union(*(keys(value) for key, value in document.items() if key not in of_model))
@@ -164,7 +164,7 @@ def test_saved_texts_are_where_a_conflict_says(folder: Path, execute: Execute) -
 
 
 def watched(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
-    """What `watch` prints while a source is saved without a link, then whole and with the joint moved."""
+    """The output of `watch` while a source is saved without a link, then complete with the joint moved."""
     moved = '<child link="tip"/><origin xyz="0 0 0.1"/>'
     part = URDF.replace('"tip">', '"top">')
     saves = {"Built": part, "Waiting": URDF.replace('<child link="tip"/>', moved)}
@@ -224,7 +224,7 @@ def test_the_other_events_look_as_shown() -> None:
         Severity.WARNING,
         "exec",
         "robot `arm`: the command of --exec ended with exit code 2",
-        hint="correct it: it runs again after the next build that changes something",
+        hint="correct the command: it runs again after the next build that changes a file",
     )
     failure = Diagnostic(Severity.ERROR, "system", "Permission denied", "arm.urdf")
     place, words = ("modelica/Arm/Arm.mo", 12, 3), "there is no class `Sensor`"
@@ -251,7 +251,7 @@ def test_the_other_events_look_as_shown() -> None:
 
 
 def checked() -> CheckResult:
-    """An arm of which somebody edited the joint, and a link of which the simulation tells nothing."""
+    """An arm with an edited joint; the simulation has no series for one link."""
     hand = Deviation(Quantity.POSITION, "link tip", math.inf, 0.5, 0.5, "m")
     swing = Deviation(Quantity.EFFORT, "joint hold", 0.025, 1.25, 1.25, "N·m")
     exact = msgspec.structs.replace(swing, difference=2.5e-16)

@@ -1,7 +1,7 @@
-"""Builds that are killed at random times, with random edits in place: the next one finishes them.
+"""Builds that are killed at random times, with random edits in place: the next build finishes them.
 
-The result equals that of a twin that nobody disturbed. `URDFSYNC_KILLS=300` sets the number of kills, with a new seed.
-The counts are printed. `state/test_crash` has each operation, full disks and saves.
+The result equals that of an undisturbed twin. `URDFSYNC_KILLS=300` sets the number of kills, with a new seed.
+The test prints its counts. `state/test_crash` has each operation, full disks and saves.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from urdfsync.state.transaction import is_interrupted
 KILLS = int(os.environ.get("URDFSYNC_KILLS", "20"))
 SEED = secrets.randbelow(10**9) if "URDFSYNC_KILLS" in os.environ else 20
 SAME = 10
-"""So many kills of one project and one change."""
+"""The number of kills of one project with one change."""
 
 pytestmark = [
     pytest.mark.slow,
@@ -35,7 +35,7 @@ pytestmark = [
 
 
 def build_in_child(project: Path) -> tuple[int, int]:
-    """Build in another process; returns its number, and a pipe that has a byte from the first file operation on."""
+    """Build in another process; return the process id, and a pipe that gets a byte at the first file operation."""
     reader, writer = os.pipe()
 
     def tell(operation: Operation) -> None:
@@ -59,7 +59,7 @@ def duration(project: Path) -> tuple[float, float]:
 
 
 def kill(project: Path, seconds: tuple[float, float], random: Random) -> None:
-    """Build, and kill that at a random time: half of the times since its start, half since it has begun to write."""
+    """Build, and kill the build at a random time: half of the times count from its start, half from its first write."""
     whole, writing = seconds
     child, pipe = build_in_child(project)
     if random.random() < 0.5:
@@ -87,7 +87,7 @@ def test_a_build_that_is_killed_at_any_time_is_finished(tmp_path: Path, capsys: 
             wanted = conflicts(run(twin)), contents(twin)
             seconds = duration(crashes.copy(tmp_path / "original", tmp_path / "work"))
         project = crashes.copy(tmp_path / "original", tmp_path / "work")
-        for _ in range(random.choice((1, 1, 1, 2))):  # what finishes a build may be killed, too
+        for _ in range(random.choice((1, 1, 1, 2))):  # a build that finishes another one may be killed, too
             kill(project, seconds, random)
             tally["kills"] += 1
             tally["halfway"] += is_interrupted(project / ".urdfsync")

@@ -49,7 +49,7 @@ RECORD_NOTE = "The numbers are those of the record <code>parameters</code>, whic
 
 
 def library_artifacts() -> Iterator[Artifact | Order]:
-    """All files of `UrdfSync.Links` and `UrdfSync.Joints` but their `package.mo`."""
+    """All files of `UrdfSync.Links` and `UrdfSync.Joints` except their `package.mo`."""
     names = [f"{type(shape).__name__}Link" for shape in SHAPES]
     yield Order("Links/package.order", ("Link", *(n for name in names for n in (name, f"{name}Parameters"))))
     yield from link_files("Link", "UrdfSync.Records.Link", Link(""), "Rigid body without a shape.")
@@ -104,9 +104,7 @@ def text_of(artifact: Artifact | Order) -> str:
     if isinstance(artifact, Order):
         return "".join(f"{name}\n" for name in artifact.names)
     text = RENDERER.render(artifact.template, artifact.data)
-    return text.replace(
-        "    redeclare ", "    redeclare replaceable ", 1
-    )  # a generated model has the one record of its own
+    return text.replace("    redeclare ", "    redeclare replaceable ", 1)  # a generated model has only its own record
 
 
 @pytest.mark.parametrize("artifact", list(library_artifacts()), ids=lambda artifact: artifact.path)

@@ -1,4 +1,4 @@
-"""A robot with a loop in step: stated in the configuration or beside the URDF, renamed, moved, removed, and edited."""
+"""A loop from the configuration or a file beside the URDF, which is renamed, moved, removed, and edited."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which element is which: contents, places and names, in tables of plain elements."""
+"""The matching of elements by contents, places and names, in tables of plain elements."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def rows(table: str) -> Elements:
 
 
 def other_order(elements: Elements) -> Elements:
-    """The same elements; a record may have another order of columns than its source."""
+    """The elements are the same; a record may have another order of columns than its source."""
     return {
         key: Features(dict(reversed([*features.contents.items()])), features.neighbours)
         for key, features in elements.items()
@@ -126,7 +126,7 @@ def test_a_row_that_was_switched_or_renamed_is_a_doubt(old: str, new: str, doubt
 
 @given(st.randoms(use_true_random=False))
 def test_no_row_has_the_name_of_another_one_without_a_doubt(random: Random) -> None:
-    """Whatever the cells are, if rows keep them under other names, and one row is removed or added."""
+    """Rows keep their cells, with any contents, under other names, and one row is removed or added."""
     cells = [f"{number} {text}" for number in (0, 1, 5) for text in ("", "foo", "bar")]
     contents = dict(zip("ABCDE", random.choices(cells, k=5), strict=True))
     names = dict(zip("ABCDE", random.choice(["ABCDE", "BCDEF", "ACDEF", random.sample("ABCDE", 5)]), strict=True))
@@ -146,7 +146,7 @@ def test_no_row_has_the_name_of_another_one_without_a_doubt(random: Random) -> N
 
 
 def test_what_cannot_be_known_is_a_doubt() -> None:
-    """The mass of `b` is at `c`, and its shape at `d`."""
+    """`c` has the mass of `b`, and `d` has its shape."""
 
     def arm(*shapes: float) -> Elements:
         parts = zip("bcd", [2, 3, 4] if shapes[0] == 5 else [7, 2, 8], shapes, strict=True)
@@ -161,7 +161,7 @@ def test_what_cannot_be_known_is_a_doubt() -> None:
 
 
 def test_an_element_whose_name_another_one_has_is_told() -> None:
-    """`b` is called `c`; what was `c` is gone."""
+    """`b` is renamed to `c`; the old `c` is removed."""
     found = match(chain("abc", [9, 2, 3]), chain("ac", [9, 2]))
     assert links(found) == {"b": "c"}
     doubt = found.doubts["link", "c"]
@@ -170,7 +170,7 @@ def test_an_element_whose_name_another_one_has_is_told() -> None:
 
 @pytest.mark.parametrize("mass", [3.5, 3])
 def test_a_neighbour_that_is_another_one_now_is_a_doubt(mass: float) -> None:
-    """What was `b` is gone; `c` has its name, and another mass, or another place."""
+    """The old `b` is removed; `c` takes its name, and has another mass, or another place."""
     old = chain("abcd", [9, 2, 3, 4], [0.2, 0.3, 0.4])
     found = match(old, chain("abc", [9, mass, 4], [0.3 if mass == 3.5 else 0.5, 0.4]))
     assert (("link", "b") if mass == 3.5 else ("joint", "to_b")) in found.doubts
@@ -178,7 +178,7 @@ def test_a_neighbour_that_is_another_one_now_is_a_doubt(mass: float) -> None:
 
 @pytest.mark.parametrize("names", ["abcd", "abc"])
 def test_other_numbers_in_the_same_place_are_no_doubt(names: str) -> None:
-    """Whether the last part is gone or not."""
+    """The result is the same with and without the last part."""
     old = chain("abcd", [9, 2, 3, 4], [0.2, 0.3, 0.4])
     found = match(old, chain(names, [9.5, 2.5, 3.5, 4.5][: len(names)], [0.25, 0.35, 0.45]))
     assert found == Matching()
@@ -203,7 +203,7 @@ def test_any_permutation_of_parts_that_differ_is_followed(random: Random, count:
 
 @given(st.randoms(use_true_random=False))
 def test_a_match_is_of_one_to_one_and_of_one_kind(random: Random) -> None:
-    """Whatever both versions are, and the doubts are about names that both have."""
+    """This holds for all versions, and the doubts concern names in both versions."""
 
     def version() -> Elements:
         names = "".join(random.sample("abcdef", random.randint(1, 6)))

@@ -28,7 +28,7 @@ URDFSYNC = str(Path(sys.executable).with_name("urdfsync"))
 
 
 def load(text: str) -> Any:
-    return yaml.load(text, yaml.BaseLoader)  # which takes `on` for a word
+    return yaml.load(text, yaml.BaseLoader)  # which reads `on` as a word
 
 
 ACTION = load((REPOSITORY / "action.yml").read_text(encoding="utf-8"))
@@ -57,7 +57,7 @@ def test_the_workflow_uses_inputs_and_outputs_of_the_action() -> None:
 
 @pytest.fixture
 def arm(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> Repository:
-    """A repository with a built arm, of which the last commit changes a mass in the source alone."""
+    """A repository with a built arm; the last commit changes a mass only in the source."""
     repository = Repository(folder, monkeypatch)
     Path("arm.urdf").write_text(ARM)
     execute("init", "arm.urdf", "-q")
@@ -74,7 +74,7 @@ def run(script: str, **variables: str) -> int:
 
 
 def report(**inputs: str) -> tuple[int, dict[str, str]]:
-    """Run the action's step that reports; its exit code and its outputs."""
+    """Run the reporting step of the action; return exit code and outputs."""
     place = Path("runner")
     place.mkdir(exist_ok=True)
     files = {"GITHUB_STEP_SUMMARY": str(place / "summary"), "GITHUB_OUTPUT": str(place / "output")}
@@ -146,7 +146,7 @@ ARMS = f"""<robot name="arm">
 
 @pytest.fixture
 def pull_request(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> Repository:
-    """A repository with two branches, each with a mass and its package, and their merge as a host makes it."""
+    """A repository with two branches, each with a changed mass and its package, and the host's merge of both."""
     origin = Repository(folder / "origin", monkeypatch)
     monkeypatch.chdir(origin.folder)
     Path("arm.urdf").write_text(ARMS)
@@ -166,7 +166,7 @@ def pull_request(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 
 
 def check_out(origin: Repository, monkeypatch: pytest.MonkeyPatch, depth: int = 0) -> None:
-    """Check the merge out as actions/checkout does, with this `fetch-depth`, and work there."""
+    """Check the merge out as actions/checkout does, with this `fetch-depth`, and change to that folder."""
     clone = Repository(origin.folder.parent / "checkout", monkeypatch)
     merge = "+refs/pull/7/merge:refs/remotes/pull/7/merge"
     wanted = [f"--depth={depth}", merge] if depth else ["+refs/heads/*:refs/remotes/origin/*", merge]
@@ -226,11 +226,11 @@ def build_wheel(folder, config_settings=None, metadata_directory=None):
         wheel.writestr(f"{info}/RECORD", "")
     return name
 """
-"""Builds a package that pip installs without an index."""
+"""Build a package that pip installs without an index."""
 
 
 def install(action: Path, place: Path, **variables: str) -> Path:
-    """Run the action's step that installs what is in a folder, with a folder of the runner's; the program it names."""
+    """Run the installing step of the action, with a folder of the runner; return the program that the step names."""
     variables |= {"RUNNER_TEMP": str(place), "RUNNER_OS": "Linux", "GITHUB_ACTION_PATH": str(action)}
     variables |= {"GITHUB_ENV": str(place / "environment"), "EXTRAS": ""}
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
@@ -244,7 +244,7 @@ def install(action: Path, place: Path, **variables: str) -> Path:
 @NEEDS_GIT
 @pytest.mark.slow
 def test_the_action_runs_nothing_of_the_checkout(arm: Repository, tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Nor where variables name it; xacro comes along, in an environment apart from the job's Python."""
+    """Variables have no effect, either; the step also installs xacro, in an environment of its own."""
     outside, action, runner = map(tmp_path_factory.mktemp, ("outside", "action", "runner"))
     (action / "backend.py").write_text(BACKEND)
     (action / "pyproject.toml").write_text(

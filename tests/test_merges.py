@@ -1,8 +1,8 @@
-"""Git stops at what two branches did, and one build makes of it a fresh package with the edits of both.
+"""Git stops at the changes of two branches, and one build makes a fresh package with the edits of both.
 
-A case is a folder below `merges/`. `ours.txt` and `theirs.txt` have what a branch does, `source.txt` how the merged
-source differs from the first one, and `expected.txt` the edits that a fresh package has then, a file that conflicts, or
-a text that stays in a file. `pytest -k NAME` runs one.
+A case is a folder below `merges/`. `ours.txt` and `theirs.txt` have the steps of a branch, `source.txt` the changes in
+the merged source. `expected.txt` has the edits in the fresh package, a file that conflicts, or a text that stays in a
+file. `pytest -k NAME` runs one.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ Stop = Callable[..., None]
 
 @pytest.fixture
 def stop(project: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Stop:
-    """A function that brings two branches together, and settles the source alone."""
+    """A function that merges two branches, and settles only the source."""
 
     def bring(case: str, way: str = "merge", style: str = "merge") -> None:
         steps = {name: (CASES / case / f"{name}.txt").read_text() for name in ("ours", "theirs", "source")}
@@ -71,7 +71,7 @@ def stop(project: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> St
 
 
 NAMES = sorted(folder.name for folder in CASES.iterdir())
-# where git keeps what it is at work on does not depend on how it marks, and what a build makes of texts on neither
+# the place of git's files does not depend on the style of markers, and a build's merge on neither
 ALL: list[Any] = [
     *((MERGE, STYLES[number % 3], name) for number, name in enumerate(NAMES)),
     *(
@@ -125,7 +125,7 @@ def first_conflict(text: str) -> str:
 def test_markers_that_somebody_has_half_settled_stay(
     stop: Stop, project: Path, case: str, path: str, side: str
 ) -> None:
-    """One conflict is settled, or a line is added in it; markers of another one are left."""
+    """The user settles one conflict, or adds a line inside; markers of another conflict remain."""
     stop(case)
     conflict = first_conflict(text := Path(path).read_text())
     ours, theirs = read_sides(conflict)

@@ -1,6 +1,6 @@
-"""What users install: a wheel with everything in it, from which a robot is built.
+"""The users' installation: a complete wheel, which builds a robot.
 
-`tools/try_installation.py` installs it with all that it needs, and `.ci/run` the project itself.
+`tools/try_installation.py` installs the wheel with its requirements, and `.ci/run` the project itself.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def assert_sdist_carries_all_that_the_tests_need(sdist: Path) -> None:
 
 
 def assert_a_robot_is_built_from_what_the_wheel_has(wheel: Path, site: Path) -> None:
-    """Unpacked, which is what an installer does; what it needs is that of the tests."""
+    """The wheel is unpacked, as by an installer; it uses the packages of the tests."""
     zipfile.ZipFile(wheel).extractall(site)
     program = [sys.executable, "-P", "-c", "import sys; from urdfsync.__main__ import main; sys.exit(main())"]
 

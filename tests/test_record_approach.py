@@ -1,4 +1,4 @@
-"""Builds with the record approach: what is written, what numbers change, and how one approach becomes another."""
+"""Builds with the record approach: written files, changed numbers, and a change of the approach."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Project:
         return {path.relative_to(self.package).as_posix() for path in self.package.rglob("*") if path.is_file()}
 
     def models(self) -> tuple[str, ...]:
-        """What a check would compile."""
+        """The models that a check would compile."""
         config = load(self.file)
         return tuple(read_package(config, config.robots[0], BuildOptions(dry=True)).models)
 
@@ -63,7 +63,7 @@ def project(tmp_path: Path) -> Project:
 
 @pytest.fixture
 def zoo(tmp_path: Path) -> Project:
-    """One with planar and floating joints, and with meshes."""
+    """A robot with planar and floating joints, and with meshes."""
     return Project(tmp_path, "menagerie.urdf")
 
 
@@ -113,7 +113,7 @@ def test_no_edit_is_lost_on_the_way_to_the_other_approach_and_to_both(project: P
     ],
 )
 def test_changes_rewrite_the_record_and_nothing_else(tmp_path: Path, source: str, old: str, new: str) -> None:
-    """One shape less is structural, but only the record says it."""
+    """A removed shape is a structural change, but concerns only the record."""
     project = Project(tmp_path, f"{source}.urdf")
     project.build('["record"]')
     project.change(old, new)
@@ -132,7 +132,7 @@ def test_where_the_generic_robot_can_not_read_the_record_there_is_no_bench(zoo: 
 
 
 def meshes(package: Project) -> list[str]:
-    """The imported files, without what makes their names unique."""
+    """The imported files, without the unique part of their names."""
     return sorted(Path(name).stem.partition("_")[0] for name in package.files() if "Resources/" in name)
 
 

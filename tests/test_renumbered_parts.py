@@ -1,4 +1,4 @@
-"""CAD renumbers: an edit goes with the part that it was made on, or the file is a conflict that asks."""
+"""CAD renumbers: an edit follows its part, or the file becomes a conflict that asks the user."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ MINE = "\n  Real mine = 1;\n\nequation"
 
 
 def arm(*masses: float, first: int = 1, order: str = "") -> str:
-    """An arm of numbered parts; `order` has other numbers for them."""
+    """An arm of numbered parts; `order` has other numbers for the parts."""
     numbers = list(order) or [str(number) for number in range(first, first + len(masses))]
     elements, parent = [link("base", 9.0)], "base"
     for number, mass in zip(numbers, masses, strict=True):
@@ -47,7 +47,7 @@ def arm(*masses: float, first: int = 1, order: str = "") -> str:
 
 @pytest.fixture
 def edited(folder: Path, execute: Execute) -> Path:
-    """A folder with a built arm, the second link of which has a component more, and its joint another number."""
+    """A folder with a built arm; the user adds a component to the second link, and changes a number of its joint."""
     Path("urdfsync.toml").write_text(CONFIGURATION)
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
     execute("build")
@@ -119,7 +119,7 @@ def test_names_in_the_files_of_the_whole_robot_follow(edited: Path, execute: Exe
 def test_an_edit_in_a_text_that_the_exchange_leaves_as_it_was_is_settled_once(
     folder: Path, execute: Execute, answer: str, name: str, is_open: bool
 ) -> None:
-    """Of two legs that differ: their names can be exchanged in the robot's model without a trace."""
+    """Two different legs: the robot's model does not show an exchange of their names."""
 
     def export(*names: str, mass: float = 9.0) -> None:
         parts = zip(names, (1.1, 2.2), strict=True)
@@ -159,7 +159,7 @@ def test_models_and_configuration_that_use_another_part_are_told_until_they_are_
     execute("build")
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
     told = (
-        "Mine.mo:3: warning: `link_2` names another part now; the former one is called `link_3`",
+        "Mine.mo:3: warning: `link_2` names another part now; the former part is called `link_3`",
         "urdfsync.toml:5: warning: `joint_2` names another part now",
     )
     for command in ("build", "build", "status"):
@@ -173,7 +173,7 @@ def test_models_and_configuration_that_use_another_part_are_told_until_they_are_
 
 
 def unclear(execute: Execute) -> None:
-    """An export after which `link_1` may be another part: its mass is at `link_2`, its shape at `link_3`."""
+    """An export after which `link_1` may be another part: `link_2` has its mass, `link_3` has its shape."""
 
     def solid(name: str, mass: float, size: float) -> str:
         box = f'<visual><geometry><box size="{size} {size} {size}"/></geometry></visual>'
@@ -218,7 +218,7 @@ def test_what_cannot_be_known_is_asked(folder: Path, execute: Execute, answer: l
 
 
 def test_nothing_is_asked_if_nobody_edited(folder: Path, execute: Execute) -> None:
-    """But a model of the user's that names the part is told."""
+    """But a finding names a model of the user's that uses the part."""
     Path("urdfsync.toml").write_text(CONFIGURATION)
     unclear(execute)
     Path("Mine.mo").write_text("model Mine\n  Arm.Arm robot;\n  Real x = robot.link_1.body.m;\nend Mine;\n")
@@ -238,14 +238,14 @@ def test_an_edit_of_a_common_file_that_names_what_may_be_another_part_is_asked_a
     edit("modelica/Arm/Arm.mo", "\nequation", "\n  Real mine = link_1.m;\n\nequation")
     assert "It uses `link_1`, which may be another part now" in execute("build", code=Exit.CONFLICT).words
     words = execute("resolve", "modelica/Arm/Arm.mo", "--moved", "link_2", code=Exit.ERROR).words
-    assert "it belongs to no single part" in words
+    assert "this file belongs to no single part" in words
     execute("resolve", "modelica/Arm/Arm.mo", "--keep")
     execute("build", "--check")
 
 
 @NEEDS_GIT
 def test_a_clone_asks_nothing_about_words_in_a_remark(repository: Repository, execute: Execute) -> None:
-    """The edit was made before the export; this machine knows that, and a clone looks for it in the commits."""
+    """The user made the edit before the export; this machine knows that, and a clone finds out from the commits."""
     edit("modelica/Arm/Links/package.mo", "\n  annotation", '\n  constant Real mine = 1 "Of link_2";\n\n  annotation')
     repository.commit()
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="213"))
@@ -287,7 +287,7 @@ def test_an_answer_names_a_part_that_exists(folder: Path, execute: Execute) -> N
 
 
 def test_an_edit_of_a_part_that_is_gone_is_asked_about(edited: Path, execute: Execute) -> None:
-    """The second part is gone, and the third one has its name."""
+    """The second part is removed, and the third one takes its name."""
     Path("arm.urdf").write_text(arm(1.1, 3.3))
     words = execute("build", code=Exit.CONFLICT).words
     assert "`link_2` is another part now, the former `link_3`" in words
@@ -296,7 +296,7 @@ def test_an_edit_of_a_part_that_is_gone_is_asked_about(edited: Path, execute: Ex
 
 
 def test_edits_change_places_once_while_a_number_conflicts(edited: Path, execute: Execute) -> None:
-    """Conflicts about numbers put off nothing else, but names that are exchanged."""
+    """Conflicts about numbers delay only exchanged names."""
     record = LINK.format(1).replace(".mo", "Parameters.mo")
     edit(record, "1.1", "1.5")
     Path("arm.urdf").write_text(arm(1.2, 2.2, 3.3, order="132"))
@@ -322,7 +322,7 @@ def test_a_new_part_does_not_inherit_the_edit_of_one_that_is_gone(folder: Path, 
 
 
 def test_an_edit_that_cannot_move_is_asked_about(folder: Path, execute: Execute) -> None:
-    """The edit of a part that is gone is in its way."""
+    """The edit of a removed part blocks the rename."""
     Path("urdfsync.toml").write_text(CONFIGURATION)
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
     execute("build")
@@ -370,7 +370,7 @@ def test_edits_that_git_left_with_exchanged_names_change_places_together(
     repository.merge("export")
     execute("build", code=Exit.CONFLICT)
     words = execute("resolve", LINK.format(2), "--moved", "link_3", code=Exit.ERROR).words
-    assert "its edit may belong to another part, too" in words
+    assert "your edit in this file may belong to another part, too" in words
     execute("resolve", LINK.format(2), LINK.format(3), "--moved")
     for number, other in ((2, 3), (3, 2)):
         assert f"Real mine = {other};" in Path(LINK.format(number)).read_text()
@@ -385,7 +385,7 @@ def test_edits_that_git_left_with_exchanged_names_change_places_together(
 
 @NEEDS_GIT
 def test_ordinary_edits_after_an_exchange_are_not_asked_about(repository: Repository, execute: Execute) -> None:
-    """An earlier commit has another edit in the same place, which was another part's."""
+    """An earlier commit has another edit in this place, which belonged to another part."""
     for effort, order in (("12", ""), ("", "132"), ("15", "132")):
         if effort:
             edit(JOINT.format(2), "effort = 10", f"effort = {effort}")
@@ -397,7 +397,7 @@ def test_ordinary_edits_after_an_exchange_are_not_asked_about(repository: Reposi
 
 
 def test_exchanges_can_be_declared_and_count_once(folder: Path, execute: Execute) -> None:
-    """Of two wheels that look alike; both have other masses after the export."""
+    """Two equal wheels; both have other masses after the export."""
 
     def export(*masses: float) -> None:
         wheels = [link(f"link_{number}", mass) for number, mass in enumerate(masses, 1)]
@@ -425,7 +425,7 @@ def test_exchanges_can_be_declared_and_count_once(folder: Path, execute: Execute
 def test_a_renamed_part_and_the_one_that_is_gone_keep_their_own_edits(
     edited: Path, execute: Execute, declared: str
 ) -> None:
-    """Both are edited; the third part has the name of the second, which is gone."""
+    """Both parts are edited; the third part takes the name of the second, which is removed."""
     edit(LINK.format(3), "\nequation", MINE.replace("mine", "third"))
     Path("urdfsync.toml").write_text(f"{CONFIGURATION}{declared}")
     Path("arm.urdf").write_text(arm(1.1, 3.3))
@@ -463,7 +463,7 @@ def test_a_part_is_gone_and_the_next_one_has_its_name_and_other_numbers(
 
 
 def test_half_an_exchange_is_declared(folder: Path, execute: Execute) -> None:
-    """The third part has lost its name to the second one: its edit is asked about."""
+    """The second part has taken the name of the third one: the build asks about the edit of the third part."""
     Path("urdfsync.toml").write_text(CONFIGURATION)
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
     execute("build")
@@ -478,7 +478,7 @@ def test_half_an_exchange_is_declared(folder: Path, execute: Execute) -> None:
 
 
 def legs(*masses: float) -> str:
-    """Legs that hang at one base."""
+    """Legs with a common base."""
     elements = [link("base", 9.0)]
     for number, mass in enumerate(masses, 1):
         elements += [link(f"link_{number}", mass), joint(f"to_{number}", "continuous", "base", f"link_{number}")]
@@ -527,7 +527,7 @@ def test_names_declared_before_the_first_build_move_nothing(folder: Path, execut
 
 
 def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, execute: Execute) -> None:
-    """A stranger exchanged two links in the record: the edit stays, and is asked about."""
+    """A stranger exchanged two links in the record: the edit stays, and the build asks about it."""
     state = Path(".urdfsync/robots/arm.state")
     text = state.read_text()
     elements = dict(re.findall(r'^model \["links","(link_[23])",(.*)\]$', text, re.MULTILINE))
@@ -545,7 +545,7 @@ def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, 
 def test_a_recorded_model_that_lacks_parts_loses_no_edit(
     edited: Path, execute: Execute, lost: str, export: str
 ) -> None:
-    """As git may leave it: one branch took parts away, the other changed what names them."""
+    """A possible result of git: one branch removed parts, the other changed the files that name these parts."""
     state = Path(".urdfsync/robots/arm.state")
     text = state.read_text()
     for number in "123":
@@ -568,7 +568,7 @@ def test_a_recorded_model_that_lacks_parts_loses_no_edit(
 def test_one_branch_exchanges_names_and_the_other_edits(
     repository: Repository, execute: Execute, way: str, edits_first: bool, driver: bool
 ) -> None:
-    """Whichever side git takes an edit from: it is with its part, or asked about."""
+    """From either side of git's merge, an edit follows its part, or the build asks about it."""
     if driver:
         execute("merge-driver", "--install")
     repository.commit()
@@ -610,7 +610,7 @@ def test_one_branch_exchanges_names_and_the_other_edits(
 
 
 def hand(path: Path, kind: str) -> str:
-    """Edit a file by hand; what the edit is found by, or nothing if the file has no place for it."""
+    """Edit a file by hand; return the text by which tests find the edit, or nothing if the file has no place."""
     text = path.read_text()
     if kind == "number":
         begin = text.index("extends")
@@ -632,7 +632,7 @@ def plan() -> Result:
 
 
 def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, str]]:
-    """Each kind of export meets each kind of edit of one element: what becomes of the edit."""
+    """Each kind of export meets each kind of edit of one element: the fate of the edit."""
     Path("r.urdf").write_bytes(source)
     built = plan()
     assert not built.failed, built.diagnostics
@@ -671,7 +671,7 @@ def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, 
 
 
 FILES = [file for file in corpus.robots() if file != corpus.ABSENT and not file.endswith("spot_arm.urdf")]
-"""A joint of that one begins at a link that is not there."""
+"""The parent of a joint in this model is a missing link."""
 IN_CI = [file for file in FILES if file.endswith(("puma560_robot.urdf", "m900ib700.urdf"))]
 
 
@@ -681,7 +681,7 @@ IN_CI = [file for file in FILES if file.endswith(("puma560_robot.urdf", "m900ib7
     [file if file in IN_CI else pytest.param(file, marks=pytest.mark.large) for file in FILES] or [corpus.ABSENT],
 )
 def test_edits_meet_exports_that_renumber(corpus: Path, folder: Path, file: str) -> None:
-    """No edit is on another part, and few are asked about."""
+    """No edit moves to another part, and the build asks about few edits."""
     source = (corpus / file).read_bytes()
     if source.count(b"<link ") < 5:
         pytest.skip("fewer than five links")

@@ -1,4 +1,4 @@
-"""Replays of the corpus's histories: each version built over the one before equals a fresh build, and edits follow.
+"""Replays of the corpus's histories: each version, built over the one before, equals a fresh build, and edits follow.
 
 `URDFSYNC_REPLAYS=1` replays all histories, not only some small ones. `test_state_machine` edits files in between.
 """
@@ -24,11 +24,11 @@ from urdfsync.state import statefile
 from urdfsync.urdf.domain import DOMAIN
 
 SMALL = ("turtlebot3_burger", "so101_old_calib", "urdf_spirit_meshes")
-"""With steps of every class, renames and a version that is no robot."""
+"""Histories with steps of every class, renames and an invalid version."""
 CHOSEN = {name: all_of for name, all_of in replay.histories().items() if replay.STEPS or name.endswith(SMALL)}
 MINE = "  // mine: has to follow its element"
 REACH = {ChangeClass.NONE: set(), ChangeClass.UNMODELLED: set(), ChangeClass.PARAMETER: {"record", "import"}}
-"""Roles of the files that a step of a class may write."""
+"""By class of a step: roles of the files that the step may write."""
 BELOW = f"{replay.PACKAGE}/"
 
 pytestmark = pytest.mark.slow
@@ -48,7 +48,7 @@ def test_a_long_history_of_different_robots(corpus: Path, tmp_path: Path) -> Non
 
 
 def replayed(versions: Sequence[bytes], work: Path, *, base: str, meshes: bool) -> Counter[str]:
-    """Build the versions one over the other; what was counted."""
+    """Build each version over the version before; return counts."""
     tally, built = Counter[str](), dict[str, bytes]()
     project, fresh = Project(work / "project", base, meshes=meshes), Fresh(work / "fresh", base, meshes=meshes)
     for number, content in enumerate(versions):
@@ -64,7 +64,7 @@ def replayed(versions: Sequence[bytes], work: Path, *, base: str, meshes: bool) 
 
 
 def lacks_unmodelled(path: str, result: Result, found: bytes | None, wanted: bytes | None) -> bool:
-    """Whether a recorded state lacks nothing but what no file of the package says: no build writes it for that."""
+    """Whether a recorded state lacks only facts that no file of the package contains, for which no build writes it."""
     if result.changes is None or result.changes.change_class is not ChangeClass.UNMODELLED:
         return False
     if not path.endswith(".state") or found is None or wanted is None:
@@ -74,7 +74,7 @@ def lacks_unmodelled(path: str, result: Result, found: bytes | None, wanted: byt
 
 
 def faults(project: Project, before: Stamps, result: Result, old: Files, package: Files, state: Files) -> Iterator[str]:
-    """What is wrong after a build over the `old` package; a fresh one would give this `package` and `state`."""
+    """The faults after a build over the `old` package; a fresh build gives this `package` and `state`."""
     after = project.stamps()
     touched = {path for path in before.keys() | after.keys() if before.get(path) != after.get(path)}
     touched = {path for path in touched if path.startswith((".urdfsync/", BELOW))}
@@ -105,7 +105,7 @@ def class_of(result: Result) -> ChangeClass:
 
 @each_history
 def test_edits_follow_elements_with_another_name(corpus: Path, tmp_path: Path, name: str) -> None:
-    """Each element that a step only renames is edited; the edit is in the renamed element's model then."""
+    """The test edits each element that a step only renames; the edit must move to the renamed element's model."""
     plain = [content for content in CHOSEN[name] if not is_xacro(Path("bot.urdf"), content)]  # xacro makes other names
     readable = [(content, found) for content in plain if (found := read(content).snapshot) is not None]
     count = 0

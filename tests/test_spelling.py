@@ -1,4 +1,4 @@
-"""Texts: what was meant, how far two are the same, and how they show as they are."""
+"""Texts: the nearest name, the similarity of two texts, and texts with their special characters shown."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Exports, edits, builds, answers, undone merges, new names, branches, merges and clones of a project, in any order.
 
-After each command: it did not stop, every edit is where it was or went with its file, all verdicts agree, and what is
-in step equals a fresh build but for the edits. `URDFSYNC_REPLAYS=2000` makes so many steps, with fresh seeds.
+After each command, it has not stopped, every edit is in its place or moved with its file, and all verdicts agree. A
+package in step equals a fresh build except for the edits. `URDFSYNC_REPLAYS=2000` makes 2000 steps, with fresh seeds.
 """
 
 from __future__ import annotations
@@ -40,16 +40,16 @@ SOURCE, PACKAGE = Path("arm.urdf"), Path("modelica/Arm")
 WAYS = ("merge -q --no-edit {other}", "rebase -q {other}", "cherry-pick --keep-redundant-commits {start}..{other}")
 ANSWERS = ("--merge", "--merge --prefer mine", "--merge --prefer generated", "--keep", "--take")
 TAMED = ("comment", "declaration", "equation", "remark", "number", "sensor", "mention")
-"""Edits that only add something, or change one number."""
+"""Edits that only add text, or change one number."""
 _SHARED = re.compile(r"  // shared mine\d{6}(?:\n(?=[})\]])|$)", re.MULTILINE)
-"""A remark; of what the last export made the last one in brackets, these are closed in the next line."""
+"""A remark; if the last export removed the items behind it, the closing brackets follow in the next line."""
 _OWN = re.compile(r"^.*mine\d{6}.*\n", re.MULTILINE)
 _TAG = re.compile(r"mine\d{6}|7171\.\d{6}")
 _DECLARED = re.compile(r"(?m)^  (?:(?:final|parameter|replaceable|inner|outer) )*[A-Z][\w.]* (\w+)")
 _COMMENT = re.compile(r"(?m)//.*$|\"(?:[^\"\\]|\\.)*\"")
 
 seeds = st.integers(0, 2**32).map(Random)
-"""Where, and what exactly."""
+"""The place, and the exact text."""
 
 
 # Exports
@@ -120,7 +120,7 @@ EXPORTS: Mapping[str, Callable[[etree._Element, Random], etree._Element | None]]
 
 
 def add_sensor(path: Path, random: Random, number: str) -> None:
-    """A sensor at some part; renames change its connection."""
+    """Add a sensor to some part; renames change its connection."""
     text = path.read_text()
     if (ends := re.findall(r"connect\((\w+\.frame_[ab]), ", text)) and "\nequation\n" in text:
         head, _, rest = text.partition("\nequation\n")
@@ -130,7 +130,7 @@ def add_sensor(path: Path, random: Random, number: str) -> None:
 
 
 def mention(path: Path, random: Random, number: str) -> None:
-    """A component of a class that an export may take away."""
+    """Add a component of a class that an export may remove."""
     text, classes = path.read_text(), [one for one in sorted(PACKAGE.glob("*/*.mo")) if one.stem != "package"]
     if "\nequation\n" in text and classes:
         name = ".".join(random.choice(classes).with_suffix("").parts[2:])
@@ -139,7 +139,7 @@ def mention(path: Path, random: Random, number: str) -> None:
 
 
 def by_hand(edit: hand_edits.Edit) -> edits.Edit:
-    """An edit as people make them: another type, another name, another style."""
+    """An edit as by a person: another type, another name, another style."""
 
     def change(path: Path, random: Random, number: str) -> None:
         if (edited := edit(path.read_text(), random)) is not None:
@@ -157,7 +157,7 @@ EDITS: Mapping[str, edits.Edit] = {
 
 
 def is_but_for_edits(text: str, generated: str) -> bool:
-    """Whether a text is a generated one with nothing but tagged lines, remarks and numbers in it."""
+    """Whether a text is a generated one with added lines, remarks and numbers, all with tags."""
     mine = [line for line in _OWN.sub("", _SHARED.sub("", text)).splitlines() if line.strip()]
     other = [line for line in generated.splitlines() if line.strip()]
     patterns = (re.sub(r"7171\\\.\d{6}", r"[-\\w.+]+", re.escape(line)) for line in mine)
@@ -171,7 +171,7 @@ def texts(package: Path = PACKAGE) -> dict[str, str]:
 
 
 def missing_names(texts: Mapping[str, str], files: Collection[str]) -> Iterator[str]:
-    """Links, joints and parts that a text names, and that are nowhere. This does not ask urdfsync."""
+    """Missing links, joints and parts that a text names. This function does not ask urdfsync."""
     for path, text in texts.items():
         code = _COMMENT.sub("", text) if path.endswith(".mo") else ""
         for folder, name in re.findall(r"(?<![\w.])(Links|Joints)\.(\w+)", code):
@@ -187,14 +187,14 @@ def missing_names(texts: Mapping[str, str], files: Collection[str]) -> Iterator[
 
 @dataclasses.dataclass
 class Expected:
-    """A package as it has to be: every edit is in its place, and all else is as a fresh build writes it."""
+    """The expected package: every edit is in its place, and all other texts equal a fresh build."""
 
     edits: dict[str, Line] = dataclasses.field(default_factory=dict)
     """By tag."""
     given_up: set[str] = dataclasses.field(default_factory=set)
-    """The tags in files that were given up, be it that this waits for other conflicts."""
+    """The tags in files that the user gave up, also if the deletion waits for other conflicts."""
     loose: set[str] = dataclasses.field(default_factory=set)
-    """Files that may differ from a fresh build: the user said so, or git has made something of two of them."""
+    """Files that may differ from a fresh build: by the user's choice, or since git has merged two of them."""
 
     def move(self, moves: Mapping[str, str]) -> None:
         """Files have new paths."""
@@ -204,7 +204,7 @@ class Expected:
         self.loose |= {moves[path] for path in self.loose & moves.keys()}
 
     def lost(self, files: Mapping[str, bytes]) -> list[tuple[str, Line, Line | None]]:
-        """The edits that are not what or where they were; names in a line that is not only the user's may be others."""
+        """The edits with a changed text or place; in a line that is only partly the user's, names may change."""
         found = edits.tagged(files)
         pairs = [(tag, line, found.get(tag)) for tag, line in self.edits.items()]
         return [
@@ -215,7 +215,7 @@ class Expected:
 
 
 class Walk(RuleBasedStateMachine):
-    """One project, and whoever works on it."""
+    """One project, and the person who works on it."""
 
     root: Path
     execute: Callable[..., Printed]
@@ -233,10 +233,10 @@ class Walk(RuleBasedStateMachine):
         self.built = dict[str, dict[str, str]]()
         """Fresh packages by their source."""
         self.conflicts = dict[str, str]()
-        """Where the user's file is, by the path of the new one."""
+        """The path of the user's file, by the path of the new file."""
         self.broken: Sequence[str] = ()
         self.replaced = dict[str, str]()
-        """What the last command merged or replaced, by path."""
+        """Texts that the last command merged or replaced, by path."""
         self.renews = False
         """Whether the last command renewed the record, or would have."""
 
@@ -293,13 +293,13 @@ class Walk(RuleBasedStateMachine):
         self.look()
 
     def look(self) -> None:
-        """Take the edits as they are, after somebody else than urdfsync has changed them."""
+        """Accept the present edits, after another program than urdfsync has changed them."""
         self.expected.edits = edits.tagged(replay.contents(PACKAGE))
         self.replaced.clear()
 
     @rule(full=st.booleans())
     def build(self, full: bool) -> None:
-        """Build: if all is in step, it renews the record alone, and says so; a second build writes nothing."""
+        """Build: in step, a build renews only the record, and says so; a second build writes nothing."""
         in_step, before, renews = bool(self.built) and self.verdict(), self.everything(), self.renews
         code = self.run("build --full" if full else "build")
         if in_step:
@@ -317,7 +317,7 @@ class Walk(RuleBasedStateMachine):
     @precondition(lambda self: self.conflicts)
     @rule(answer=st.sampled_from(ANSWERS), all_=st.booleans(), random=seeds)
     def resolve(self, answer: str, all_: bool, random: Random) -> None:
-        """Answer a conflict, or all."""
+        """Answer one conflict, or all conflicts."""
         path = random.choice(sorted(self.conflicts))
         asked = self.conflicts if all_ else {path: self.conflicts[path]}
         if answer in ("--keep", "--merge --prefer mine"):
@@ -334,7 +334,7 @@ class Walk(RuleBasedStateMachine):
     @precondition(lambda self: self.replaced)
     @rule(random=seeds)
     def undo(self, random: Random) -> None:
-        """What was merged or replaced is as it was."""
+        """Undo: the merged or replaced texts are back."""
         path, text = random.choice(sorted(self.replaced.items()))
         self.run(f"resolve {path} --undo")
         assert Path(path).read_bytes().decode() == text
@@ -345,12 +345,12 @@ class Walk(RuleBasedStateMachine):
     @precondition(lambda self: self.broken)
     @rule(take=st.booleans())
     def mend(self, take: bool) -> None:
-        """Out with edits that do not fit, or with the files."""
+        """Remove edits that do not fit, or their files."""
         for path in [*self.broken]:
-            if path not in self.broken:  # an answer has brought it to another place
+            if path not in self.broken:  # an answer has moved the file
                 continue
             self.give_up([path])
-            if take and path.endswith(".mo"):  # of orders, lines are merged
+            if take and path.endswith(".mo"):  # a `package.order` merges by lines
                 self.run(f"resolve {path} --take")
                 self.verdict()
             else:
@@ -362,7 +362,7 @@ class Walk(RuleBasedStateMachine):
 
     @rule()
     def switch(self) -> None:
-        """Commit, and go on at the other branch, which begins here if there is none."""
+        """Commit, and change to the other branch, which is made if it is missing."""
         self.repository.commit()
         is_new = self.other not in self.branches
         self.branches.setdefault(self.other, Expected(loose={*self.expected.loose}))
@@ -375,7 +375,7 @@ class Walk(RuleBasedStateMachine):
     @precondition(lambda self: len(self.branches) == 2)
     @rule(way=st.sampled_from(WAYS), is_clean=st.booleans(), random=seeds)
     def merge(self, way: str, is_clean: bool, random: Random) -> None:
-        """Git brings both branches together, and one build what came of that in step."""
+        """Git merges both branches, and one build brings the result in step."""
         self.repository.commit()
         self.tally["merges"] += 1
         start = self.repository.git("merge-base", "HEAD", self.other).strip()
@@ -395,35 +395,32 @@ class Walk(RuleBasedStateMachine):
         self.repository.commit()
         self.expected.loose |= self.branches[self.other].loose
         if is_clean:
-            self.git("clean", "-fdxq")  # as a clone has it
+            self.git("clean", "-fdxq")  # as in a clone
         self.mark_mixtures()
         self.look()
-        # of united orders, lines without a class go: the other branch may have renamed it
+        # a merged `package.order` loses lines without a class, which the other branch may have renamed
         self.give_up([line.path for line in self.expected.edits.values() if line.path.endswith("package.order")])
         self.build(full=False)
 
     def settle(self, random: Random) -> None:
-        """Take one side of each file that git can't merge, never of recorded states."""
+        """Take one side of each file that git can't merge; recorded states always merge."""
         unmerged = sorted(set(self.repository.git("diff", "--name-only", "--diff-filter=U").split()))
         assert not [path for path in unmerged if path.startswith(".urdfsync/")]
         for path in map(Path, unmerged):
             side = random.choice(["ours", "theirs"])
-            if not self.git("checkout", f"--{side}", "--", str(path)):  # that side has deleted it
+            if not self.git("checkout", f"--{side}", "--", str(path)):  # that side has deleted the file
                 path.unlink(missing_ok=True)
-            elif b"<<<<<<< " in path.read_bytes():  # of two renames to one path, git marks the sides themselves
+            elif b"<<<<<<< " in path.read_bytes():  # as git does for two renames to one path
                 if not self.git("checkout", self.other, "--", str(path)):
                     path.unlink()
             elif texts().get(inside(path)) not in [package.get(inside(path)) for package in self.built.values()]:
-                self.expected.loose.add(inside(path))  # it may lack what the other side's export brought
+                self.expected.loose.add(inside(path))  # the file may lack additions of the other side's export
         if self.execute("status", code=None).code == 2:
             self.git("checkout", "-q", self.other, "--", SOURCE.name)
         self.git("add", "-A")
 
     def mark_mixtures(self) -> None:
-        """Texts that git has made of two generated ones count as edits: nobody can tell them from such.
-
-        So do those of a side that was taken, whose generated text is not in the bases of the other.
-        """
+        """Count texts that git has merged, or that are of a side without bases here, as edits: they look like edits."""
         bases = b"".join(replay.contents(Path(".urdfsync/bases")).values())
         for path, text in texts().items():
             generated = (package[path] for package in self.built.values() if path in package)
@@ -433,7 +430,7 @@ class Walk(RuleBasedStateMachine):
 
     @rule()
     def clone(self) -> None:
-        """A clone, where nothing but committed files is, comes to the same result."""
+        """A clone, which has only committed files, comes to the same result."""
         self.repository.commit()
         clone = self.root / "clone"
         shutil.rmtree(clone, ignore_errors=True)
@@ -441,14 +438,14 @@ class Walk(RuleBasedStateMachine):
         built = self.execute("build", "--format=json", "--config", clone / "urdfsync.toml", code=None)
         self.build(full=False)
         here = self.execute("build", "--format=json", code=built.code)
-        if orphans(built) != orphans(here):  # only this machine knows that it wrote what is left without the edit
+        if orphans(built) != orphans(here):  # only this machine knows that it wrote the rest of the file
             assert orphans(built) > orphans(here)
             return
         for folder in (PACKAGE, Path(".urdfsync/robots")):
             assert replay.contents(clone / folder) == replay.contents(folder)
 
     def git(self, *arguments: str) -> bool:
-        """Run git; whether it succeeded."""
+        """Run git; return whether it succeeded."""
         return not subprocess.run(["git", *arguments], capture_output=True).returncode
 
     # What must hold
@@ -474,7 +471,7 @@ class Walk(RuleBasedStateMachine):
         return printed.code
 
     def verdict(self) -> bool:
-        """Ask both commands that judge, which write nothing; what is in step equals a fresh build but for edits."""
+        """Ask both commands that judge and write nothing; a package in step equals a fresh build except for edits."""
         before = self.everything()
         documents = [
             self.execute(*words.split(), code=None) for words in ("status --format=json", "build --check --format=json")
@@ -498,7 +495,7 @@ class Walk(RuleBasedStateMachine):
         return bool(check["in_step"])
 
     def compare(self, reasons: Mapping[str, str]) -> None:
-        """What is in step names nothing that is not there; but for edits it is a fresh package."""
+        """A package in step names no missing part; except for edits it equals a fresh package."""
         files, wanted = texts(), self.fresh()
         missing = list(missing_names({path: text for path, text in files.items() if path in wanted}, files))
         assert not missing, f"in step, and names nothing: {missing}"
@@ -516,7 +513,7 @@ class Walk(RuleBasedStateMachine):
         self.expected.loose &= odd
 
     def fresh(self) -> dict[str, str]:
-        """The package as it is built from the source alone."""
+        """The package as a build makes it only from the source."""
         source = SOURCE.read_text()
         if source not in self.built:
             work = self.root / "fresh"
@@ -529,20 +526,20 @@ class Walk(RuleBasedStateMachine):
         return self.built[source]
 
     def everything(self) -> dict[str, bytes]:
-        """All that version control has."""
+        """All files that git has."""
         folders = (PACKAGE, Path(".urdfsync/robots"), Path(".urdfsync/bases"))
         return {f"{folder}/{path}": text for folder in folders for path, text in replay.contents(folder).items()}
 
 
 def orphans(built: Printed) -> set[str]:
-    """The files of a build that nothing generates any more, as they count from the package."""
+    """The orphans of a build, by paths from the package."""
     (robot,) = built.json["results"]
     actions = (action for action in robot["actions"] if action["reason"] == "orphan")
     return {action["path"].partition(f"{PACKAGE.as_posix()}/")[2] for action in actions}
 
 
 def inside(path: str | Path) -> str:
-    """A path as it counts from the package."""
+    """A path, relative to the package."""
     return Path(path).as_posix().removeprefix(f"{PACKAGE.as_posix()}/")
 
 

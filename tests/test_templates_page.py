@@ -1,4 +1,4 @@
-"""The page on templates of one's own: what it tells people to do is done, and builds what it promises."""
+"""The page on templates of one's own: the tests follow its instructions, and builds keep its promises."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SHORT_ARM = robot(
 
 
 def block(language: str, containing: str) -> str:
-    """The one code block of the page in a language that contains a text."""
+    """The only code block of the page in a language that contains a text."""
     blocks = re.findall(rf"^( *)```{language}\n(.*?)^\1```$", PAGE.read_text("utf-8"), re.DOTALL | re.MULTILINE)
     (found,) = [textwrap.dedent(text) for _, text in blocks if containing in text]
     return found
@@ -51,7 +51,7 @@ def marked_project(folder: Path) -> Path:
 
 
 def build(folder: Path) -> Path:
-    """Build a project by the command; its package."""
+    """Build a project by the command; return its package."""
     assert cli.main(["build", "--config", str(folder / "urdfsync.toml")]) == Exit.IN_STEP
     return folder / "modelica" / "Arm"
 
@@ -97,7 +97,7 @@ def test_nothing_but_the_models_of_links_has_changed(default: Path, marked: Path
 
 @pytest.mark.slow
 def test_the_sensor_measures_the_marker_where_the_extension_puts_it(tmp_path: Path, modelica_library: Path) -> None:
-    """Of an arm that ends with the forearm."""
+    """An arm that ends with the forearm."""
     folder = marked_project(tmp_path / "arm")
     (folder / ARM.with_suffix(".urdf").name).write_text(SHORT_ARM)
     # rumoca loads no package for a text unless the text imports it

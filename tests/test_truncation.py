@@ -74,7 +74,7 @@ def assert_refused(project: Project, cuts: Iterable[bytes]) -> None:
 
 
 def end_of(content: bytes) -> int:
-    """How much of a URDF has to be there at least."""
+    """The least part of a URDF that is valid."""
     return content.rindex(b"</robot>") + len(b"</robot>")
 
 

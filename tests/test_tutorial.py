@@ -1,4 +1,4 @@
-"""The tutorial runs as it stands: its files, its edits, its commands, and what they print."""
+"""The tutorial runs as it is: its files, edits and commands, with their output."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _BLOCK = re.compile(r"^```(\w+)\n(.*?)^```\n", re.MULTILINE | re.DOTALL)
 
 
 def commands(block: str) -> Iterator[tuple[str, str]]:
-    """Each command of a console block, and what it prints; `…` stands for lines."""
+    """Each command of a console block, and its output; `…` stands for lines."""
     for part in block.split("$ ")[1:]:
         command, _, printed = part.partition("\n")
         yield command, printed
 
 
 def run(folder: Path, execute: Execute, left_out: str = "") -> None:
-    """Run all commands of the page, but one."""
+    """Run all commands of the page except one."""
     for kind, block in _BLOCK.findall(PAGE.read_text(encoding="utf-8")):
         if kind == "xml":
             (folder / "arm.urdf").write_text(block)

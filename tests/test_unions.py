@@ -1,7 +1,7 @@
-"""Two branches that were in step each, united by git without a conflict: what every command says, without a build.
+"""Two branches in step, which git has merged without a conflict: the verdict of every command, without a build.
 
-The table has what two people did, how git united it, and the verdict: 0 for in step. A build renews the recorded state
-alone then. Where the united source makes other texts, the package is out of step.
+The table has the work of two people, git's merge, and the verdict: 0 for in step. Then a build renews only the recorded
+state. If the merged source gives other texts, the package is out of step.
 """
 
 from __future__ import annotations
@@ -53,10 +53,10 @@ def nothing() -> None:
 
 
 class Case(NamedTuple):
-    """What the branches do, and what every command says of the union."""
+    """The work of the branches, and the verdict of every command on the merge."""
 
     edits: Callable[[], None]
-    """By hand, before the branches part."""
+    """Edits by hand before the branches separate."""
     ours: dict[str, object]
     theirs: dict[str, object]
     verdict: int = 0

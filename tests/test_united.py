@@ -1,4 +1,4 @@
-"""States of tree-shaped robots that git has united: no command stops, and one build brings all in step."""
+"""Recorded states of robots that git has merged: no command stops, and one build brings all in step."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PACKAGE = Path("modelica/Arm")
 def export(
     *, elbow: str = "elbow", fore: str = "fore", effort: float = 10, mass: float = 1, wrist: str = "wrist"
 ) -> None:
-    """An arm of four links, of which some names and numbers are others."""
+    """An arm of four links; some names and numbers are given."""
     links = [link(name, 1.0 + number) for number, name in enumerate(["base", "upper", fore])]
     joints = [
         joint("shoulder", "revolute", "base", "upper", axis="0 0 1"),
@@ -109,7 +109,7 @@ def test_the_build_after_a_merge_is_a_fresh_one(
 
 
 def test_a_line_for_a_class_that_is_a_link_stays(repository: Repository, execute: Execute, tmp_path: Path) -> None:
-    """Others are of what a branch has renamed, and go, with a copy of the file."""
+    """Other lines belong to a renamed class: they go, and a copy of the file is kept."""
     (tmp_path / "Linked.mo").write_text("within Arm.Joints;\nmodel Linked\nend Linked;\n")
     (PACKAGE / "Joints/Linked.mo").symlink_to(tmp_path / "Linked.mo")
     unite(repository, execute, PIVOT, {"wrist": "grip"})

@@ -1,4 +1,4 @@
-"""Builds of URDF robots from end to end: same bytes everywhere, what is noted, what stops a build."""
+"""Builds of URDF robots from end to end: equal bytes everywhere, notes, and errors that stop a build."""
 
 from __future__ import annotations
 

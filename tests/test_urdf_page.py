@@ -1,4 +1,4 @@
-"""The page on URDF: what its table says of each element and attribute is what becomes of it."""
+"""The page on URDF: the effect of each element and attribute agrees with its table."""
 
 from __future__ import annotations
 
@@ -127,11 +127,11 @@ CHANGED = {
     "robot/inertial": ("</robot>", "<inertial/></robot>"),
     "any other": ('frame name="f"', 'frame name="g"'),
 }  # fmt: skip
-"""Another value of each row of the table: a pattern, and what takes its place once."""
+"""Another value for each row of the table: a pattern, and its replacement."""
 
 
 def rows() -> Iterator[tuple[str, str]]:
-    """Yield each element and attribute of the table, and what becomes of it."""
+    """Yield each element and attribute of the table, and its effect."""
     page = (REPOSITORY / "docs" / "urdf.md").read_text(encoding="utf-8")
     elements: list[str] = []
     for line in page.split("\n"):
@@ -167,7 +167,7 @@ def package(folder: Path, text: str) -> Package:
 
 
 def is_used(old: Mapping[str, str], new: Mapping[str, str]) -> bool:
-    """Whether models differ, or the number of a record that some model reads; names are only said."""
+    """Whether models differ, or a number of a record that a model reads; names are only texts."""
     records = {path for path in old if path.endswith("Parameters.mo")}
     if {p: t for p, t in old.items() if p not in records} != {p: t for p, t in new.items() if p not in records}:
         return True

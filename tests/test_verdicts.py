@@ -1,4 +1,4 @@
-"""One verdict: `status`, `build --check`, the hook and `build` say the same of a package, and it is so."""
+"""`status`, `build --check`, the hook and `build` give the same verdict on a package, and the verdict is right."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ STATE = ".urdfsync/robots/arm.state"
 
 
 class Verdict(NamedTuple):
-    """What each command says: its exit code, and whether `in_step` of its JSON is true."""
+    """The answers of each command: its exit code, and whether `in_step` of its JSON is true."""
 
     status: int
     check: int
     hook: int
     build: int
     in_step: bool
-    """One value, of the documents of `status` and `build --check`."""
+    """The common value in the documents of `status` and `build --check`."""
     wrote: bool
     """Whether the build has changed anything that git tracks."""
 
@@ -55,7 +55,7 @@ def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.C
 
 @pytest.fixture
 def verdict(repository: Repository, capsys: pytest.CaptureFixture[str]) -> Callable[[], Verdict]:
-    """A function that commits all, asks each command, and builds at last."""
+    """A function that commits all files, asks each command, and then builds."""
 
     def ask() -> Verdict:
         repository.commit()
@@ -78,7 +78,7 @@ def verdict(repository: Repository, capsys: pytest.CaptureFixture[str]) -> Calla
 GREEN = Verdict(0, 0, 0, 0, in_step=True, wrote=False)
 """In step: nothing to write."""
 RENEWED = Verdict(0, 0, 0, 0, in_step=True, wrote=True)
-"""In step: a build renews the recorded state alone."""
+"""In step: a build renews only the recorded state."""
 LATE = Verdict(1, 1, 1, 0, in_step=False, wrote=True)
 """Out of step: a build brings it in step."""
 
@@ -96,7 +96,7 @@ def set_option_without_effect() -> None:
 
 
 def export_then_old_state() -> None:
-    """A mass changes and is built; then the recorded state is that of before, as after a careless checkout."""
+    """A mass changes and is built; then an old recorded state is restored, as after a careless checkout."""
     old = Path(STATE).read_bytes()
     source("2.5", "2.75")
     assert cli.main(["build", "--quiet"]) == 0

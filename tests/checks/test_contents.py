@@ -45,7 +45,7 @@ def test_a_link_in_a_library_that_could_fill_the_disk_is_refused(link: str, tmp_
     (library / "Resources/link").symlink_to(targets[link])
     said = refused(library, tmp_path / "copy")
     assert said.startswith(f"{shown(library / 'Resources/link')}: the link leads ")
-    assert said.endswith("; replace it by the files themselves")
+    assert said.endswith("; replace the link by the files themselves")
     assert not [path for path in (tmp_path / "copy").rglob("*") if path.is_file() and "link" in path.name]
     with pytest.raises(UrdfsyncError, match="the link leads "):
         content_hash(library)

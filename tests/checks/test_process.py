@@ -92,9 +92,9 @@ def test_only_processor_time_counts_unless_a_process_does_nothing(deed: str, mon
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signals")
 @pytest.mark.parametrize(("deed", "code", "words", "hint"), [
-    ("abort", "compiler-crashed", r"crashed at Plant.Bad: signal 6 (SIGABRT): last words", "report it"),
+    ("abort", "compiler-crashed", r"crashed at Plant.Bad: signal 6 (SIGABRT): last words", "report the crash"),
     ("kill", "compiler-crashed", "crashed at Plant.Bad: signal 9 (SIGKILL)", "out of memory"),
-    ("leave", "compiler-crashed", "crashed at Plant.Bad: exit code 0", "report it"),
+    ("leave", "compiler-crashed", "crashed at Plant.Bad: exit code 0", "report the crash"),
     ("import", "no-compiler", "the compiler does not start: no such wheel", "install it"),
 ])  # fmt: skip
 def test_a_compiler_that_breaks_down_is_one_line(

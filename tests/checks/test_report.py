@@ -184,7 +184,7 @@ def test_contacts_are_plausible_within_a_hundredth(capsys: Capture, difference: 
         (
             Deviation(Quantity.LAW, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
             Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
-            "joint elbow: the effort of its lugre is not that of its numbers",
+            "joint elbow: the effort of its lugre contradicts its numbers",
         ),
         (
             Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),

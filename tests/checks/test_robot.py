@@ -354,7 +354,7 @@ def test_a_model_of_the_user_that_does_not_compile_is_a_warning_at_its_file(
     compiler.problems["Cell"] = "unbalanced model: 2 equations, 3 unknowns"
     result = check()
     assert (result.tools[0].failing, len(result.compiled)) == (("Cell",), 3)
-    hint = "a part of other models need not compile by itself"
+    hint = "a component of other models need not compile by itself"
     assert lines(result) == [f"Cell.mo:0: warning: there is 1 equation too few; {hint}"]
 
 

@@ -63,7 +63,7 @@ def test_markers_of_a_conflict_are_the_cause_of_what_does_not_parse() -> None:
     (found,) = findings(edits)
     place = f"{ELBOW}:{arm.line('equation')}"
     assert found.startswith(
-        f"{place}: error: joint elbow: the file has the conflict marker `<<<<<<<`; correct it first"
+        f"{place}: error: joint elbow: the file has the conflict marker `<<<<<<<`; correct this first"
     )
 
 
@@ -99,17 +99,17 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         (
             {"Joints/package.mo": INSIDE},
             "Joints/package.mo:3: error: `Elbow` is declared here, and also has the file Joints/Elbow.mo; "
-            "put all of it into one file, and delete the other [class-twice]",
+            "put the whole class into one file, and delete the other file [class-twice]",
         ),
         (
             {ORDER: arm.text(ORDER).replace("Turret\n", "")},
-            f"{ORDER}: warning: `Turret` is not named; add a line for it: without one, tools put it last, or warn "
-            "[order-lacks]",
+            f"{ORDER}: warning: `Turret` is not named; add a line for this class: without a line, tools list the "
+            "class last, or warn [order-lacks]",
         ),
         (
             {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},
-            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one: file systems that ignore "
-            "case do not hold both [same-but-for-case]",
+            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one class: file systems that "
+            "ignore case do not hold both [same-but-for-case]",
         ),
     ],
 )
@@ -134,7 +134,7 @@ def test_a_top_level_package_may_say_that_it_is_in_none() -> None:
 
 
 def test_a_folder_of_classes_is_a_package() -> None:
-    hint = "add one, or move the files elsewhere"
+    hint = "add this file, or move the classes elsewhere"
     assert findings({"Joints/package.mo": None}) == [
         f"Joints: error: the folder holds classes, but no package.mo; {hint} [no-package-file]"
     ]

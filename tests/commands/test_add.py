@@ -80,7 +80,7 @@ def test_robots_of_a_fleet_have_names_and_arguments_of_their_own(folder: Path, e
         error = execute("add", source, "kind:=s", code=2).err
         assert f"{source} is the source of `cart` already; give xacro other arguments" in error
         error = execute("add", source, "kind:=m", "name:=Cart", code=2).err
-        assert error.startswith(f"{source}: error: another robot or package has the name `Cart`; give another one")
+        assert error.startswith(f"{source}: error: another robot or package has the name `Cart`; give another name")
         assert "`kind:=` is an argument of xacro, and no source is named" in execute("add", "kind:=m", code=2).err
     execute("add", source, "kind:=3", "-q")
     assert config.load(folder / "urdfsync.toml").robots[1].name == "cart_3"
@@ -130,6 +130,6 @@ def test_a_save_in_between_stays(project: Path, execute: Execute, operation: str
 
     with before_each(save):
         error = execute(*ADD, "other.json", code=2).err
-    assert "urdfsync.toml: error: it has changed meanwhile, and stays as it is now; run the command again" in error
+    assert "urdfsync.toml: error: somebody saved this file meanwhile: it stays unchanged; run the command" in error
     assert file.read_text() == saved
     assert not list(project.glob(".*urdfsync-tmp*"))

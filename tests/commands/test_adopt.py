@@ -33,7 +33,7 @@ def lost(project: Path, execute: Execute) -> Path:
 
 
 def test_after_the_state_was_lost(lost: Path, execute: Execute) -> None:
-    assert "  urdfsync adopt ladder  takes them for your edits, and lists these" in execute("build", code=3).lines
+    assert "  urdfsync adopt ladder  takes the files for your edits, and lists them" in execute("build", code=3).lines
     shutil.rmtree(lost / ".urdfsync")
     before = snapshot(lost)
     assert execute("adopt", "ladder").lines == [

@@ -48,7 +48,7 @@ def test_a_file_of_the_users_is_replaced_only_if_it_is_named(
     assert cli.main(["fmu", "-q"]) == 0, "urdfsync wrote it"
     Path("ArmRun.fmu").write_text("mine")
     assert cli.main(["fmu", "-q"]) == 2
-    assert "ArmRun.fmu: error: it is there, and urdfsync did not write it" in capsys.readouterr().err
+    assert "ArmRun.fmu: error: the file exists, and urdfsync did not write it" in capsys.readouterr().err
     assert Path("ArmRun.fmu").read_text() == "mine"
     assert cli.main(["fmu", "-q", "--output", "ArmRun.fmu"]) == 0
     assert zipfile.is_zipfile("ArmRun.fmu")
@@ -98,7 +98,7 @@ def test_findings_and_differences_are_warnings_and_the_file_is_there(
     assert Path("ArmRun.fmu").is_file()
     assert capsys.readouterr().err.splitlines() == [
         "ArmRun.fmu: warning: FMPy: `x` is no name [fmu-not-valid]",
-        "ArmRun.fmu: warning: CoSimulation: FMPy can't simulate it: a step failed [fmu-not-simulated]",
+        "ArmRun.fmu: warning: CoSimulation: FMPy can't simulate the FMU: a step failed [fmu-not-simulated]",
         "ArmRun.fmu: warning: ModelExchange: `elbow_tau` differs from `simulate` by 2.5e-01 of its size; "
         "try a smaller `--tolerance` [fmu-differs]",
     ]

@@ -77,7 +77,7 @@ def test_what_a_model_leaves_out_is_allowed(execute: Execute, folder: Path) -> N
     (folder / "arm.urdf").write_text(f'<robot name="arm"><link name="world"/>\n{loop}</robot>')
     said = execute("init", "arm.urdf")
     assert "arm.urdf:2: warning: loop bar has type='prismatic', which is no kind of loop" in said.words
-    assert '    allow = ["loop-joint"]  guessed: the model leaves this out, see the warnings' in said.lines
+    assert '    allow = ["loop-joint"]  guessed: the model leaves this part out, see the warnings' in said.lines
     assert "[loop-joint]" in execute("build").err
     (folder / "leg.urdf").write_text('<robot name="leg"><link name="world"/><inertial/></robot>')
     execute("add", "leg.urdf")
@@ -146,7 +146,7 @@ def test_a_broken_source_is_passed_over_if_nobody_named_it(execute: Execute, bar
     streams = execute(*INIT)
     (line,) = streams.err.splitlines()
     assert line.startswith("bad.rcnetwork:1: warning: ")
-    assert line.endswith("; left out; correct it and add it, or run `urdfsync init bad.rcnetwork` [json]")
+    assert line.endswith("; left out; correct the source and add it, or run `urdfsync init bad.rcnetwork` [json]")
     assert [robot.name for robot in config.load(bare / "urdfsync.toml").robots] == ["good"]
 
 

@@ -70,7 +70,7 @@ def test_what_is_not_utf_8_is_a_conflict_and_stays(folder: Path, execute: Execut
     write(MINE, BASE, OTHER)
     (folder / "other").write_bytes(b"\xff")
     error = execute("merge-driver", "base", "mine", "other", "--path", "Arm.mo", code=1).err
-    assert error.startswith("Arm.mo: warning: it is not UTF-8, so it can't be merged; ")
+    assert error.startswith("Arm.mo: warning: the file is not UTF-8, so it can't be merged; ")
     assert (folder / "mine").read_text() == MINE
 
 

@@ -89,7 +89,7 @@ def save_before(monkeypatch: pytest.MonkeyPatch, path: Path, old: str, new: str)
     monkeypatch.setattr("urdfsync.commands.resolve.build_and_check", save_and_build)
 
 
-CHANGED = "changed after they were read, so your choice was not applied; look at it, then choose again"
+CHANGED = "changed after they were read, so your choice was not applied; look at the file, then choose again"
 
 
 @pytest.mark.parametrize("choice", ["--take", "--keep", "--edit", "--merge --prefer generated"])

@@ -90,7 +90,7 @@ MISTAKES = {
     ),
     "command = 'make'": '`command` must be a list of strings, not "make" [wrong-value]',
     "command_inputs = ['a']": (
-        "robot `arm`: `command_inputs` without `command`; add the command, or take them out [wrong-value]"
+        "robot `arm`: `command_inputs` without `command`; add the command, or take the inputs out [wrong-value]"
     ),
     "arguments = {}\ncommand = ['make']": (
         "robot `arm`: `command` writes a source that xacro does not expand; take one out [wrong-value]"
@@ -129,7 +129,7 @@ OTHER_MISTAKES = {
     '[defaults]\nignore = ["nothing-here"]\n'
     + robot()
     + robot("", "other", "Other"): "2 no warning or note has the code `nothing-here`",
-    "a = 1\na = 2\n[b]\n": "2:6 a key is set twice; remove one of them",
+    "a = 1\na = 2\n[b]\n": "2:6 a key is set twice; remove one of the two",
     "[robots.a]\n[robots.a]\n": "2:10 the table `robots.a` is there twice; put the keys of both into one",
     "a = 1\n<<<<<<< ours\n": "2 unresolved merge markers; settle the merge",
     "a = " + "1" * 5000: " a number has too many digits",

@@ -59,7 +59,7 @@ def test_templates_that_replace_none(project: Path, name: str, near: str) -> Non
     template(project, name)
     (message,) = warnings(project, robots(2, 'templates = "own"\n'))
     hint = f"did you mean `{near}`? [stray-template]" if near else "rename it to one of element/model.mo.jinja, "
-    assert f"own/{name}: warning: the file replaces no template: none of urdfsync has this name; {hint}" in message
+    assert f"own/{name}: warning: the file replaces no template: urdfsync has none of this name; {hint}" in message
 
 
 def test_templates_that_have_a_use(project: Path) -> None:

@@ -95,7 +95,7 @@ WRONG = {
     ('left_hip = "l_thigh"',): "6: error: robot `dog`: `left_hip` can't be renamed to `l_thigh`: "
     "the last build had no link `left_hip`; did you mean `left_thigh`?",
     ('left_hip = "l_hip"', 'left_foot = "l_hip"'): "7: error: robot `dog`: both `left_hip` and `left_foot` are "
-    "renamed to `l_hip`; take one of them out",
+    "renamed to `l_hip`; take one entry out",
 }
 
 

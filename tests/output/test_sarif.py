@@ -89,7 +89,7 @@ def test_every_code_of_the_page_has_a_meaning_without_markup() -> None:
     meanings = read_meanings()
     assert len(meanings) > 80
     assert all(meaning and "](" not in meaning for meaning in meanings.values())
-    assert meanings["mesh-guessed"].endswith("a file of a folder around the source is taken")
+    assert meanings["mesh-guessed"].endswith("the build uses a file in a folder around the source")
 
 
 def test_what_names_no_file_is_a_notification_of_the_run(folder: Path) -> None:

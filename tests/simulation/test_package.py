@@ -43,7 +43,7 @@ MOTION = "time,shoulder_phi,elbow_phi\n0,0,0\n2,2,2\n"
     [
         (None, {"model": "ArmTst"}, "there is no model `ArmTst`; did you mean `ArmTest`?"),
         (None, {"model": "Arm.ArmTst"}, "did you mean `ArmTest`?"),
-        (None, {"model": "Plant.Cell"}, "libraries are found beside the package"),
+        (None, {"model": "Plant.Cell"}, "libraries have to be beside the package"),
         (None, {"model": "Links"}, "it is a package"),
         (None, {"model": "ArmRun"}, "`Arm.ArmRun` has inputs; give a CSV file with `--input`; its first line is "
          "time,shoulder_phi,elbow_phi"),

@@ -1,1 +1,1 @@
-"""What several tests share: the corpus, packages made from URDF, the embedded compiler, the physics reference."""
+"""Code that several tests share: the corpus, packages made from URDF, the embedded compiler, the physics reference."""

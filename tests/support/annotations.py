@@ -1,4 +1,4 @@
-"""Annotations of Modelica texts as values, and the statements that they belong to."""
+"""Annotations of Modelica texts as values, with the statements of the annotations."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ _PREFIXES = frozenset(
 
 @dataclasses.dataclass(frozen=True)
 class Call:
-    """What annotations are made of: `name(key=value, …)`; a call among the arguments has its name as key."""
+    """A value in an annotation: `name(key=value, …)`; a call among the arguments has its name as key."""
 
     name: str = ""
     arguments: Mapping[str, Any] = dataclasses.field(default_factory=dict)
 
     def get(self, key: str, default: Any = None) -> Any:
-        """The argument `key`, or `default` where it is not given."""
+        """The argument `key`, or `default` without such an argument."""
         return self.arguments.get(key, default)
 
 
 class _Reader:
-    """Reads values of annotations: numbers, strings, names, arrays, calls; other expressions as their text."""
+    """Reads values of annotations: numbers, strings, names, arrays and calls; another expression stays a text."""
 
     def __init__(self, words: Sequence[str], start: int) -> None:
         self.words, self.next = words, start
 
     def value(self) -> Any:
-        """The value that begins here."""
+        """The value at the present place of the text."""
         start = self.next
         result = self._primary()
         depth = 0
@@ -84,9 +84,9 @@ def annotations_in(text: str) -> list[Call]:
 
 
 def statements(text: str) -> Iterator[tuple[list[str], Call]]:
-    """Declarations and equations of the one class in a text, without the words that go before them, and annotations.
+    """Declarations and equations of the only class in a text, without leading keywords, each with its annotation.
 
-    The annotation of the class itself has no words.
+    The statement for the annotation of the class itself is empty.
     """
     words = [token.text for token in lex(text)[0]]
     begin = next(k for k, word in enumerate(words) if word in ("model", "block", "package", "record", "function"))

@@ -13,9 +13,9 @@ from urdfsync import cli
 from urdfsync.answers import facts, uptodate
 
 LIMIT = 60.0
-"""Seconds after which an answer is not saved any more."""
+"""Seconds after which a test fails because no answer was saved."""
 SHORT = 100_000_000
-"""Nanoseconds in which a file counts as young; no file system of a test is slower to tell times apart."""
+"""Nanoseconds in which a file counts as young; the file systems of tests have finer time stamps."""
 _URDF = """\
 <robot name="{name}">
   <link name="base"><visual><geometry><mesh filename="package://{name}_meshes/base.stl"/></geometry></visual></link>
@@ -42,8 +42,7 @@ package = "Leg"
 
 
 def built(folder: Path) -> Path:
-    """A folder, in step, with all that a decision may look at: two robots, a parent package, templates, a mesh in a
-    package that is searched for, one beside the source, a stray state, an edited file, a class that is a folder."""
+    """Make a folder in step with all inputs of a decision, from two robots and templates to a stray state."""
     for name in ("arm", "leg"):
         _write(folder / f"robots/{name}.urdf", _URDF.format(name=name))
     _write(folder / "ros/group/arm_meshes/package.xml", "<package><name>arm_meshes</name></package>")
@@ -65,7 +64,7 @@ def built(folder: Path) -> Path:
 
 
 def until(is_done: Callable[[], bool], step: Callable[[], object]) -> None:
-    """Repeat a step until an answer is saved: that takes as long as its dependencies are young, which is short here."""
+    """Repeat a step until an answer is saved: no answer is saved while its dependencies are young."""
     end = time.monotonic() + LIMIT
     with mock.patch.object(facts, "YOUNG", SHORT):
         while not is_done():
@@ -80,7 +79,7 @@ def save(*arguments: str) -> None:
 
 
 def saved(*arguments: str) -> list[str] | None:
-    """The saved answer of a command, if it holds."""
+    """The saved answer of a command, if the answer is still valid."""
     file = uptodate.find_config(list(arguments))
     return uptodate.find_answer(file, arguments[0], uptodate.answer_key(list(arguments), file)) if file else None
 

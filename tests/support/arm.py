@@ -1,4 +1,4 @@
-"""The six-axis example as a package to damage."""
+"""The package of the six-axis example, which tests damage."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ELBOW = "Joints/Elbow.mo"
 OWNERS = {ELBOW: "joint elbow", "SixAxisArm.mo": "robot"}
 HOME = Path("/home/ada")
 DISK = HOME / "Plant" / "SixAxisArm"
-"""Where people find it, as these tests have it."""
+"""The folder of the package in messages."""
 
 
 _KEPT = {"Joints", "Elbow", "ElbowParameters", "Shoulder", "ShoulderParameters", "Turret", "package"}
@@ -24,7 +24,7 @@ _KEPT = {"Joints", "Elbow", "ElbowParameters", "Shoulder", "ShoulderParameters",
 
 @functools.cache
 def texts() -> Mapping[str, bytes]:
-    """Some of its files as they were generated: the robot, its benches, and a few joints."""
+    """Some generated files of the package: the robot, its benches, and a few joints."""
     found = package_texts(FOLDER)
     kept = {path: text for path, text in found.items() if _kept(path)}
     return {path: _ordered(text) if path.endswith(".order") else text for path, text in kept.items()}
@@ -46,13 +46,13 @@ def text(path: str = ELBOW) -> str:
 
 
 def changed(old: str, new: str, path: str = ELBOW) -> Mapping[str, str]:
-    """A file with other words in one place."""
+    """Return a file with other words in one place."""
     assert text(path).count(old) == 1, old
     return {path: text(path).replace(old, new)}
 
 
 def line(words: str, path: str = ELBOW) -> int:
-    """The line of a file that these words begin in."""
+    """Return the line of a file in which these words begin."""
     return text(path)[: text(path).index(words)].count("\n") + 1
 
 

@@ -1,4 +1,4 @@
-"""What Python's audit events say of a process: the files that it changes, what it starts, connects to and runs."""
+"""Python's audit events of a process: changed files, started programs, connections, and code that runs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CHANGES = {
     "os.setxattr": (slice(1), 0),
     "shutil.rmtree": (slice(1), 1),
 }
-"""Which arguments of an event are paths that change, and how many at its end are folders that they count from."""
+"""By event: the arguments that are changed paths, and the number of last arguments that are folders of these paths."""
 STARTS = {"os.system", "os.exec", "os.posix_spawn", "os.spawn", "os.startfile", "pty.spawn", "subprocess.Popen"}
 CONNECTIONS = {"socket.connect", "socket.bind", "socket.getaddrinfo", "urllib.Request", "ftplib.connect"}
 
@@ -35,7 +35,7 @@ def _meanings(event: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, obj
     elif event in CHANGES:
         changed, folders = CHANGES[event]
         if not any(isinstance(folder, int) and folder >= 0 for folder in arguments[len(arguments) - folders :]):
-            yield from (("write", path) for path in arguments[changed])  # else it does not say where
+            yield from (("write", path) for path in arguments[changed])  # not from an open folder
     elif event == "exec":
         yield "code", getattr(arguments[0], "co_filename", "<")
     elif event in STARTS:

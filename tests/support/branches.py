@@ -1,4 +1,4 @@
-"""What two branches do to the network of the fixture `project`, in calls and in words."""
+"""Steps of two branches that change the network of the fixture `project`, as calls and as words."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from support.networks import LADDER, edit
 
 _NOTES = "note", "edit"
-"""Verbs of steps that edit what is built."""
+"""Verbs of steps that edit built files."""
 
 
 def export(change: Callable[[list[dict[str, Any]]], object]) -> None:
@@ -44,13 +44,13 @@ def rename(old: str, new: str) -> None:
 
 
 def note(path: str, text: str) -> None:
-    """An edit: a line before the end of a class."""
+    """Add a line before the end of a class."""
     found = Path(path).read_text()
     Path(path).write_text(re.sub(r"\nend (\w+);\n$", rf"\n  // {text}\nend \1;\n", found))
 
 
 def perform(steps: str, build: Callable[[], object] = lambda: None) -> None:
-    """Do the steps of a text, one a line: what changes the source, a build, then what edits files of the package.
+    """Do the steps of a text, one per line: change the source, build, then edit files of the package.
 
     `set NAME VALUE`, `add NAME`, `drop NAME`, `rename OLD NEW`; `note FILE TEXT`, `edit FILE OLD => NEW`.
     """

@@ -1,6 +1,6 @@
-"""A real browser that tests look at pages with: Chromium, without a window, spoken to through a pipe.
+"""A real browser in which tests open pages: Chromium without a window, controlled through a pipe.
 
-It draws by a software renderer, so that no graphics card is needed. `URDFSYNC_CHROMIUM` names its program.
+Chromium draws by a software renderer, so tests need no graphics card. `URDFSYNC_CHROMIUM` names Chromium's program.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NEEDS_CHROMIUM = pytest.mark.skipif(
 _FLAGS = (
     "--headless",
     "--remote-debugging-pipe",
-    "--no-sandbox",  # containers of CI allow none
+    "--no-sandbox",  # containers of CI allow no sandbox
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
@@ -42,7 +42,7 @@ _PATIENCE = 180.0
 
 
 class Page:
-    """One page in the browser. `problems` has the errors that it told, each in words."""
+    """One page in the browser. `problems` has the errors of the page, in words."""
 
     def __init__(self, requests: int, answers: int) -> None:
         self._requests, self._answers = requests, answers
@@ -66,7 +66,7 @@ class Page:
     ) -> None:
         """Open a file, or an address, in a window of this size, and wait for the promise `ready` of the page.
 
-        The script `first` runs before those of the page.
+        The script `first` runs before the scripts of the page.
         """
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self._call("Emulation.setDeviceMetricsOverride", **metrics)
@@ -107,7 +107,7 @@ class Page:
             )
 
     def picture(self, file: Path, *, whole: bool = False) -> None:
-        """Save what is to be seen as PNG."""
+        """Save the visible part of the page as PNG."""
         answer = self._call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
         file.write_bytes(base64.b64decode(answer["data"]))
 
@@ -125,7 +125,7 @@ class Page:
                 return result
 
     def _read(self) -> dict[str, Any]:
-        """Return the next message; errors that the page tells are noted."""
+        """Return the next message; note errors of the page."""
         end = time.monotonic() + _PATIENCE
         while b"\0" not in self._rest:
             piece = os.read(self._answers, 1 << 20)

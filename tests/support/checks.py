@@ -1,4 +1,4 @@
-"""Stand-ins for what a check is made of: a check of robots of all characters, functions for processes, a compiler."""
+"""Stand-ins for parts of a check: a check that obeys the robot's name, functions for processes, a compiler."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ FAULT = Diagnostic(Severity.ERROR, "fault", "as it was asked for")
 
 
 def status(result: CheckResult, *, strict: bool) -> CheckStatus:
-    """The verdict, whichever was asked for."""
+    """Return this verdict for each check."""
     return msgspec.structs.replace(result, strict=strict).status
 
 
 def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None) -> CheckResult:
-    """In the place of the real one: the robot's name says what becomes of its check."""
+    """Replace `check_robot`: the robot's name chooses the result of the check."""
     name, result = robot.name, CheckResult(robot.name, robot.target.package)
     Path(f"{name}.begun").touch()
     tell(f"{name}: at work")
@@ -55,7 +55,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
 
 
 def act(*deeds: str) -> Iterator[str]:
-    """Do one deed after the other in a process, and yield each."""
+    """Do each deed in a process, and yield it."""
     for deed in deeds:
         match deed:
             case "sleep":
@@ -92,7 +92,7 @@ def act(*deeds: str) -> Iterator[str]:
 
 
 class Compiler:
-    """A compiler that does with a model what its text says: see `act`."""
+    """A compiler that does what the text of a model says: see `act`."""
 
     TITLE = "the compiler"
     MODULES: tuple[str, ...] = ()
@@ -103,7 +103,7 @@ class Compiler:
     is_missing = False
 
     def program(self, named: str) -> str | None:
-        """All of it is here, unless it is missing."""
+        """The program is found, unless the compiler is missing."""
         return None if self.is_missing else ""
 
     def environment(self, cache: str, folder: str) -> dict[str, str]:
@@ -111,7 +111,7 @@ class Compiler:
         return {}
 
     def work(self, job: CompileJob) -> Iterator[CompileResult]:
-        """Find all models right."""
+        """Return a result without faults for each task."""
         for task in job.tasks:
             list(act(task.source))
             yield CompileResult(unknowns=7)
@@ -122,7 +122,7 @@ class Compiler:
 
 
 class Compiling:
-    """In the place of `compilers.run_job`: says the same of every model, and knows which ones it was given."""
+    """Replace `compilers.run_job`: return the same result for every model, and keep the given models."""
 
     def __init__(self) -> None:
         self.problem, self.models, self.roots = "", list[str](), list[str]()
@@ -140,6 +140,6 @@ class Compiling:
 
 @contextlib.contextmanager
 def thread_workers(count: int, address: str = "") -> Iterator[Workers]:
-    """In the place of `workers`: threads of this process, which see what a test has replaced."""
+    """Replace `workers` by threads of this process, which see the stand-ins of a test."""
     with ThreadPoolExecutor(count) as executor:
         yield Workers(executor, None)

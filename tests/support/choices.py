@@ -1,4 +1,4 @@
-"""Choices about files in conflict, as `resolve` makes them: on the texts that it has looked at."""
+"""Choices about files in conflict, as `resolve` makes them for the texts that it has read."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from urdfsync.engine.options import BuildOptions
 
 
 def options(loaded: Config, *, choices: Mapping[str, Choice] | None = None, **request: Any) -> BuildOptions:
-    """How to build, with choices about the texts that are there now, by path."""
+    """Return build options with choices for the present texts, by path."""
     if not choices:
         return BuildOptions(**request)
     looked = build(loaded, loaded.robots, BuildOptions(**{**request, "dry": True}))

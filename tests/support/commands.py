@@ -1,4 +1,4 @@
-"""Commands as their users run them, and what they print."""
+"""Commands as users run them, and their output."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from support.documents import is_described
 
 
 class Printed(NamedTuple):
-    """What a command printed on its two streams, and its exit code."""
+    """The two output streams of a command, and its exit code."""
 
     code: int
     out: str
@@ -28,12 +28,12 @@ class Printed(NamedTuple):
 
     @property
     def words(self) -> str:
-        """Both streams without line breaks, wherever a terminal's width has put them."""
+        """Both streams without the line breaks that a terminal's width adds."""
         return " ".join((self.out + self.err).split())
 
     @property
     def json(self) -> Any:
-        """The document for programs, which has the output for itself, and is as its schema says."""
+        """The JSON document, which must be the whole output and obey its schema."""
         assert self.err == ""
         document = json.loads(self.out)
         if command := document.get("command"):
@@ -65,4 +65,4 @@ begin, end = (next(n for n, line in enumerate(lines) if line.startswith(mark)) f
 lines[begin : end + 1] = ['  Real mine "1 %";\\n']
 file.write_text("".join(lines))
 """
-"""The text of an editor that makes one text of both sides."""
+"""The script of an editor that takes both sides of a conflict."""

@@ -1,4 +1,4 @@
-"""Configurations as texts, what is said of them, and whether their schema agrees with the program."""
+"""Configurations as texts, messages about them, and a comparison of the schema with the program."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ def failures(text: str) -> list[str]:
 
 
 _BEYOND = {"clash", "wrong-rename", "toml-syntax"}
-"""Codes of mistakes that no schema can see: they are between tables, or there is no document."""
+"""Codes of mistakes that no schema can find: they concern several tables, or the file is no document."""
 
 
 def is_valid(text: str) -> bool:
-    """Whether a configuration is as the schema says."""
+    """Whether a configuration obeys the schema."""
     return _is_valid(text, tuple(sys.path))
 
 
@@ -55,14 +55,14 @@ def _is_valid(text: str, path: tuple[str, ...]) -> bool:
 @functools.cache
 def _validator(path: tuple[str, ...]) -> jsonschema.Draft202012Validator:
     """Return the validator for the domains that are installed on Python's path."""
-    with Dependencies():  # no answer of a command rests on these
+    with Dependencies():  # no answer of a command depends on these reads
         schema = config_schema()
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
 
 
 def _is_beyond(problem: Diagnostic) -> bool:
-    """Whether no schema can see it: also an output in a state folder, nan, and a code that is another domain's."""
+    """Whether no schema can find the mistake: also an output in a state folder, nan, and a code of another domain."""
     others = registry.domain("urdf").warnings
     is_others = problem.code == "unknown-code" and any(f"`{code}`" in problem.message for code in others)
     words = ("`output` can't be in", "must be finite numbers")
@@ -71,7 +71,7 @@ def _is_beyond(problem: Diagnostic) -> bool:
 
 @contextmanager
 def compared(seen: list[str]) -> Iterator[None]:
-    """Hold each configuration that is read meanwhile against the schema; what differs is added to `seen`."""
+    """Compare each configuration that is read meanwhile with the schema; add differences to `seen`."""
     module = importlib.import_module("urdfsync.config.load")
     parse: Callable[[str, Path, str], Config] = module.parse
 
@@ -82,7 +82,7 @@ def compared(seen: list[str]) -> Iterator[None]:
             if not all(map(_is_beyond, error.diagnostics)) and is_valid(text):
                 seen.append(f"the schema takes:\n{text}\n{error}")
             raise
-        if loaded.robots and not is_valid(text):  # defaults of no robot are not looked at
+        if loaded.robots and not is_valid(text):  # without a robot, nothing reads the defaults
             seen.append(f"the schema refuses:\n{text}")
         return loaded
 

@@ -1,4 +1,4 @@
-"""The corpus of real URDF files: where it is, and what is in it. It stands beside the repository, never inside."""
+"""The corpus of real URDF files: its folder and its files. It is beside the repository, never inside."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lxml import etree
 REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDER = Path(os.environ.get("URDFSYNC_CORPUS") or REPOSITORY.parent / "shared" / "corpus")
 ABSENT = "no-corpus"
-"""Stands for every file where there is no corpus: tests take the fixture `corpus`, which skips them."""
+"""Replaces all files if there is no corpus: the fixture `corpus` then skips tests."""
 
 
 @functools.cache
@@ -32,7 +32,7 @@ def distinct_files() -> tuple[str, ...]:
 
 
 def by_source(files: Iterable[str]) -> Mapping[str, Sequence[str]]:
-    """The files by where they come from: a robot alone, all versions of one history together."""
+    """The files by origin: each robot alone, all versions of one history together."""
     result: dict[str, list[str]] = {}
     for file in files:
         name = Path(file).parent.name.removesuffix(".urdf") if file.startswith("histories") else label(file)
@@ -47,7 +47,7 @@ def moving_joints() -> Mapping[str, int]:
 
 
 def label(file: str) -> str:
-    """A short name for a file of the corpus, unique among robots: what its path has beyond the usual folders."""
+    """A short name for a file of the corpus, unique among robots: its path without the usual folders."""
     parts = [part for part in Path(file).with_suffix("").parts if part not in ("robots", "urdf", "xacro_generated")]
     return f"{parts[0]}-{parts[-1]}" if parts else file
 

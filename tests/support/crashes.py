@@ -1,4 +1,4 @@
-"""Crashes, errors and the user's saves at any one of the file operations that a build consists of."""
+"""Crashes, errors and the user's saves at each file operation of a build."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "write_bound", "remo
 WRITES = ("write", "write_bound")
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 ALL = "URDFSYNC_CRASHES"
-"""Environment variable that asks for all, if it is set to anything."""
+"""Environment variable that chooses all operations, whatever its value."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Operation:
-    """The call of an operation: its place in the order of all, its name and its paths."""
+    """The call of an operation: its number among all operations, its name and its paths."""
 
     number: int
     name: str
@@ -44,7 +44,7 @@ class Operation:
 
     @property
     def kind(self) -> tuple[str, ...]:
-        """What is the same for all operations that differ in the file only."""
+        """A kind, which operations share if only their files differ."""
         places = ("base", "robots") if self.paths[-1:] else ()
         return (self.name, *(next((p for p in places if p in path.parts), path.suffix) for path in self.paths))
 
@@ -77,16 +77,16 @@ def before_each(hook: Hook) -> Iterator[None]:
 
 
 def run(project: Path, **request: Any) -> Result:
-    """Build the only robot of a project, wherever it is built to."""
+    """Build the only robot of a project, to any folder."""
     loaded = config.load(project / "urdfsync.toml")
     (result,) = build(loaded, loaded.robots, options(loaded, trusted=True, **request))
     return result
 
 
 def operations(project: Path, names: Sequence[str]) -> list[Operation]:
-    """Build, and return operations of these names that it consists of: of each kind the first or the last, in turns.
+    """Build, and return the first or the last operation of each kind, in turns, with one of these names.
 
-    All of them if the environment asks for that. Each name must be there, or a test would try nothing.
+    If the environment says so, return all operations of these names. A name without an operation fails the test.
     """
     found: list[Operation] = []
     with before_each(found.append):
@@ -106,14 +106,14 @@ def operations(project: Path, names: Sequence[str]) -> list[Operation]:
 def kill(project: Path, number: int, half: bool = False, earlier: Hook = lambda operation: None) -> None:
     """Build in a process that kills itself before an operation, or with `half` of the content written.
 
-    `earlier` is called before that operation and each one before it. A build that does not come to it fails the test.
+    `earlier` is called before that operation and each one before it. A build without this operation fails the test.
     """
 
     def hook(operation: Operation) -> None:
         earlier(operation)
         if operation.number == number:
             if half and operation.name in WRITES:
-                with operation.paths[0].open("ab") as file:  # only `append` finds one
+                with operation.paths[0].open("ab") as file:  # only `append` finds a file
                     file.write(b'{"robot": "cut sh')
             os.kill(os.getpid(), signal.SIGKILL)
 
@@ -123,12 +123,12 @@ def kill(project: Path, number: int, half: bool = False, earlier: Hook = lambda 
 
 
 def forked(project: Path, hook: Hook, work: Callable[[Path], int] = lambda project: run(project).failed) -> int:
-    """Build, or do other work, in another process, whose number comes back; its exit code is that of the work."""
+    """Build, or do other work, in another process; return the process id. The exit code comes from the work."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # the test runner's threads do not matter to the child
         child = os.fork()
     if child == 0:
-        gc.disable()  # or what the tests have made is copied, to look for garbage in it
+        gc.disable()  # a garbage collection would copy all memory of the tests
         code = 1
         try:
             with before_each(hook):
@@ -139,7 +139,7 @@ def forked(project: Path, hook: Hook, work: Callable[[Path], int] = lambda proje
 
 
 def edited_at_random(project: Path, random: Random) -> None:
-    """Make a project with a robot that was built and edited by hand, and whose source has changed then."""
+    """Make a project with a built robot, an edit by hand, and then a changed source."""
     project.mkdir(parents=True)
     (project / "urdfsync.toml").write_text(CONFIGURATION)
     _export(project, 0, [])
@@ -152,7 +152,7 @@ def edited_at_random(project: Path, random: Random) -> None:
 
 
 def _export(project: Path, mass: float, renamed: Sequence[str]) -> None:
-    """A chain of links, some of which have another name and a sibling more."""
+    """A chain of links, some with another name and a new sibling."""
     names = ["base", *(f"{name}x" if name in renamed else name for name in ("b1", "b2", "b3", "b4", "b5"))]
     elements = [link(name, 1.0 + mass * number) for number, name in enumerate(names)]
     ends = itertools.pairwise(names)
@@ -163,7 +163,7 @@ def _export(project: Path, mass: float, renamed: Sequence[str]) -> None:
 
 
 def copy(project: Path, to: Path) -> Path:
-    """The project at a place where nothing is left of another one."""
+    """Copy the project to an empty place."""
     if to.exists():
         shutil.rmtree(to)
     shutil.copytree(project, to)
@@ -174,18 +174,17 @@ def copy(project: Path, to: Path) -> Path:
 
 
 def bind(file: Path) -> None:
-    """Let a copy of planned hashes be one that was written in its place."""
-    with contextlib.suppress(TypeError, ValueError):  # cut short, or damaged to something else
+    """Make copied planned hashes count as written in their present place."""
+    with contextlib.suppress(TypeError, ValueError):  # cut short, or damaged in another way
         status, text = file.stat(), json.loads(file.read_bytes())
         file.write_text(json.dumps({**text, "inode": status.st_ino, "written_at": status.st_mtime_ns}))
         os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:
-    """All files and folders of a project, but for the lock; folders have no content.
+    """All files and folders of a project except the lock; folders have no content.
 
-    Of the kept bases, those count that the recorded files need: others may be left of an earlier build. So may what
-    files were replaced.
+    Only bases that recorded files need count: an earlier build may have left others, and copies of replaced files.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
     left_out = {".urdfsync/lock", ".urdfsync/bases", ".urdfsync/aside", ".urdfsync/notes"}

@@ -1,4 +1,4 @@
-"""`urdfsync watch` as a process of its own or as a thread of the test, and what it says."""
+"""`urdfsync watch` as a process of its own or as a thread of the test, with its output."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from urdfsync.watch.daemon import Daemon, WatchOptions
 
 REPOSITORY = Path(__file__).parents[2]
 LIMIT = 60.0
-"""Seconds after which something does not happen any more, however busy the machine is."""
+"""Seconds after which a test gives up, on any busy machine."""
 
 QUICK = {"settle": 0.02, "sample": 0.01, "give_up_after": 0.1}
 
 NEVER = 100000.0
-"""Seconds between rescans that no test waits for."""
+"""Seconds between rescans, too long for any test."""
 
 RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
 MODEL = Path("modelica/Ladder/Elements/R2.mo")
@@ -34,11 +34,11 @@ MODEL = Path("modelica/Ladder/Elements/R2.mo")
 Event = Mapping[str, Any]
 ENDED = (events.Built, events.Failed, events.Unchanged)
 ENDS = ("built", "failed", "calm")
-"""What the way of a robot from its first event to its last ends with."""
+"""Events that end the sequence of a robot's events."""
 
 
 def ladder(ohm: float) -> str:
-    """The source of the RC network with another resistance."""
+    """Return the source of the RC network with another resistance."""
     example = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
     return example.read_text().replace("220.5", f"{ohm:g}")
 
@@ -54,7 +54,7 @@ def holds(ohm: float) -> bool:
 
 
 def until(condition: Callable[[], bool], pause: float = 0.01) -> None:
-    """Wait for something that no event tells."""
+    """Wait for a condition of which no event tells."""
     deadline = time.monotonic() + LIMIT
     while not condition():
         assert time.monotonic() < deadline
@@ -62,7 +62,7 @@ def until(condition: Callable[[], bool], pause: float = 0.01) -> None:
 
 
 class Listener:
-    """What a daemon has told."""
+    """The events of a daemon."""
 
     def __init__(self) -> None:
         self.events: list[Any] = []
@@ -75,7 +75,7 @@ class Listener:
             self._news.notify_all()
 
     def until(self, condition: Callable[[], Any]) -> None:
-        """Wait for something that an event comes with."""
+        """Wait for a condition; check it after each event."""
         with self._news:
             assert self._news.wait_for(condition, LIMIT), self.said
 
@@ -91,12 +91,12 @@ class Listener:
 
 
 class Watch(Listener):
-    """A daemon that runs within its context; its events are read from the pipe as they come."""
+    """A daemon that runs inside of a `with` block; a thread reads its events from a pipe."""
 
     def __init__(
         self, folder: Path, *arguments: str, path: Sequence[Path] = (), before: Sequence[str] = (), **environment: str
     ) -> None:
-        """`path` are folders for Python to import from, after the program's own; `before` is a command to start it."""
+        """Python also imports from the folders `path`; `before` is a command that starts the daemon."""
         super().__init__()
         paths = os.pathsep.join(map(str, [REPOSITORY, *path]))
         self._command = [*before, sys.executable, "-m", "urdfsync", "watch", "--format=json", *arguments]
@@ -140,7 +140,7 @@ class Watch(Listener):
         return event
 
     def rest(self, since: int = 0, robots: int = 1) -> None:
-        """Wait until so many robots have come to an end since, and none of them is under way."""
+        """Wait until so many robots have ended since then, and no robot is being built."""
 
         def rests() -> bool:
             about = [(event.get("result", event), event["event"]) for event in self.events[since:]]
@@ -162,7 +162,7 @@ class Watch(Listener):
 
     @property
     def errors(self) -> str:
-        """What the process has written to its error stream."""
+        """The output of the process on its error stream."""
         self._errors.seek(0)
         return self._errors.read().decode()
 
@@ -178,7 +178,7 @@ Start = Callable[..., Watch]
 
 
 class Daemons(Listener):
-    """A daemon in a thread of the test, in its working folder, and what it told: for faults that a test puts in."""
+    """A daemon in a thread of the test, with its events: for faults that a test injects."""
 
     def __init__(self, then: Callable[[Any], object] = lambda event: None, **options: Any) -> None:
         """Wait for the first build. The daemon waits while `then` is called, with each event."""
@@ -205,7 +205,7 @@ class Daemons(Listener):
         return found()
 
     def after(self, act: Callable[[], object], kind: type, wanted: Callable[[Any], bool] = lambda event: True) -> Any:
-        """Do something, and wait for the first event of this kind that is wanted from then on."""
+        """Do something, and wait for the next event of this kind that is wanted."""
         since = self.mark
         act()
         return self.wait(kind, since, wanted)

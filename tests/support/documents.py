@@ -1,4 +1,4 @@
-"""Documents of `--format json` held against the schema of their command, which names each of their keys."""
+"""Documents of `--format json` compared with the schema of their command, which must name all keys."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from urdfsync.commands.schema import document_schema
 
 
 def is_described(document: Any, command: str) -> bool:
-    """Whether a document is as its schema says, and has no key that this does not name. Raises ValidationError."""
+    """Whether a document obeys its schema, and has only keys that the schema names. Raises ValidationError."""
     _validator(command).validate(document)
     return True
 
@@ -24,7 +24,7 @@ def _validator(command: str) -> jsonschema.Draft202012Validator:
 
 
 def _closed(schema: Any) -> Any:
-    """The schema without objects that may have more keys."""
+    """The schema, in which no object may have unnamed keys."""
     if isinstance(schema, list):
         return [_closed(part) for part in schema]
     if not isinstance(schema, dict):

@@ -1,6 +1,6 @@
-"""Random edits of a generated package by hand. Whatever is put in carries a tag that is used once.
+"""Random edits of a generated package by hand. Each added text has a unique tag.
 
-A tag is a word such as `mine000017`, or a number such as `7171.000017`, which stands in the place of another.
+A tag is a word such as `mine000017`, or a number such as `7171.000017` that replaces another number.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ _LAYOUT = re.compile(r"\b(?:Placement|Line)\(")
 _ORDER = "package.order"
 
 Edit = Callable[[Path, Random, str], object]
-"""Does something to a file, or beside it; the text is a number that is used once."""
+"""Edits a file, or adds one beside it; the text is a unique number."""
 LineEdit = Callable[[list[str], Random, str], object]
 
 
 @dataclasses.dataclass(frozen=True)
 class Line:
-    """Where a tag is; the whole line is the user's if `own`, else only the tag in it."""
+    """The line of a tag; if `own`, the whole line is the user's, else only the tag."""
 
     path: str
     text: str
@@ -45,14 +45,14 @@ def tagged(files: Mapping[str, bytes]) -> dict[str, Line]:
 
 
 class Hand:
-    """Somebody who edits a package; `made` counts what was tried, by kind."""
+    """A person who edits a package; `made` counts the tried edits by kind."""
 
     def __init__(self, random: Random) -> None:
         self._random = random
         self.made = collections.Counter[str]()
 
     def edit(self, package: Path) -> None:
-        """Do something to a file of the package."""
+        """Edit a random file of the package."""
         if not (files := sorted(path for path in package.rglob("*.mo") if path.is_file())):
             return
         records = [path for path in files if path.stem.endswith("Parameters")]
@@ -78,7 +78,7 @@ def _in_lines(change: LineEdit) -> Edit:
 
 
 def _insert(*texts: str, before: str = "", after: str = "") -> Edit:
-    """A line of the user's beside one of those that match."""
+    """Add a line of the user's beside a line that matches."""
 
     def change(lines: list[str], random: Random, number: str) -> None:
         neighbours = range(1, len(lines))
@@ -109,7 +109,7 @@ def _delete_line(lines: list[str], random: Random, number: str) -> None:
 
 
 def _move_block(lines: list[str], random: Random, number: str) -> None:
-    """A paragraph goes somewhere else in the file."""
+    """Move a paragraph to another place in the file."""
     blocks = "\n".join(lines).split("\n\n")
     if len(blocks) > 3:
         block = blocks.pop(random.randrange(1, len(blocks) - 1))
@@ -160,4 +160,4 @@ EDITS: Mapping[str, tuple[int, Edit]] = {
     "folder": (1, _folder),
     "no line end": (1, lambda path, *_: path.write_bytes(path.read_bytes().rstrip())),
 }
-"""By kind: how often it is tried, and what is done."""
+"""By kind: the frequency and the edit."""

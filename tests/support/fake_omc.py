@@ -1,7 +1,7 @@
-"""Stands for `omc SCRIPT.mos`: prints an answer to each call of a script, as the compiler does.
+"""Replaces `omc SCRIPT.mos`: prints an answer to each call of a script, as the compiler does.
 
-`answers.json` beside it maps the beginning of a call to what is printed; what is not there is `true` without messages.
-A call that is answered with nothing ends it, with exit code 3. What was asked is added to `asked.txt`.
+`answers.json` beside the program maps the beginning of a call to its answer; other calls give `true` without messages.
+A call with an empty answer ends the program with exit code 3. `asked.txt` lists all calls.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What is below a folder, and that it stays as it is."""
+"""The files below a folder, and a test that they stay unchanged."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from urdfsync import api
 
 
 def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
-    """Time of change and content of every file below a folder, but for notes and saved answers of this machine."""
+    """Time of change and content of every file below a folder, except notes and saved answers of this machine."""
     files = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*")) if path.is_file()}
     files = {
         name: path for name, path in files.items() if not name.startswith((".urdfsync/notes/", ".urdfsync/stamp-"))
@@ -21,7 +21,7 @@ def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
 
 @contextlib.contextmanager
 def unchanged(folder: Path, but: str = "") -> Iterator[None]:
-    """What happens within writes no file below a folder, but for one."""
+    """Assert that the block writes no file below a folder, except one."""
     before = {**snapshot(folder), but: None}
     yield
     after = {**snapshot(folder), but: None}
@@ -34,7 +34,7 @@ def models() -> dict[str, str]:
 
 
 def fresh_models(folder: Path) -> dict[str, str]:
-    """The same as they are built from the source alone, in a copy of the working folder."""
+    """Build only from the source, in a copy of the working folder, and return the models and records."""
     shutil.rmtree(folder, ignore_errors=True)
     left_out = shutil.ignore_patterns(".git", ".urdfsync", "modelica", folder.name)
     with contextlib.chdir(shutil.copytree(Path.cwd(), folder, ignore=left_out)):

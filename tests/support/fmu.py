@@ -1,4 +1,4 @@
-"""FMUs that no compiler has made, what FMPy says of them in these tests, and fixtures of both."""
+"""FMUs that no compiler has made, a stand-in for FMPy, and fixtures of both."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ OPTIONS = SimulateOptions(tool=Tool("omc"))
 
 
 def archive() -> bytes:
-    """An FMU as OpenModelica writes it, but for its code."""
+    """An FMU as OpenModelica writes it, but without code."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as file:
         file.writestr("modelDescription.xml", DESCRIPTION)
@@ -39,7 +39,7 @@ def archive() -> bytes:
 
 @pytest.fixture
 def openmodelica(compiler: Compiler, monkeypatch: pytest.MonkeyPatch) -> Compiler:
-    """A stand-in for OpenModelica that makes an FMU of anything."""
+    """A stand-in for OpenModelica that makes an FMU from any model."""
     monkeypatch.setattr("urdfsync.checks.compilers.find_missing", lambda _: None)
     compiler.results = [CompileResult(fmu=archive(), version="1.27.0")]
     return compiler
@@ -51,7 +51,7 @@ def exported(options: SimulateOptions = OPTIONS) -> Exported:
 
 
 class Fmpy:
-    """In the place of `process.run`: FMPy says this, and the FMU moves like this."""
+    """Replace `process.run`: FMPy has these findings, and the FMU has these series."""
 
     def __init__(self, findings: list[str], **series: dict[str, list[float]]) -> None:
         self.answer: Any = fmu._Examined(findings, series, {"cs": "a step failed"} if findings else {})
@@ -68,7 +68,7 @@ REFERENCE = {"time": (0.0, 0.5, 0.5, 1.0), "elbow_phi": (0.0, 0.25, 0.5, 1.0), "
 
 @pytest.fixture
 def reference(monkeypatch: pytest.MonkeyPatch) -> list[SimulateOptions]:
-    """The options with which `simulate` is asked for the trajectory; at 0.5 s there is an event."""
+    """Replace `simulate`, and return the options of its calls; the trajectory has an event at 0.5 s."""
     asked: list[SimulateOptions] = []
 
     def simulate(_config: object, _robot: object, options: SimulateOptions, _progress: object) -> SimulateResult:

@@ -58,8 +58,7 @@ LADDER = robot(
 
 STONE = robot(link("stone", 2.0))
 ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
-"""Two that have all there is: joints that turn and slide, on a chain and on branches, links behind fixed joints, mimic
-joints in a chain, damping, dry friction and armatures."""
+"""Two robots with all features: turning and sliding joints, branches, fixed and mimic joints, losses, armatures."""
 CLASSES = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot")
 
 _FIXED = "equation connect(world.frame_b, robot.frame_a);"
@@ -73,12 +72,12 @@ _BASE = {
     "v_start": (0.5, -0.3, 0.8),
     "w_start": (0.7, -1.1, 0.6),
 }
-"""How a free base sets out: velocity and angular velocity are resolved in the world."""
+"""The start of a free base: velocity and angular velocity are resolved in the world."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Robot:
-    """A robot in both worlds: its package, and Pinocchio's model of the same file."""
+    """A robot as a package, and as Pinocchio's model of the same file."""
 
     package: Package
     reference: Reference
@@ -90,7 +89,7 @@ class Robot:
 
 
 def strict_generic() -> str:
-    """The generic robot as it is, but passing a limit is an error, which the compiler tells."""
+    """The generic robot, in which a passed limit is an error that the compiler reports."""
     texts = [(URDFSYNC / "Robots" / f"{name}.mo").read_text("utf-8") for name in CLASSES]
     joined = "".join(text.replace("within UrdfSync.Robots;", "") for text in texts)
     joined = re.sub(rf"UrdfSync\.Robots\.({'|'.join(CLASSES)})\b", r"\1", joined)
@@ -115,8 +114,8 @@ def free_task(
 ) -> Task:
     """Free motion on a fixed base or a free one.
 
-    The values are the positions of the driven axes, in the order of `motion.driven_axes`; of a free base also place
-    and rotation matrix of the root link, the latter by rows.
+    The values are the positions of the driven axes, in the order of `motion.driven_axes`. A free base adds the place of
+    the root link and its rotation matrix, by rows.
     """
     name, parts, values = robot.package.target.name, [], []
     for kind, q, v in (("rotational", "phi", "w"), ("translational", "s", "v")):
@@ -138,9 +137,9 @@ def free_task(
 
 
 def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, is_floating: bool = False) -> Array:
-    """What the values of `free_task` are after `stop` s of free motion from positions and speeds of `start`.
+    """Return the values of `free_task` after `stop` s of free motion from positions and speeds of `start`.
 
-    On the way the acceleration is that of (Gᵀ·H·G)·z = -Gᵀ·(C + losses) for base and axes without drives.
+    The acceleration z solves (Gᵀ·H·G)·z = -Gᵀ·(C + losses) for base and axes without drives.
     """
     reference, pin, model = robot.reference, robot.reference.pin, robot.reference.model
     p, speeds, _ = np.array([*start, (0, 0, 0)]).T[:, :-1]
@@ -188,13 +187,13 @@ def forward(reference: Reference, state: Configuration, load: Array) -> Array:
 
 
 def mass_matrix(reference: Reference, q: Array) -> Array:
-    """Of all joints; Pinocchio gives its upper half."""
+    """The inertia matrix of all joints; Pinocchio gives only the upper half."""
     upper = np.triu(reference.pin.crba(reference.model, reference.model.createData(), q))
     return np.asarray(upper + np.triu(upper, 1).T)
 
 
 def link_place(robot: Robot, p: Array, link: str) -> Array:
-    """Where the frame of a link is, the base at the origin."""
+    """The pose of a link's frame, with the base at the origin."""
     pin, model = robot.reference.pin, robot.reference.model
     data = model.createData()
     pin.framesForwardKinematics(model, data, at_rest(robot, p, np.zeros(len(p))).q)

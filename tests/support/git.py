@@ -1,4 +1,4 @@
-"""Git repositories for tests, untouched by whatever the machine has configured."""
+"""Git repositories for tests, which ignore the machine's settings of git."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ class Repository:
         self.git("init", "-q", "--template=", "-b", "main")
 
     def git(self, *arguments: str) -> str:
-        """Run git in the repository; what it prints."""
+        """Run git in the repository; return its output."""
         done = subprocess.run(["git", *arguments], cwd=self.folder, check=True, capture_output=True, text=True)
         return done.stdout
 
     def commit(self, message: str = "next") -> None:
-        """Commit everything that is there."""
+        """Commit all files."""
         self.git("add", "-A")
         self.git("commit", "-q", "--allow-empty", "-m", message)
 
     def merge(self, branch: str) -> None:
-        """Merge a branch; what git can't merge is as it was here, but recorded states it always can."""
+        """Merge a branch; unmerged files keep this side's text. Git must merge recorded states."""
         subprocess.run(["git", "merge", "-q", "--no-edit", branch], cwd=self.folder, capture_output=True)
         for path in self.git("diff", "--name-only", "--diff-filter=U").split():
             assert not path.startswith(".urdfsync/")
             done = subprocess.run(["git", "checkout", "-q", "HEAD", "--", path], cwd=self.folder, capture_output=True)
-            if done.returncode:  # it is deleted here
+            if done.returncode:  # this side has deleted the file
                 (self.folder / path).unlink(missing_ok=True)
 
 

@@ -1,4 +1,4 @@
-"""Edits as people make them in generated models, by kind; `edits` has those of lines, numbers and files."""
+"""Edits as people make them in generated models, by kind; `edits` has edits of lines, numbers and files."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from random import Random
 from support.printer import STYLES, resaved
 
 Edit = Callable[[str, Random], str | None]
-"""A text with one more edit; None where there is nothing of the kind to edit."""
+"""A text with one more edit; None if the text has no place for this kind."""
 
 MARK = "byHand"
-"""Names that are brought in begin with this."""
+"""The beginning of new names."""
 
 _PART = re.compile(r"\n  (?:replaceable )?[A-Z][\w.]* (\w+)(?:\(|\n| constrainedby)")
 _MODIFIER = re.compile(r"(?<=[\n(] )\s*\b(\w+) = ([\w.]+)(?=[,)])")
@@ -21,7 +21,7 @@ _NOTE = "\n  annotation ("
 
 
 def add_component(text: str, _: Random) -> str | None:
-    """A component where everybody puts it: behind all others. A record can have no block, but a number."""
+    """Add a component behind all others, as most people do. A record gets a number, since it can't have a block."""
     is_record = re.search(r"^record ", text, re.MULTILINE) is not None
     added = f"Real {MARK}Source = 3" if is_record else f"Modelica.Blocks.Sources.Constant {MARK}Source(k = 3)"
     new = f'\n  {added}\n    "Added by hand";\n'

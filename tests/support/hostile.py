@@ -1,6 +1,6 @@
-"""Attacks on whoever looks at a stranger's repository: each is a change of a project, committed or not.
+"""Attacks on users of a stranger's repository: each is a change of a project, committed or not.
 
-Code that runs leaves a file in the folder outside, whose files are those that an attack is after.
+Code that runs leaves a file in the folder `outside`; attacks try to change the files in this folder.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ def write_project(project: Path) -> None:
 
 
 def make_stale(project: Path) -> None:
-    """Give the builds something to do."""
+    """Change the sources, so that builds have to write."""
     source = project / "arm.urdf"
     source.write_text(source.read_text().replace('mass value="1.0"', 'mass value="1.5"'))
 
 
 @dataclasses.dataclass(frozen=True)
 class Stranger:
-    """Who attacks a project, with all that an attack is put together from. Paths are below the project."""
+    """The attacker of a project: each method is an attack, or a part of attacks. Paths are below the project."""
 
     project: Path
     outside: Path
@@ -75,11 +75,11 @@ class Stranger:
         self.append("urdfsync.toml", line)
 
     def out(self, name: str = "") -> str:
-        """A path that leads out of the project, as state has it."""
+        """A path that leads out of the project, as a recorded state writes it."""
         return Path(os.path.relpath(self.outside / name, self.project)).as_posix()
 
     def link(self, place: str, target: str) -> None:
-        """A link in the place of a file or folder, to one outside; what was there is at its end."""
+        """Replace a file or folder by a link to a copy outside."""
         path = self.project / place
         if path.is_dir():
             shutil.copytree(path, self.outside / target, dirs_exist_ok=True)
@@ -113,7 +113,7 @@ class Stranger:
         self.write("evil.pth", f"import os; os.mkdir({str(self.outside / 'pth')!r})\n")
 
     def planned(self, path: str) -> None:
-        """Planned hashes of a build that is half way through the change of a file, whose new content is beside it."""
+        """Planned hashes of a build that has stopped before it changed a file, with the new content beside the file."""
         old = _digest((self.project / path).read_bytes()) if (self.project / path).exists() else None
         files = [{"path": path, "old": old, "new": _digest(b"evil")}]
         values = {"robot": "arm", "token": "12", "files": files, "emptied": ["modelica/Other"]}
@@ -122,16 +122,16 @@ class Stranger:
             self.write(f"{Path(path).parent}/.12-0.urdfsync-tmp", b"evil")
 
     def manifest_file(self, path: str) -> None:
-        """A record that has a file as one of urdfsync's, with the right hash, which is no longer generated."""
+        """Record a file with its hash as a generated file, although no build generates it."""
         digest, name = _digest((self.project / path).read_bytes()), os.path.relpath(path, "modelica/Arm")
         self.append(MANIFEST, f"file {digest}  {name}")
 
     def manifest_folder(self, folder: str) -> None:
-        """A record whose package was elsewhere before."""
+        """A record whose package had another folder before."""
         self.edit(MANIFEST, 'folder "modelica/Arm"', f"folder {json.dumps(folder)}")
 
     def show(self, *names: str) -> None:
-        """Let the robot show meshes."""
+        """Give the robot meshes."""
         shapes = "".join(f'<visual><geometry><mesh filename="{name}"/></geometry></visual>' for name in names)
         self.edit("arm.urdf", '<link name="base"/>', f'<link name="base">{shapes}</link>')
 
@@ -147,7 +147,7 @@ class Stranger:
         self.show("pipe.obj", "sparse.stl")
 
     def base_that_is_no_text(self) -> None:
-        """What is no text, kept under the hash that the record has for a file."""
+        """A base that is no text, with the name of a recorded hash."""
         text, name = b"\xff\xfe", Path(RECORD).relative_to("modelica/Arm")
         manifest = (self.project / MANIFEST).read_text()
         self.write(MANIFEST, re.sub(rf"file \w+  {name}", f"file {_digest(text)}  {name}", manifest))
@@ -166,7 +166,7 @@ class Stranger:
         self.write("arm.urdf", f'{head}<link name="${{{expression}}}"/></robot>')
 
     def patterns(self) -> None:
-        """A recorded expansion with patterns that match more than anybody can wait for: each link doubles it."""
+        """A recorded expansion with endless patterns: each link doubles the number of matching files."""
         self.xacro("'base'")
         for name in ("more", "and_more"):
             (self.project / name).symlink_to(".")
@@ -196,7 +196,7 @@ class Stranger:
         self.write("config", f"[core]\nrepositoryformatversion = 0\nbare = false\n{settings}")
 
     def git_files(self) -> None:
-        """Attributes and modules that name programs, which git only runs where its own settings define them."""
+        """Attributes and modules that name programs; git runs only programs that its own settings define."""
         self.write(".gitattributes", "* filter=evil diff=evil merge=evil\n")
         url = f"ext::sh -c 'touch {self.outside}/git'"
         self.write(".gitmodules", f'[submodule "x"]\npath = x\nurl = "{url}"\n')
@@ -211,7 +211,7 @@ _TRUNCATE = (
     "(lambda: [c for c in ().__class__.__base__.__subclasses__() if c.__name__ == '_wrap_close'][0]"
     ".__init__.__globals__['sys'].modules['os'].open('{outside}/victim.mo', 512))()"
 )
-"""An expression that empties a file, inside of a function."""
+"""An expression with a function that empties a file."""
 _STRANGE = urdf().replace('"tip"', '"\x9b31m\u202etip"').replace('"turn"', '"&#x9b;2J\u2028turn"')
 """Names that a terminal would obey: as an 8-bit control sequence, and as text that runs backwards."""
 
@@ -269,7 +269,7 @@ COMMITTED: Mapping[str, Attack] = {
         "expression.off", "list.ply", "accessor.gltf", "corners.obj", "deep.dae"
     ),
 }
-"""Those that git can carry to somebody else."""
+"""The attacks that a clone can contain."""
 LOCAL: Mapping[str, Attack] = {
     "a template that is a FIFO": lambda one: one.fifo(one.template("")),
     "a source that is a FIFO": lambda one: one.fifo("arm.urdf"),
@@ -292,9 +292,9 @@ TOGETHER = (
     *("a drawing that is a link", "an output that is a link", "an output folder outside", "a base that is no text"),
     *("huge numbers", "names for the terminal", "a manifest for the terminal", "attributes of git"),
 )
-"""Those that one project can have at once, without one of them hiding most others."""
+"""The attacks that one project can contain at once, without hiding most others."""
 
 
 def attack(name: str, project: Path, outside: Path) -> None:
-    """Bring an attack into a project."""
+    """Apply an attack to a project."""
     ATTACKS[name](Stranger(project, outside))

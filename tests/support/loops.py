@@ -1,4 +1,4 @@
-"""Robots that are no tree: a four-bar, a five-bar and a slider crank in a vertical plane, and spatial four-bars."""
+"""Robots with loops: a four-bar, a five-bar and a slider crank in a vertical plane, and spatial four-bars."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ RINGS = tuple(Link(name, Inertial(0.05, inertia=Inertia(ixx=1e-4, iyy=1e-4, izz=
 
 
 def ball(parent: str, child: str, x: float, *starts: float) -> tuple[Joint, ...]:
-    """Three joints one after the other, which are a ball joint together."""
+    """Three joints one after the other, which together form a ball joint."""
     ends = (parent, "ring", "ball", child)
     return tuple(
         joint(f"turn_{name}", "continuous", ends[k], ends[k + 1], 0.0 if k else x, axis=axis, start=starts[k])
@@ -138,7 +138,7 @@ ROBOTS = {
 
 
 def to_urdf(robot: Robot) -> str:
-    """The source of a robot, which has no loops and no starts."""
+    """The source of a robot without loops and starts."""
     lines = [f'<robot name="{robot.name}">']
     for link in robot.links:
         lines.append(f'<link name="{link.name}">')
@@ -157,7 +157,7 @@ def to_urdf(robot: Robot) -> str:
 
 
 def to_options(robot: Robot) -> dict[str, Any]:
-    """The options that close the loops of such a source, and say where it starts and what is driven."""
+    """The options for such a source: its loops, its start and its drives."""
     loops = [
         LoopOption(
             loop.name,

@@ -1,4 +1,4 @@
-"""Meshes built by code: a sound one, and those made to do harm, of which none ends in anything but one finding."""
+"""Meshes built by code: a valid mesh, and hostile meshes, each of which must end in one finding."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _sparse(path: Path) -> None:
 
 
 VERTICES = b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"
-LIMITS, DAMAGED, TRIANGLES = "reading it takes more than", "damaged", "more than 1,000,000 triangles"
+LIMITS, DAMAGED, TRIANGLES = "reading the file takes more than", "damaged", "more than 1,000,000 triangles"
 
 HOSTILE: dict[str, tuple[str | bytes | Callable[[Path], str | bytes | None], str]] = {
     "expression.off": ("OFF" + "#" * 60 + "\n", DAMAGED),
@@ -113,7 +113,7 @@ HOSTILE: dict[str, tuple[str | bytes | Callable[[Path], str | bytes | None], str
     "sparse.dae": (_sparse, "more than 100,000,000 bytes"),
     "pipe.obj": (os.mkfifo, "no regular file"),
 }
-"""By name: the content, or what makes it or the file (no process of tests keeps large ones); and what is said of it."""
+"""By name: the content, or a function that makes content or file (large contents are not kept); the finding."""
 
 
 def write_hostile(folder: Path, name: str) -> None:

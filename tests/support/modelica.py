@@ -1,4 +1,4 @@
-"""The embedded compiler for tests: texts with models in, outcomes and series of values out."""
+"""The embedded compiler for tests: takes texts with models, and returns outcomes and series of values."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ Array = NDArray[np.float64]
 
 URDFSYNC = REPOSITORY / "modelica" / "UrdfSync"
 CACHE = UserCache(Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "urdfsync-tests")
-"""Stays from run to run, since the compiler's first look at a library takes seconds; may be deleted."""
+"""The cache lasts from run to run, since the compiler's first look at a library takes seconds. You may delete it."""
 GRAVITY = 9.80665
-"""Of the standard library's world."""
+"""The gravity of the Modelica Standard Library's world, in m/s²."""
 
 _DRIVE = """
   model {domain}Drive "Moves a flange as q = a0 + a1*t + a2*t^2/2"
@@ -55,7 +55,7 @@ class Run:
 
 @dataclasses.dataclass(frozen=True)
 class Task:
-    """A text with a model to compile; then runs, of which the series of `values` come back."""
+    """A text with a model to compile, and runs, which return the series of `values`."""
 
     source: str
     model: str
@@ -67,7 +67,7 @@ class Task:
 
 @dataclasses.dataclass(frozen=True)
 class Series:
-    """What a run gave: an error text, or `times` and a series per value."""
+    """The result of a run: an error text, or `times` and a series per value."""
 
     error: str
     times: Array
@@ -80,7 +80,7 @@ class Series:
 
 @dataclasses.dataclass(frozen=True)
 class Outcome:
-    """What became of a task; a model that is not balanced does not compile, and says so in `error`."""
+    """The result of a task; for a model that does not compile or is not balanced, `error` has the reason."""
 
     error: str
     runs: tuple[Series, ...] = ()
@@ -106,14 +106,14 @@ def bench(
 
 
 def compile_task(model: str, *libraries: str, runs: Sequence[Run] = (), values: Sequence[str] = ()) -> Task:
-    """Compile a model of a package by its full name; `libraries` are what it needs beside those of all packages."""
+    """Compile a model of a package by its full name; `libraries` are further libraries that the model needs."""
     task = compiler.compile_task(model, ("Modelica", "UrdfSync", *libraries))
     return Task(task.source, task.model, runs, values)
 
 
 @functools.cache
 def _trim_once() -> None:
-    """Keep the cache from growing; to look at all of its thousands of files takes half a second."""
+    """Keep the cache from growing; only once, since a look at all files takes half a second."""
     CACHE.trim()
 
 
@@ -122,7 +122,7 @@ def execute(
 ) -> list[Outcome]:
     """Compile and run tasks in a child process, with the standard library, UrdfSync and the folders `packages`.
 
-    A child that dies gives outcomes with its last words as the error.
+    If the child dies, the outcomes have its last output as the error.
     """
     found = modelica_libraries.find_standard_library(library)
     folders, whole, copied = list(packages), [own], dict(found)
@@ -152,16 +152,18 @@ def execute(
 def simulate_all(
     library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC, tool: str = "rumoca"
 ) -> list[Series]:
-    """Execute tasks that compile; returns all their runs, those that came to no end among them."""
+    """Execute tasks that compile; return all their runs, also runs that stopped early."""
     outcomes = execute(library, packages, todo, own, tool)
-    assert [outcome.error for outcome in outcomes] == [""] * len(todo)
+    errors = [outcome.error for outcome in outcomes if outcome.error]
+    assert errors == [], errors  # pytest does not rewrite the assertions of this module
     return [run for outcome in outcomes for run in outcome.runs]
 
 
 def simulate(
     library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC, tool: str = "rumoca"
 ) -> list[Series]:
-    """Execute tasks that compile, and whose runs all come to their end; returns these runs."""
+    """Execute tasks that compile and whose runs all reach their end; return these runs."""
     runs = simulate_all(library, packages, todo, own, tool)
-    assert [run.error for run in runs] == [""] * len(runs)
+    errors = [run.error for run in runs if run.error]
+    assert errors == [], errors
     return runs

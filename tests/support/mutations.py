@@ -22,17 +22,17 @@ Data = dict[str, Any]
 
 
 def recorded(robot: Robot) -> Data:
-    """The robot as it is recorded, with all kinds of elements."""
+    """The recorded form of a robot with all kinds of elements."""
     return {"links": {}, "joints": {}, "sensors": {}, "loops": {}} | as_recorded(robot)
 
 
 def version(random: Random) -> Version:
-    """A robot of up to seven links, with everything that a URDF can say."""
+    """A robot of up to seven links, with elements of all kinds."""
     return Version(as_read(_snapshot(random), Robot), _imports(random))
 
 
 def mutated(old: Version, random: Random, count: int) -> Version:
-    """The version after up to `count` random changes; those that would make it wrong are not made."""
+    """The version after up to `count` random changes, without changes that would make it invalid."""
     snapshot = recorded(old.snapshot)
     found = _imports(random) if random.random() < 0.2 else old.imports
     for _ in range(count):
@@ -48,7 +48,7 @@ def mutated(old: Version, random: Random, count: int) -> Version:
 
 
 def driven_and_passive(random: Random) -> tuple[Version, Version]:
-    """Two versions of a robot of joints that turn freely, some of them driven: not by the same transmissions."""
+    """Two versions of a robot of continuous joints, with different transmissions."""
     old = _snapshot(random)
     for joint in old["joints"].values():
         if random.random() < 0.7:
@@ -64,7 +64,7 @@ def driven_and_passive(random: Random) -> tuple[Version, Version]:
 
 
 def rename(snapshot: Data, part: str, old: str, new: str) -> None:
-    """Give a link or joint a new name, wherever it is mentioned."""
+    """Rename a link or joint, with all references."""
     snapshot[part][new] = snapshot[part].pop(old)
     for joint in snapshot["joints"].values():
         mentions = [(joint, "parent"), (joint, "child")] if part == "links" else [(joint.get("mimic", {}), "joint")]
@@ -99,7 +99,7 @@ def _sensor(snapshot: Data, random: Random) -> Data:
 
 
 def _donor(random: Random) -> Data:
-    """Another robot, from which parts can be taken."""
+    """Another robot, as a source of parts."""
     return _snapshot(Random(random.random()))
 
 
@@ -135,7 +135,7 @@ def _numbers(value: Any) -> list[tuple[Any, Any]]:
 
 
 def _take_over(snapshot: Data, random: Random) -> None:
-    """An element gets, or loses, something that one of another robot has or lacks: a type, limits, inertia, shapes."""
+    """Copy a type, limits, an inertia or shapes from an element of another robot, or remove what that element lacks."""
     part, donor = random.choice(("links", "joints")), _donor(random)
     if snapshot[part] and donor[part]:
         element, other = (random.choice(list(robot[part].values())) for robot in (snapshot, donor))
@@ -145,7 +145,7 @@ def _take_over(snapshot: Data, random: Random) -> None:
 
 
 def _toggle(snapshot: Data, random: Random, key: str = "") -> None:
-    """A joint begins or ceases to follow another, or to be driven."""
+    """A joint starts or stops to follow another joint, or to have a drive."""
     if joints := snapshot["joints"]:
         joint, key = random.choice(list(joints.values())), key or random.choice(("mimic", "mimic", "actuated"))
         mimic = {"joint": random.choice(list(joints)), "multiplier": 2.0, "offset": 0.0}
@@ -172,7 +172,7 @@ def _change_shapes(snapshot: Data, random: Random) -> None:
 
 
 def _change_sensors(snapshot: Data, random: Random) -> None:
-    """A sensor comes, goes, is another one or has another number."""
+    """Add, remove or replace a sensor, or change its number."""
     name = random.choice(("eye", "arm"))
     if name in snapshot["sensors"] and random.random() < 0.5:
         holder, key = random.choice(_numbers(snapshot["sensors"][name]))
@@ -188,7 +188,7 @@ def _rename(snapshot: Data, random: Random) -> None:
 
 
 def _add_leaf(snapshot: Data, random: Random) -> None:
-    """A link and a joint of another robot, which is a leaf here."""
+    """Add a link and a joint of another robot as a leaf."""
     donor = _donor(random)
     for name, joint in donor["joints"].items():
         if name not in snapshot["joints"] and joint["child"] not in snapshot["links"]:

@@ -1,4 +1,4 @@
-"""The RC network of the fixture `project`, which is the working folder: its changes, its builds, and what they did."""
+"""The RC network of the fixture `project`, which is the working folder: its changes, its builds, and their results."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ R1, R2, C1 = (f"{LADDER}/Elements/{name}.mo" for name in ("R1", "R2", "C1"))
 RECORD = f"{LADDER}/Elements/R1Parameters.mo"
 MODEL = f"{LADDER}/Ladder.mo"
 MINE, FRESH = '"Element R2, 1 %"', '"Element R3"'
-"""Of the model, where the fixture `contradictory` edits it, and what the source has in its place."""
+"""The text of the model that the fixture `contradictory` writes, and the generated text in its place."""
 MANIFEST = ".urdfsync/robots/ladder.state"
 BASES = Path(".urdfsync/bases/ladder")
 ROBOT = '[robots.{0}]\nsource = "ladder.json"\npackage = "{1}"\ndomain = "rcnetwork"\n'
 
 
 def edit(path: str | Path, old: str, new: str) -> None:
-    """Replace a text that a file has, wherever it does; line ends stay as they are."""
+    """Replace all occurrences of a text in a file; line ends stay unchanged."""
     text = Path(path).read_bytes().decode()
     assert old in text
     Path(path).write_bytes(text.replace(old, new).encode())
@@ -48,7 +48,7 @@ def resistor(ohm: float, before: float = 100) -> None:
 
 
 def add_resistor(name: str) -> None:
-    """Add one more resistor to the source, between two nodes that are there: a structural change, no rename."""
+    """Add a resistor to the source, between two existing nodes: a structural change, no rename."""
     last = '"farad": 4.7e-6}'
     source(last, f'{last},\n    {{"name": "{name}", "between": ["in", "out"], "ohm": 1}}')
 
@@ -79,7 +79,7 @@ def set_keys(**keys: str) -> None:
 
 
 def make_parent(name: str) -> Path:
-    """Make a package around; its folder."""
+    """Make a package around the robot's package; return its folder."""
     folder = Path("modelica", name)
     folder.mkdir(parents=True)
     (folder / "package.mo").write_text(f"package {name}\nend {name};\n")
@@ -87,7 +87,7 @@ def make_parent(name: str) -> Path:
 
 
 def own_model(declarations: str) -> None:
-    """Let the models of all elements declare something."""
+    """Add a declaration to the models of all elements."""
     template = Path("own/element/model.mo.jinja")
     template.parent.mkdir(parents=True)
     text = (RC_FOLDER / "templates/element/model.mo.jinja").read_text()
@@ -109,7 +109,7 @@ def run(**request: Any) -> Result:
 
 
 def failure(**request: Any) -> str:
-    """Build the robot, which must fail; what is said."""
+    """Build the robot, which must fail; return the messages."""
     (result,) = run_all(**request)
     assert result.failed
     assert exit_code([result]) is Exit.ERROR
@@ -117,13 +117,13 @@ def failure(**request: Any) -> str:
 
 
 def kinds(result: Result) -> dict[str, Reason]:
-    """What happens to each file that does not just stay and does not wait."""
+    """The reason of each action that changes a file and does not wait."""
     actions = (action for action in result.actions if action.reason is not Reason.UNCHANGED and not action.is_waiting)
     return {action.path: action.reason for action in actions}
 
 
 def said(result: Result) -> list[str]:
-    """What a build has to say."""
+    """The messages of a build."""
     return [str(found).replace("\\", "/") for found in result.diagnostics]
 
 
@@ -138,7 +138,7 @@ def mentioned() -> set[str]:
 
 
 def inner_kinds(result: Result) -> dict[str, Reason]:
-    """What `kinds` says, by the path below the package."""
+    """The result of `kinds`, by the path below the package."""
     return {path.removeprefix(f"{LADDER}/"): reason for path, reason in kinds(result).items()}
 
 

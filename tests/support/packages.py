@@ -27,7 +27,7 @@ RENDERER = Renderer([REPOSITORY / "templates" / "urdf"])
 
 @dataclasses.dataclass(frozen=True)
 class Package:
-    """The text files of a generated package by path below its folder, and what they were made from."""
+    """The text files of a generated package by path below its folder, and the inputs of the generator."""
 
     target: Target
     options: Options
@@ -38,7 +38,7 @@ class Package:
     imports: Mapping[str, bytes]
     """Imported meshes by path below the package's folder."""
     facts: Mapping[str, Import]
-    """What is known of them, by their keys."""
+    """The facts about the meshes, by the meshes' keys."""
 
     @property
     def models(self) -> Mapping[str, str]:
@@ -46,7 +46,7 @@ class Package:
         return {path: text for path, text in self.texts.items() if path.endswith(".mo")}
 
     def write(self, root: Path) -> Path:
-        """Write the package below `root`, which stands for the top level of Modelica's names; gives its folder."""
+        """Write the package below `root`, which is the top level of Modelica's names; return the package's folder."""
         folder = root.joinpath(*self.target.package.split("."))
         files = {path: text.encode() for path, text in self.texts.items()} | dict(self.imports)
         for path, content in files.items():
@@ -56,12 +56,12 @@ class Package:
 
 
 def read(content: bytes, file: str = "robot.urdf") -> Reading:
-    """What the domain reads, without the second reader."""
+    """Return the domain's reading of a source, without the second reader."""
     return DOMAIN.read(content, file, Options(allow=get_args(LeftOut)))
 
 
 def proposed_base(content: bytes) -> str:
-    """Stationary or mobile, as `init` proposes it."""
+    """Return the option `base` that `init` proposes."""
     snapshot = read(content).snapshot
     assert snapshot is not None
     return str(next(proposal.value for proposal in DOMAIN.advice.propose(snapshot, ()) if proposal.option == "base"))
@@ -84,7 +84,7 @@ def generate_robot(robot: Robot, target: Target, **options: Any) -> Package:
 
 
 def strict(package: Package) -> Package:
-    """The same package, in which passing a limit is an error and no warning."""
+    """The same package, in which a passed limit is an error, not a warning."""
     warning, error = "AssertionLevel.warning", "AssertionLevel.error"
     assert any(warning in text for text in package.texts.values())
     texts = {path: text.replace(warning, error) for path, text in package.texts.items()}
@@ -144,7 +144,7 @@ def record_text(of: KinematicTree | Robot) -> str:
 
 
 def record_tables(of: KinematicTree | Robot) -> list[str]:
-    """The modifiers of `UrdfSync.Records.Robot` by which it is this robot, name and index matrices left out."""
+    """The modifiers of `UrdfSync.Records.Robot` for this robot, without name and index matrices."""
     found = _EXTENDS.search(record_text(of))
     assert found is not None
     modifiers = [modifier.rstrip().rstrip(",") for modifier in _MODIFIER.split(found[1])[1:]]

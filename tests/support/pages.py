@@ -1,4 +1,4 @@
-"""Pages as their readers have them: words, tags, scripts, and the numbers that the scripts get."""
+"""Pages for tests: words, tags, scripts, and the numbers that the scripts get."""
 
 from __future__ import annotations
 

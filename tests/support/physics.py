@@ -1,4 +1,4 @@
-"""Packages put to the test by their domain's experiment, many in one process of the compiler."""
+"""Runs the experiments of packages, many in one process of the compiler."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ from urdfsync.urdf.options import Options
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """An experiment, and the package that it is done with."""
+    """An experiment, and the package of the experiment."""
 
     experiment: Experiment
     package: Package
 
-    def only(self, trial: str) -> Case:
-        """The same with one simulation, or with none for an empty name."""
-        trials = tuple(each for each in self.experiment.trials if each.name == trial)
+    def only(self, *names: str) -> Case:
+        """The case with only the simulations of these names."""
+        trials = tuple(each for each in self.experiment.trials if each.name in names)
         return Case(msgspec.structs.replace(self.experiment, trials=trials), self.package)
 
     def without(self, *beginnings: str) -> Case:
-        """The same without variables of the probe that begin so: a recorded answer may be older than they are."""
+        """The case without variables of the probe that begin so: a recorded answer may be older."""
         trials = []
         for trial in self.experiment.trials:
             values = tuple(name for name in trial.probe.values if not name.startswith(beginnings))
@@ -43,7 +43,7 @@ class Case:
         return Case(msgspec.structs.replace(self.experiment, trials=tuple(trials)), self.package)
 
     def changed(self, file: str, old: str, new: str) -> Case:
-        """The same with another text in one file."""
+        """The case with another text in one file."""
         text = self.package.texts[file]
         assert old in text, f"{file} has no {old!r}:\n{text}"
         texts = {**self.package.texts, file: text.replace(old, new)}
@@ -65,7 +65,7 @@ def prepare(source: bytes | Path, name: str = "Bot", **options: Any) -> Case:
 def compare(
     library: Path, folder: Path, cases: Sequence[Case], own: Path = URDFSYNC, tool: str = "rumoca", record: str = ""
 ) -> list[tuple[Deviation, ...]]:
-    """Simulate the probes of packages with names of their own, below `folder`: how far each is from the reference.
+    """Simulate the probes of packages, below `folder`, and return the differences of each from the reference.
 
     See `recorded_omc` for `record`, the name of a conversation with OpenModelica.
     """
@@ -92,6 +92,6 @@ def compare(
 
 
 def fault(deviations: Sequence[Deviation]) -> Deviation | None:
-    """The difference that is greatest against its kind, if one is beyond the tolerance."""
+    """The greatest relative difference beyond the tolerance, if there is any."""
     faults = [deviation for deviation in deviations if not deviation.agrees]
     return max(faults, key=lambda each: each.relative, default=None)

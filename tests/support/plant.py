@@ -1,4 +1,4 @@
-"""A package of a crane and models of a user, for what names in them mean."""
+"""A package of a crane and models of a user, for tests of names."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ end User;
 
 
 PLANT, USER = MARKED_PLANT.replace("~", ""), MARKED_USER.replace("~", "")
-"""Without the marks, which stand before each use of a name."""
+"""Return a text without the marks before each use of a name."""
 
 
 def classes_in(*texts: str) -> StoredClasses:
@@ -105,7 +105,7 @@ def classes_in(*texts: str) -> StoredClasses:
 
 
 def library_classes(top: str) -> StoredClasses:
-    """The classes of our library and of the installed ones; skips the test if there is no library `top`."""
+    """The classes of UrdfSync and of the installed libraries; skips the test without the library `top`."""
     places = [REPOSITORY / "modelica", *libraries.library_folders()]
     if libraries.find_library(top, places) is None:
         pytest.skip(f"there is no library {top}")

@@ -1,4 +1,4 @@
-"""A `.mo` file as an editor saves it again: other blanks and line breaks, the same words in the same order."""
+"""A `.mo` file as an editor saves it: with other blanks and line breaks, and the same words in the same order."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from urdfsync.modelica.parser import SECTIONS
 
 @dataclasses.dataclass(frozen=True)
 class Style:
-    """How an editor sets its words."""
+    """The layout of an editor."""
 
     indent: str
     equals: str
     """The sign of a modifier, with its blanks."""
     comma: str
     annotation: str
-    """What begins an annotation, with what stands before it."""
+    """The beginning of an annotation, with the blanks before it."""
     item: str = ""
-    """What stands before each item of an outermost list, after the blanks of a comma."""
+    """The blanks before each item of an outermost list, after the blanks of a comma."""
     between: str = ""
     """A line between declarations."""
     ending: str = "\n"
@@ -35,7 +35,7 @@ STYLES: Mapping[str, Style] = {
 
 
 def resaved(text: str, style: Style) -> str:
-    """The text in a style; comments stay, each with what stands around it."""
+    """The text in a style; comments stay, each with the blanks around it."""
     tokens, _ = lex(text)
     found, depth, place, before = "", 0, 0, ""
     words = [token.text for token in tokens]
@@ -45,7 +45,7 @@ def resaved(text: str, style: Style) -> str:
         if "/*" in gap or "//" in gap:
             found += gap + word
         elif before == "annotation":
-            pass  # its bracket is there already
+            pass  # the bracket is written already
         elif word == "annotation":
             found += f"\n{style.indent}{style.annotation.lstrip()}" if before == ";" else style.annotation
         elif not before or not word:

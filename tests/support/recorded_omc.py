@@ -1,7 +1,7 @@
-"""Conversations with OpenModelica, recorded from a real one and given again where there is none.
+"""Conversations with OpenModelica, which are recorded once, and replayed where OpenModelica is missing.
 
-A folder below `tests/modelica/omc` has what was asked (`script.mos`, without the folders of files), what was answered
-(`stdout`), and the results of the simulations (`task0_0.csv` and so on).
+A folder below `tests/modelica/omc` has the calls (`script.mos`, without the folders of files), the answers (`stdout`),
+and the results of simulations (`task0_0.csv` and so on).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from support.trajectories import write_trajectory
 
 RECORDED = REPOSITORY / "tests/modelica/omc"
 RECORDER = os.environ.get("URDFSYNC_RECORD")
-"""A folder to write conversations to, in tests that have OpenModelica; without it, recorded ones are given again."""
+"""The folder for new conversations, in tests that have OpenModelica; without it, tests replay recorded ones."""
 VERSION = '"v1.27.0-dev-ea251558-rust"\n""\n'
 _PROGRAM = f"#!{sys.executable}\nimport sys\nsys.path.insert(0, {str(REPOSITORY / 'tests')!r})\n"
 _PROGRAM += "from support import recorded_omc\nrecorded_omc.answer({name!r})\n"
@@ -29,7 +29,7 @@ _TEE = '#!/bin/sh\ncp "$1" "{folder}/script.mos"\n"{omc}" "$1" | tee "{folder}/s
 
 
 def install(name: str, folder: Path) -> None:
-    """Write a program `omc` into a folder that answers as was recorded; or one that records what the real one says."""
+    """Write a program `omc` into a folder that replays a conversation, or records a new one."""
     text = _PROGRAM.format(name=name)
     if RECORDER:
         place = Path(RECORDER, name)
@@ -42,7 +42,7 @@ def install(name: str, folder: Path) -> None:
 
 
 def keep(name: str, runs: Sequence[Series]) -> None:
-    """Write the results of the first run of each task beside the conversation that is recorded."""
+    """Write the results of the first run of each task beside the new conversation."""
     place = Path(RECORDER or "", name)
     for number, run in enumerate(runs):
         with (place / f"task{number}_0.csv").open("w", newline="") as file:
@@ -55,7 +55,7 @@ def keep(name: str, runs: Sequence[Series]) -> None:
 
 
 def answer(name: str) -> None:
-    """Stand for `omc SCRIPT.mos`: end with an error unless the script is what was asked when it was recorded."""
+    """Replace `omc SCRIPT.mos`: end with an error unless the script equals the recorded one."""
     script = _without_folders(Path(sys.argv[1]).read_text())
     if script.startswith("getVersion"):
         sys.stdout.write(VERSION)

@@ -1,4 +1,4 @@
-"""Exports in which names mean other parts than before: as exporters do that number their links and joints."""
+"""Exports in which names mean other parts than before, as from exporters that number links and joints."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ BOTH, LINKS, JOINTS = "both", "links", "joints"
 
 
 class Renumbering(NamedTuple):
-    """A source after an export, and the names that its parts have now."""
+    """A source after an export, and the new names of its parts."""
 
     kind: str
     source: bytes
@@ -30,7 +30,7 @@ class Renumbering(NamedTuple):
 
 
 def renumberings(source: bytes, random: Random) -> Iterator[Renumbering]:
-    """Yield exports of each kind: names exchanged, rotated or shifted, a part inserted or removed."""
+    """Yield exports of each kind: exchanged, rotated or shifted names, an added or a removed part."""
     root = etree.fromstring(source, etree.XMLParser(remove_comments=True))
     links, joints, top = _in_order(root)
     first, last = sorted(random.sample(range(len(joints)), 2))
@@ -96,7 +96,7 @@ def _names(which: str, links: Mapping[str, str], joints: Mapping[str, str]) -> d
 
 
 def _rename(root: etree._Element, names: Mapping[tuple[str, str], str | None]) -> etree._Element:
-    """A copy of the model under new names, wherever it mentions them."""
+    """A copy of the model with new names in all places."""
     tree = copy.deepcopy(root)
     for element in tree.iter("link", "joint", "parent", "child", "mimic", "gazebo", "sensor"):
         kinds: dict[str, tuple[str, ...]] = {
@@ -125,7 +125,7 @@ def _renamed(kind: str, root: etree._Element, names: Mapping[tuple[str, str], st
 def _inserted(
     kind: str, root: etree._Element, names: Mapping[tuple[str, str], str | None], link: str, joint: str
 ) -> Renumbering:
-    """A new link before an old one, whose name it gets; its joint gets the name `joint`."""
+    """Insert a link before an old link, under the old link's name; the new joint gets the name `joint`."""
     tree = _rename(root, names)
     moved = names["link", link]
     parent = link
@@ -133,7 +133,7 @@ def _inserted(
         if _end(one, "child") == moved:
             parent = _end(one, "parent")
             _hang(one, link)
-    # at the root the new link leads to the old root, else to the link whose name it has
+    # the new joint leads to the old root, or to the link whose name the new link takes
     ends = (link, moved) if parent == link else (parent, link)
     tree.append(etree.fromstring(NEW_LINK.format(name=link)))
     tree.append(etree.fromstring(NEW_JOINT.format(name=joint, parent=ends[0], child=ends[1])))
@@ -141,7 +141,7 @@ def _inserted(
 
 
 def _can_go(root: etree._Element, link: str, joint: str) -> bool:
-    """Whether nothing but joints mentions a part."""
+    """Whether only joints mention a part."""
     others = [one for one in root.iter() if one.tag not in ("link", "joint", "parent", "child")]
     return not any(
         {link, joint} & set(one.attrib.values()) or (one.text or "").strip() in (link, joint) for one in others
@@ -149,7 +149,7 @@ def _can_go(root: etree._Element, link: str, joint: str) -> bool:
 
 
 def _removed(root: etree._Element, links: list[str], joints: list[str]) -> Renumbering:
-    """The first link and its joint are gone; what hung at it hangs at its parent."""
+    """Remove the first link and its joint; the link's children move to its parent."""
     tree = copy.deepcopy(root)
     (gone,) = (one for one in tree.findall("joint") if one.get("name") == joints[0])
     parent = _end(gone, "parent")

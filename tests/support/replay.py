@@ -1,4 +1,4 @@
-"""Robots that change from version to version, built again and again in a project: what the replays share."""
+"""Code that the replays share: projects that build each version of a changing robot."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from urdfsync.engine.build import build
 from urdfsync.engine.result import Result
 
 ALL = "URDFSYNC_REPLAYS"
-"""Environment variable: so many steps of random edits, and all histories of the corpus."""
+"""Environment variable: a number of steps with random edits; with it, all histories of the corpus are replayed."""
 STEPS = int(os.environ.get(ALL, "0"))
 SEED = int(os.environ.get("URDFSYNC_SEED") or (secrets.randbelow(10**6) if STEPS else 3))
-"""The first of the seeds: another one for each long run, unless one is asked for; a failure names its seed."""
+"""The first seed: a new one for each long run, unless the environment gives one; a failure names its seed."""
 PACKAGE = "modelica/Bot"
 """The package's folder; paths of files count from it."""
 
@@ -52,12 +52,12 @@ def histories() -> Mapping[str, Sequence[bytes]]:
 
 
 def base_of(versions: Sequence[bytes]) -> str:
-    """What `init` proposes for the first of these versions that can be read."""
+    """The option `base` that `init` proposes for the first readable version."""
     return proposed_base(next(version for version in versions if read(version).snapshot is not None))
 
 
 class Project:
-    """A folder with one robot, its configuration and all that a build makes of them."""
+    """A folder with one robot, its configuration and the results of builds."""
 
     def __init__(self, root: Path, base: str = "fixed", *, meshes: bool = False) -> None:
         self.root, self.package, self._meshes = root, root / PACKAGE, meshes
@@ -86,17 +86,17 @@ class Project:
         return contents(self.package)
 
     def state(self) -> Files:
-        """What is recorded of the robot."""
+        """The recorded state of the robot."""
         return contents(self.root / ".urdfsync/robots")
 
     def stamps(self) -> Stamps:
-        """Inode and time of change of each file, but for the lock and the notes of this machine."""
+        """Inode and time of change of each file, except the lock and the notes of this machine."""
         found = ((path.relative_to(self.root).as_posix(), path.stat()) for path in _files(self.root))
         found = ((name, stat) for name, stat in found if not name.startswith((".urdfsync/lock", ".urdfsync/notes/")))
         return {name: (stat.st_ino, stat.st_mtime_ns) for name, stat in found}
 
     def clone(self, root: Path) -> Project:
-        """The project as version control has it: without what `.urdfsync/.gitignore` keeps out."""
+        """The project as git has it: without the files that `.urdfsync/.gitignore` ignores."""
         cloned = object.__new__(Project)
         cloned.__dict__ |= self.__dict__ | {"root": root, "package": root / PACKAGE}
         shutil.copytree(self.root, root)
@@ -107,7 +107,7 @@ class Project:
 
 
 class Fresh:
-    """The package and the state of versions where nothing was built before; both are empty for a version refused."""
+    """Package and state of each version after a first build; both are empty for an invalid version."""
 
     def __init__(self, work: Path, base: str = "fixed", *, meshes: bool = False) -> None:
         self._work, self._base, self._meshes = work, base, meshes
@@ -124,13 +124,13 @@ class Fresh:
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """Content of each file below a folder, but for the notes of this machine, which are its own."""
+    """Content of each file below a folder, except the notes of this machine."""
     files = {path.relative_to(folder).as_posix(): path.read_bytes() for path in _files(folder)}
     return {path: content for path, content in files.items() if ".urdfsync/notes/" not in path}
 
 
 def _put_meshes(root: Path, content: bytes) -> None:
-    """A tetrahedron of its own for each mesh that a robot names, where it looks for it."""
+    """Write a different tetrahedron for each mesh of a robot, where the robot expects the mesh."""
     for scheme, name in set(_MESH.findall(content)):
         path = root / ("ros" if scheme == b"package://" else "") / name.decode()
         if not path.exists():

@@ -1,4 +1,4 @@
-"""Robots as values: small ones from their joints, and random ones, for tests of what holds for every robot."""
+"""Robots as values: small robots from joints, and random robots for property tests."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ from urdfsync.urdf.robot import (
 SCALAR: tuple[JointType, ...] = ("continuous", "revolute", "prismatic")
 TYPES: tuple[JointType, ...] = (*SCALAR, "fixed", "planar", "floating", "ball")
 NAMES = ("arm", "Arm", "ARM", "arm_link", "arm_joint", "wheel", "leg-1", "leg_1", "leg 1", "Links", "m", "x9", "x10")
-"""Of links and of joints: most of them meet others once they are identifiers."""
+"""Names of links and joints, most of which become equal as identifiers."""
 FILES = ("a.stl", "b.stl", "c.dae")
 Number = Callable[[Random], float]
 
 
 def tree(*joints: Joint, links: tuple[Link, ...] = ()) -> KinematicTree:
-    """Joints and their links in canonical order; those of `links` are more than a name."""
+    """Joints and their links in canonical order; links that are not in `links` have only a name."""
     names = {joint.parent: None for joint in joints} | {joint.child: None for joint in joints}
     known = {link.name: link for link in links}
     every = tuple(known.get(name, Link(name)) for name in names) or links
@@ -61,12 +61,12 @@ def assembly(robot: KinematicTree | Robot, **options: Any) -> Assembly:
 
 
 def few(random: Random) -> float:
-    """One of few numbers, so that elements often look the same."""
+    """One of few numbers, so that elements are often equal."""
     return random.choice((0.0, 1.0, 2.0))
 
 
 def any_number(random: Random) -> float:
-    """Any number that is not large; many are zero."""
+    """A number that is not large, and often zero."""
     return random.choice((0.0, random.uniform(-3, 3), random.uniform(-3, 3)))
 
 
@@ -111,7 +111,7 @@ def random_robot(
 
 
 def dressed(robot: Robot, random: Random) -> Robot:
-    """The robot with some of all else that a URDF can say."""
+    """The robot with random further elements of URDF."""
     links = tuple(_dressed_link(random, link) for link in robot.links)
     joints = tuple(msgspec.structs.replace(joint, **_blocks(random, joint)) for joint in robot.joints)
     driven, first = [joint.name for joint in joints if joint.type in MOTION_KINDS], links[0].name
@@ -135,7 +135,7 @@ def _vector(random: Random, number: Number) -> Vector:
 
 
 def _unit(vector: Vector) -> Vector:
-    """The unit vector along a vector; z if it is about zero."""
+    """The unit vector along a vector; z for a vector of about zero."""
     x, y, z = vector
     length = math.hypot(*vector)
     return (0.0, 0.0, 1.0) if length < 1e-3 else (x / length, y / length, z / length)
@@ -160,7 +160,7 @@ def _material(random: Random) -> Material | None:
 
 
 def _blocks(random: Random, joint: Joint) -> dict[str, object]:
-    """Some of what a joint may have."""
+    """Random elements of a joint."""
     blocks = {
         "limit": Limit(-1.0, 1.0, random.choice((None, 2.0))),
         "dynamics": Dynamics(0.0, random.choice((0.0, 0.2)), random.choice((None, None, 0.0, 0.1))),
@@ -174,14 +174,14 @@ def _blocks(random: Random, joint: Joint) -> dict[str, object]:
 
 
 def robot_extensions(robot: Robot) -> list[tuple[str, str, str]]:
-    """Owner, tag and text of all that is not modelled."""
+    """Owner, tag and text of all elements that are not modelled."""
     return [
         (owner, tag, text) for owner, tags in robot.extensions.items() for tag, texts in tags.items() for text in texts
     ]
 
 
 def urdf(robot: Robot) -> str:
-    """A URDF that says all that the robot has; the place of an extension is the end of the robot."""
+    """A URDF with all elements of the robot; extensions are at the end of the robot."""
     links = [_element("link", link) for link in robot.links]
     joints = [_element("joint", joint) for joint in robot.joints]
     extensions = [text for _, _, text in robot_extensions(robot)]
@@ -189,7 +189,7 @@ def urdf(robot: Robot) -> str:
 
 
 _ATTRIBUTES = {"mass": "value", "axis": "xyz", "parent": "link", "child": "link", "rgba": "rgba"}
-"""Fields that are elements with one attribute."""
+"""Fields that URDF writes as elements with one attribute."""
 _TAGS = {"visuals": "visual", "collisions": "collision", "rgba": "color"}
 
 

@@ -1,4 +1,4 @@
-"""Schemas that others publish, from packages that bring them along: a document that breaks one fails a test."""
+"""Published schemas from packages that contain them: a document that violates a schema fails a test."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ class Terminal(io.StringIO):
 
 
 class Screen(Terminal):
-    """Understands line feeds, `ESC [ n A`, `ESC [ 2 K`, colours and whether the cursor is shown; else it is an error.
+    """Understands line feeds, `ESC [ n A`, `ESC [ 2 K`, colours, and codes for the cursor; other codes are errors.
 
     It breaks lines as xterm does, and does not join them again when it gets wider.
     """
@@ -45,7 +45,7 @@ class Screen(Terminal):
         return len(text)
 
     def shown(self) -> list[str]:
-        """All rows from the first one on, without what is empty at the end."""
+        """All rows, without empty rows and blanks at the end."""
         return "\n".join(row.rstrip() for row in self.rows).rstrip("\n").split("\n")
 
     def _obey(self, command: str, number: str) -> None:
@@ -84,7 +84,7 @@ class Screen(Terminal):
 def print_on_terminal(
     command: Sequence[str], variables: Mapping[str, str], size: tuple[int, int] = (80, 24)
 ) -> tuple[int, str]:
-    """Run a program on a terminal of its own, with so many columns and rows; its exit code and all that it wrote."""
+    """Run a program on a terminal of its own, with so many columns and rows; return exit code and output."""
     import fcntl
     import pty
     import termios
@@ -103,5 +103,5 @@ def print_on_terminal(
 def _read(terminal: int) -> bytes:
     try:
         return os.read(terminal, 4096)
-    except OSError:  # nobody has the other end any more
+    except OSError:  # no process has the other end any more
         return b""

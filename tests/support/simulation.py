@@ -1,4 +1,4 @@
-"""A small arm to simulate, and a compiler that only remembers what it is asked; fixtures of them."""
+"""Fixtures: a small arm to simulate, and a compiler that only keeps its jobs."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ ARM = urdfs.robot(
 
 
 class Compiler:
-    """In the place of `compilers.run_job`: gives the same result for each job, and keeps the jobs."""
+    """Replace `compilers.run_job`: return the same result for each job, and keep the jobs."""
 
     def __init__(self) -> None:
         self.jobs: list[CompileJob] = []
@@ -62,7 +62,7 @@ class Compiler:
 
     @property
     def source(self) -> str:
-        """The text that was compiled last."""
+        """The last compiled text."""
         return self.jobs[-1].tasks[0].source
 
 
@@ -79,13 +79,13 @@ def built_arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def arm(built_arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A copy of the project, also the working folder; the compiler keeps what it remembers, and results are new."""
+    """A copy of the project, which is the working folder; the compiler keeps its cache, but no results."""
     folder = tmp_path / "project"
     shutil.copytree(built_arm, folder)
     monkeypatch.chdir(folder)
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: CACHE.folder)
     monkeypatch.setattr(UserCache, "load", lambda *_: None)
-    monkeypatch.setattr(UserCache, "trim", lambda *_: 0)  # of its 10,000 files, a second each time
+    monkeypatch.setattr(UserCache, "trim", lambda *_: 0)  # trimming takes a second for 10,000 files
     return folder
 
 

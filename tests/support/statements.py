@@ -20,9 +20,9 @@ class Statement:
     """One element or equation of a class."""
 
     key: str
-    """A component's name, the ends of a connection, else all that is said."""
+    """A component's name, the ends of a connection, or the whole statement."""
     said: tuple[str, ...]
-    """Its words without those of the layout."""
+    """The words of the statement without its layout."""
     start: int
     stop: int
     """Behind its semicolon."""
@@ -30,7 +30,7 @@ class Statement:
 
 
 def statements(text: str) -> list[Statement]:
-    """The statements between the head and the end of a class that has no others in it."""
+    """The statements between the head and the end of a class without inner classes."""
     tokens, _ = lex(text)
     at = next(number for number, token in enumerate(tokens) if token.text in _HEADS) + 2
     at += tokens[at].text[:1] == '"'
@@ -72,15 +72,15 @@ _STOPS = frozenset("( = [ ; if annotation constrainedby".split())
 
 
 class Editor:
-    """Somebody who edits a file; each word that he adds begins with his name and is used once."""
+    """A person who edits a file; each added word is unique and begins with the person's name."""
 
     def __init__(self, name: str, random: Random, share: int | None = None) -> None:
         self._name, self._random, self._count = name, random, 0
         self._share = share
-        """Of each two statements he changes the first or the second; either if this is None."""
+        """The person changes only the first or only the second of each two statements; None allows both."""
 
     def edit(self, text: str, kind: str) -> str:
-        """Do one thing to the text; nothing if there is nothing to do it to."""
+        """Apply one edit to the text; the text stays if it has no place for the edit."""
         self._count += 1
         tag = f"{self._name}{self._count}"
         if kind in ("component", "connect", "equation"):

@@ -12,7 +12,7 @@ _BARS = dict(zip("abcdefgjklm", (38.0, 41.5, 39.3, 40.1, 55.8, 39.4, 36.7, 50.0,
 
 
 def strandbeest(legs: int = 12, away: float = 0.1) -> Robot:
-    """The mechanism, `away` rad from a closed pose at each joint; pairs of legs are mirror images."""
+    """The mechanism with each joint `away` rad from a closed pose; pairs of legs are mirror images."""
     joints, loops = [Joint("crank", "continuous", "frame", "shaft", axis=(0.0, 0.0, 1.0), actuated=True)], list[Loop]()
     for number in range(legs):
         leg_joints, leg_loops = _leg(str(number), -1 if number % 2 else 1, math.tau * (number // 2) / 3, away)

@@ -1,4 +1,4 @@
-"""Exports that change the tree of a robot: another parent, a link in between, a link less, an exchange, a new name."""
+"""Exports that change the tree of a robot: another parent, an added or removed link, an exchange, a new name."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from support import urdfs
 
 Robot = etree._Element
 Change = Callable[[Robot, Random], bool]
-"""Changes a robot; false where it has nothing to change so."""
+"""Changes a robot; false if the robot has no place for this change."""
 
 
 def changed(content: bytes, kind: str, random: Random) -> bytes | None:
-    """The robot after one change of this kind; None where it has nothing to change so."""
+    """The robot after one change of this kind; None if the robot has no place for it."""
     robot = etree.fromstring(content, etree.XMLParser(recover=True, remove_comments=True))
     return etree.tostring(robot) if CHANGES[kind](robot, random) else None
 
 
 def _move(robot: Robot, random: Random) -> bool:
-    """A joint starts at another link."""
+    """Give a joint another parent."""
     joints = robot.findall("joint")
     pairs = [
         (joint, link.get("name"))
@@ -38,7 +38,7 @@ def _move(robot: Robot, random: Random) -> bool:
 
 
 def _insert(robot: Robot, random: Random) -> bool:
-    """A link and a joint come between a link and its joint."""
+    """Insert a link and a joint between a link and its joint."""
     joints = robot.findall("joint")
     if not joints:
         return False
@@ -55,7 +55,7 @@ def _insert(robot: Robot, random: Random) -> bool:
 
 
 def _remove(robot: Robot, random: Random) -> bool:
-    """A joint and the link behind it go; what hung on that hangs on its parent."""
+    """Remove a joint and its child; the child's children move to its parent."""
     joints = [joint for joint in robot.findall("joint") if not _mentions(robot, joint)]
     if len(joints) < 2:
         return False
@@ -70,7 +70,7 @@ def _remove(robot: Robot, random: Random) -> bool:
 
 
 def _exchange(robot: Robot, random: Random) -> bool:
-    """Two joints exchange the links behind them; of links that weigh the same nobody knows whether they did."""
+    """Exchange the children of two joints, with different masses: otherwise nobody could see the exchange."""
     joints = robot.findall("joint")
     masses = {link.get("name"): str(link.xpath("string(inertial/mass/@value)")) for link in robot.findall("link")}
     pairs = [
@@ -90,7 +90,7 @@ def _exchange(robot: Robot, random: Random) -> bool:
 
 
 def _shuffle(robot: Robot, random: Random) -> bool:
-    """All links and joints stand in another order."""
+    """Write all links and joints in another order."""
     elements = [element for element in robot if element.tag in ("link", "joint")]
     for element in random.sample(elements, len(elements)):
         robot.append(element)
@@ -98,7 +98,7 @@ def _shuffle(robot: Robot, random: Random) -> bool:
 
 
 def _rename(robot: Robot, random: Random) -> bool:
-    """A link has another name."""
+    """Rename a link."""
     link = random.choice(robot.findall("link"))
     old = link.get("name")
     for element in robot.iter():
@@ -142,7 +142,7 @@ def _below(robot: Robot, joint: Robot) -> Iterator[str]:
 
 
 def _mentions(robot: Robot, joint: Robot) -> bool:
-    """Whether anything refers to a joint, or to the link behind it, but for other joints' parents."""
+    """Whether an element refers to a joint or its child, other than as the parent of a joint."""
     text = etree.tostring(copy.deepcopy(robot)).decode()
     behind = sum(_parent(other) == _child(joint) for other in robot.findall("joint"))
     return text.count(f'"{joint.get("name")}"') > 1 or text.count(f'"{_child(joint)}"') > 2 + behind

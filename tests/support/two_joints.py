@@ -1,4 +1,4 @@
-"""A robot with two joints to check, and what a check says of it. The fixture `arm` of `tests/checks` builds it."""
+"""A robot with two joints to check, which the fixture `arm` of `tests/checks` builds, and its findings."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def codes(result: CheckResult) -> list[str]:
 
 
 def lines(result: CheckResult) -> list[str]:
-    """The findings as people read them."""
+    """The findings as lines for people."""
     return [
         f"{one.file.removeprefix('modelica/')}:{one.line}: {one.severity}: {one.message}; {one.hint}"
         for one in result.diagnostics

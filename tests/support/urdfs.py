@@ -1,4 +1,4 @@
-"""Small robots of our own, written as URDF text: one line per element."""
+"""Small robots, written as URDF text: one line per element."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from urdfsync.urdf.robot import Robot
 
 
 def robot(*elements: str, name: str = "own", version: str = "1.0") -> str:
-    """A URDF of links and joints; `version` is that of URDF."""
+    """A URDF of links and joints; `version` is the version of URDF."""
     said = "" if version == "1.0" else f' version="{version}"'
     return "\n".join(['<?xml version="1.0"?>', f'<robot name="{name}"{said}>', *elements, "</robot>", ""])
 
 
 def link(name: str, mass: float | None = None, *, center: str = "0.02 -0.05 0.1", rpy: str = "0.4 -0.3 0.7") -> str:
-    """A link; with a mass, it has a full tensor in an inertial frame that is turned and off-centre."""
+    """A link; a link with mass has a full tensor in a turned, off-centre inertial frame."""
     if mass is None:
         return f'<link name="{name}"/>'
     tensor = {"ixx": 0.021, "iyy": 0.018, "izz": 0.015, "ixy": 0.002, "ixz": -0.001, "iyz": 0.0015}
@@ -41,10 +41,7 @@ def joint(
     axis: str = "",
     inside: Iterable[str] = (),
 ) -> str:
-    """A joint away from its parent and turned against it; `inside` holds further elements.
-
-    A joint that needs limits has wide ones, if `inside` has none.
-    """
+    """A joint, moved and turned against its parent; `inside` has further elements. Default limits are wide."""
     parts = [f'<origin xyz="{xyz}" rpy="{rpy}"/>', f'<parent link="{parent}"/>', f'<child link="{child}"/>']
     if axis:
         parts.append(f'<axis xyz="{axis}"/>')
@@ -81,7 +78,7 @@ def parsed(urdf: str) -> Robot:
 
 
 def version(*elements: str) -> Version:
-    """A robot of elements, as it is compared."""
+    """A robot of elements, as comparisons take it."""
     return Version(parsed(robot(*elements)).by_name())
 
 

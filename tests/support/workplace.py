@@ -1,4 +1,4 @@
-"""A project that commands run in, and all that they must leave alone."""
+"""A project in which commands run, and the files that they must not change."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from urdfsync.engine.result import Exit
 
 CODES = {int(code) for code in Exit}
 WATCHING = 0.4
-"""Seconds for the daemon: it has built by then, or will not."""
+"""Seconds that the daemon gets for its build."""
 TIME_LIMIT = 300.0
-"""Seconds after which a command hangs, however busy the machine is."""
+"""Seconds after which a command counts as hanging, on any busy machine."""
 WATCH = ["watch", "--settle", "1", "--sample", "1", "--patience", "0.1"]
 _LARGE = 100_000_000
 _REPORTS = "urdfsync-*.traceback.txt"
 _CONTROLS = re.compile("[\\x00-\\x1f\\x7f-\\x9f]")
-"""What must not be in the text of a record either, which otherwise has names as they are."""
+"""Control characters, which not even the text of a record may contain."""
 
 Contents = Mapping[str, bytes | str]
 
 
 class Fault(Exception):  # noqa: N818 - what a command did, not what is wrong with it
-    """Something that must not happen has happened."""
+    """A command did something that it must not do."""
 
 
 class Workplace:
@@ -47,12 +47,12 @@ class Workplace:
         self.home, self._temporary = folder / "home", folder / "temporary"
 
     def fill(self, template: Path) -> None:
-        """Make the project a copy of another one, and all else as new."""
+        """Make the project a copy of a template, and reset all other folders."""
         for place in (self.project, self.outside):
             shutil.rmtree(place, ignore_errors=True)
         shutil.copytree(template, self.project, symlinks=True)
         self.home.mkdir(parents=True, exist_ok=True)
-        self._temporary.mkdir(exist_ok=True)  # it stays, since multiprocessing keeps a folder in it
+        self._temporary.mkdir(exist_ok=True)  # the folder stays, since multiprocessing keeps a folder inside
         for report in self._temporary.glob(_REPORTS):
             report.unlink()
         (self.outside / "folder").mkdir(parents=True)
@@ -60,10 +60,10 @@ class Workplace:
         (self.outside / "folder/package.order").write_text("precious\n")
 
     def run(self, command: Sequence[str]) -> tuple[int, str]:
-        """Run a command in the project as its program would; returns exit code and output.
+        """Run a command in the project as its program would; return exit code and output.
 
-        Raises Fault for what `check_output` finds, for an event of this process that must not be, and for a change
-        outside of the project.
+        Raises Fault for findings of `check_output`, for a forbidden event of this process, and for a change outside of
+        the project.
         """
         before, events = self.others(), list[tuple[str, str]]()
         with self._surroundings(), _output() as output, _listening(lambda kind, what: events.append((kind, what))):
@@ -78,20 +78,20 @@ class Workplace:
         return code, said
 
     def others(self) -> Contents:
-        """All around the project that must stay: the home folder but for urdfsync's own cache in it."""
+        """All files around the project that must stay: also the home folder without urdfsync's cache."""
         home = contents(self.home).items()
         mine = {name: content for name, content in home if not f"{name}/".startswith(".cache/urdfsync/")}
         return contents(self.outside) | {name: content for name, content in mine.items() if name != ".cache"}
 
     def is_allowed(self, kind: str, what: str) -> bool:
-        """Whether an event of the audit may be: git and Python start, code is ours, writes are in their places."""
+        """Whether an event is allowed: only git and Python start, no foreign code runs, writes stay in their places."""
         if kind == "start":
             return Path(what).name == "git" or Path(what).resolve() == Path(sys.executable).resolve()
         path = Path(what)
         if kind == "code":  # the sandbox runs templates, whose code has the template's name
             return not path.is_relative_to(self.project) or path.suffix == ".jinja"
-        in_cache = ".cache/urdfsync" in what or path.name == ".cache"  # of the first home that this process knew
-        is_device = path.parent == Path("/dev")  # not below it: folders of tests may be in /dev/shm
+        in_cache = ".cache/urdfsync" in what or path.name == ".cache"  # of the first home folder of this process
+        is_device = path.parent == Path("/dev")  # not below /dev: folders of tests may be in /dev/shm
         places = (self.project, self._temporary)
         return kind == "write" and (in_cache or is_device or any(path.is_relative_to(place) for place in places))
 
@@ -101,7 +101,7 @@ class Workplace:
         with (
             mock.patch.dict(os.environ, home),
             mock.patch.object(tempfile, "tempdir", str(self._temporary)),
-            mock.patch.object(sys, "dont_write_bytecode", new=True),  # else Python writes that of what it loads
+            mock.patch.object(sys, "dont_write_bytecode", new=True),  # else Python writes bytecode
             contextlib.chdir(self.project),
         ):
             yield
@@ -115,7 +115,7 @@ def _call(command: Sequence[str]) -> int:
 
 
 def check_output(command: Sequence[str], code: int, said: str) -> None:
-    """Raise Fault for a traceback, for an exit code that stands for nothing, and for what a terminal obeys."""
+    """Raise Fault for a traceback, for an unknown exit code, and for control characters."""
     shown = _CONTROLS.findall(said) if command[0] == "record" else (c for c in said if not c.isprintable())
     odd = set(shown) - {"\n"}
     if "Traceback (most" in said or ".traceback.txt" in said or odd or code not in CODES:
@@ -133,7 +133,7 @@ def _listening(listener: audit.Listener) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _limited_time() -> Iterator[None]:
-    """Raise Fault in what waits without end, such as for a writer of a FIFO."""
+    """Raise Fault if the block waits without end, such as for a writer of a FIFO."""
 
     def stop(_number: int, _frame: FrameType | None) -> None:
         raise Fault(f"it hangs: {TIME_LIMIT:g} s are over")
@@ -171,16 +171,16 @@ def _terminated_soon() -> Iterator[None]:
 
 @contextlib.contextmanager
 def _output() -> Iterator[io.BytesIO]:
-    """Both streams of a command as one."""
+    """Collect both streams of a command as one."""
     written = io.BytesIO()
     stream = io.TextIOWrapper(written, encoding="utf-8", write_through=True)
     with contextlib.redirect_stdout(stream), contextlib.redirect_stderr(stream):
         yield written
-    stream.detach()  # or it closes what it has written to
+    stream.detach()  # otherwise the stream closes its buffer
 
 
 def contents(folder: Path) -> dict[str, bytes | str]:
-    """What is below a folder, by path: the bytes of a file, where a link leads, of all else its kind."""
+    """All entries below a folder, by path: the bytes of a file, the target of a link, the kind of any other entry."""
     found: dict[str, bytes | str] = {}
     for place, folders, files in os.walk(folder):
         for path in (Path(place, name) for name in (*folders, *files)):

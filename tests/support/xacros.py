@@ -50,7 +50,7 @@ EXPANDED = Path(".urdfsync/robots/arm.expanded")
 
 
 def write(folder: Path, files: dict[str, str] | None = None, config: str = CONFIG) -> None:
-    """Write the project, with other files in the place of its own."""
+    """Write the project; `files` replace files of the project."""
     contents = {"arm.urdf.xacro": ARM, "parts/beam.xacro": BEAM, "masses.yaml": MASSES, **(files or {})}
     for name, text in contents.items():
         place = folder / "urdf" / name
@@ -60,7 +60,7 @@ def write(folder: Path, files: dict[str, str] | None = None, config: str = CONFI
 
 
 def write_line(folder: Path, line: str, **files: str) -> SourceFiles:
-    """Write a source whose second line is this one, with other files beside it."""
+    """Write a source with this second line, and other files beside the source."""
     for name, text in files.items():
         (folder / f"{name}.yaml").write_text(text)
     file = folder / "arm.urdf.xacro"
@@ -69,7 +69,7 @@ def write_line(folder: Path, line: str, **files: str) -> SourceFiles:
 
 
 def problem(inputs: SourceFiles) -> str:
-    """The one error of an expansion."""
+    """The only error of an expansion."""
     with pytest.raises(SourceError) as error:
         expand(inputs, {})
     (found,) = error.value.diagnostics

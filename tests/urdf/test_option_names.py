@@ -42,12 +42,12 @@ def of(option: str, *names: str) -> list[tuple[str, Severity, str]]:
 
 @pytest.mark.parametrize(("option", "name", "words"), [
     ("frames", "base_link", "link; did you mean `base`?"),
-    ("frames", "lift", "link; correct its name, or take it out"),
+    ("frames", "lift", "link; correct the name, or remove it from the option"),
     ("driven", "wheels", f"{DRIVEN}; did you mean `wheel`?"),
-    ("driven", "lift", f"{DRIVEN}; correct its name, or take it out"),
-    ("driven", "glide", f"{DRIVEN}; correct its name, or take it out"),
-    ("driven", "fly", f"{DRIVEN}; correct its name, or take it out"),
-    ("driven", "plate", f"{DRIVEN}; correct its name, or take it out"),
+    ("driven", "lift", f"{DRIVEN}; correct the name, or remove it from the option"),
+    ("driven", "glide", f"{DRIVEN}; correct the name, or remove it from the option"),
+    ("driven", "fly", f"{DRIVEN}; correct the name, or remove it from the option"),
+    ("driven", "plate", f"{DRIVEN}; correct the name, or remove it from the option"),
 ])  # fmt: skip
 def test_a_name_that_an_option_can_not_have(option: str, name: str, words: str) -> None:
     code = "frame-of-no-link" if option == "frames" else "drive-of-no-joint"
@@ -60,7 +60,7 @@ def test_a_name_that_an_option_can_not_have(option: str, name: str, words: str) 
 def test_a_name_that_stands_there_twice(option: str) -> None:
     """The package is right all the same; a name that is wrong as well is told so once."""
     once, twice = ("tyre", "mast") if option == "frames" else ("caster", "wheel")
-    words = "more than once; take one out, or correct its name [name-repeated]"
+    words = "more than once; remove one, or correct the name [name-repeated]"
     assert of(option, twice, once, twice) == [(option, Severity.WARNING, f"`{option}` names `{twice}` {words}")]
     wrong = of(option, "gone", "gone")
     assert [severity for _, severity, _ in wrong] == [Severity.WARNING, Severity.ERROR]
@@ -107,7 +107,7 @@ def test_start_positions_are_of_joints_with_an_axis_and_inside_of_their_limits()
 def test_passive_joints_are_a_note_unless_the_option_says_what_is_driven() -> None:
     note = (
         "Run and Test do not drive `caster`: no transmission, no ros2_control and no limit; "
-        "if that is wrong, list all joints to drive in `driven` [passive-joints]"
+        "to drive other joints, list all driven joints in `driven` [passive-joints]"
     )
     assert found(WITH_DRIVE) == [("driven", Severity.NOTE, note)]
     assert found(WITH_DRIVE, driven=("wheel",)) == []

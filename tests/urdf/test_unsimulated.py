@@ -76,24 +76,24 @@ WRIST = urdfs.robot(
 )
 """One of two motors has a rotor, which moves with both joints."""
 NOTHING = (
-    "moves no inertia about its axis, or only one that is behind another joint on the same axis, so the generic "
-    "robot can move it by position only; give the link right behind it an <inertial>, or make it a fixed joint"
+    "moves no inertia about its axis, or only inertia behind another joint on the same axis, so the generic "
+    "robot can move it by position only; give the child link of the joint an <inertial>, or make the joint fixed"
 )
 WARNINGS = [
     (PLANAR, RECORD, "6: warning: joint 'glide' is planar; the generic robot has no such joints, so the record has "
-     "no tables; write it as two prismatic joints and a continuous one, or use the package approach"),
+     "no tables; write two prismatic joints and a continuous one, or use the package approach"),
     (PLANAR, BOTH, "6: warning: joint 'glide' is planar; the generic robot has no such joints"),
     (FREE_INSIDE, RECORD, "6: warning: joint 'drift' is floating; the generic robot has no such joints, so the record "
-     "has no tables; write it as three prismatic joints and three continuous ones, or use the package approach; if the "
+     "has no tables; write three prismatic joints and three continuous ones, or use the package approach; if the "
      "root link has no other joint, remove both and set `base = \"floating\"` in a project"),
     (PLANAR.replace("planar", "ball"), RECORD, "6: warning: joint 'glide' is ball; the generic robot has no such "
-     "joints, so the record has no tables; write it as three continuous joints, or use the package approach"),
+     "joints, so the record has no tables; write three continuous joints, or use the package approach"),
     (LIGHT, RECORD, f"11: warning: joint 'twist' {NOTHING} [moves-no-mass]"),
     (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
      "only; give the links an <inertial> [moves-no-mass]"),
-    (WRIST, RECORD, "7: warning: the motor of joint 'roll' moves another joint, too, but in the record its rotor does "
-     "not; generate a package for it [shared-rotor-not-in-record]"),
+    (WRIST, RECORD, "7: warning: the motor of joint 'roll' also moves another joint, but in the record the motor's "
+     "rotor does not; generate a package for the robot [shared-rotor-not-in-record]"),
 ]  # fmt: skip
 
 
@@ -141,8 +141,8 @@ def test_a_caster_without_a_mass_is_named_with_its_line_and_what_to_do() -> None
     assert found.severity is Severity.WARNING
     assert str(found) == (
         "own.urdf:7: warning: joint 'caster' is not driven and moves no mass at its start, so nothing determines "
-        "its motion in Run and Test; give a link behind it an <inertial>, drive it (`driven`), or make it a fixed "
-        "joint [passive-moves-no-mass]"
+        "its motion in Run and Test; give a link behind the joint an <inertial>, drive the joint "
+        "(`driven`), or make it fixed [passive-moves-no-mass]"
     )
 
 

@@ -1,7 +1,7 @@
 """The check after a build: syntax, layout, compiling and balance of the package on disk.
 
-A right package is not checked again until an input of the check changes: a check takes 10 s for an arm. A wrong package
-is checked again after each build: a second build must not make it look right.
+A package without faults is not checked again until an input of the check changes: a check takes 10 s for an arm. A
+faulty package is checked again after each build: a second build must not hide its faults.
 """
 
 from __future__ import annotations
@@ -42,11 +42,11 @@ class BuildChecker:
         )
 
     def key(self, robot: RobotConfig) -> str | None:
-        """Return the fingerprint of all inputs of a robot's check; None if one can't be read."""
+        """Return the fingerprint of all inputs of a robot's check; None if an input can't be read."""
         return fingerprint(self._config, robot, self._options)
 
     def find_earlier(self, key: str | None) -> BuildCheck | None:
-        """Return an earlier check with this key, with only its findings about the machine; None if there is none."""
+        """Return an earlier check with this key, without findings about the robot; None if there is no such check."""
         result = None if self._options.fresh or key is None else UserCache.default().load(key, CheckResult)
         if result is None:
             return None
@@ -54,18 +54,18 @@ class BuildChecker:
         return BuildCheck(check.checked, tuple(filter(is_general, check.diagnostics)))
 
     def check(self, robots: Sequence[RobotConfig], tell: Progress) -> Iterator[BuildCheck]:
-        """Check packages, in the order of `robots`, unless an earlier check is known.
+        """Yield a check of each robot's package, in their order; an earlier check is reused.
 
         Faults of a package, or of its check, come back as diagnostics.
         """
         earlier = {robot.name: self.find_earlier(self.key(robot)) for robot in robots}
         unknown = [robot for robot in robots if earlier[robot.name] is None]
         results = run.check_robots(self._config, unknown, self._options, tell)
-        trouble: BuildCheck | None = None  # if set, no other robot is checked
+        trouble: BuildCheck | None = None  # the failure that ended all checks
         for robot in robots:
             try:
                 yield earlier[robot.name] or trouble or _judge(next(results))
-            except Exception as error:  # noqa: BLE001 - the builds are reported all the same
+            except Exception as error:  # noqa: BLE001 - the results of builds are shown in any case
                 trouble = BuildCheck(Checked.WRONG, findings_of(error))
                 yield trouble
 
@@ -95,12 +95,12 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
             count += 1
             yield result
     except (KeyboardInterrupt, Exception):
-        yield from built[count:]  # they are built, even if their checks failed
+        yield from built[count:]  # the robots are built, even if their checks failed
         raise
 
 
 def is_general(finding: Diagnostic) -> bool:
-    """Whether a finding is about this machine, and not about one robot."""
+    """Whether a finding concerns this machine, and not a single robot."""
     return not finding.file and finding.severity is not Severity.ERROR
 
 

@@ -1,7 +1,4 @@
-"""The user's cache folder: copies of libraries, the compiler's own cache, results.
-
-Everything in it can be made again. Entries that were used longest ago are deleted first.
-"""
+"""The user's cache folder: copies of libraries, the compiler's own cache, results; all can be made again."""
 
 from __future__ import annotations
 
@@ -26,9 +23,9 @@ T = TypeVar("T")
 
 LIMIT = 2**30
 """The most bytes on disk that the cache takes: 1 GiB."""
-_FULL, _AFTER = 0.75, 0.5  # parts of the limit: a cache fuller than the first is emptied to the second
+_FULL, _AFTER = 0.75, 0.5  # parts of the limit: a cache above 75 % is emptied to 50 %
 _IN_USE = 3600.0
-"""A check may still use a copy of a library that was used within so many seconds."""
+"""Seconds for which a used copy of a library is kept: a check may still read it."""
 
 _ACCESS = ".rumoca-access"  # suffix of the file in which the compiler notes the last use of another file
 
@@ -43,7 +40,7 @@ def digest(*facts: object) -> str:
 
 
 class UserCache:
-    """The cache in a folder, which need not exist; `UserCache.default` is this user's."""
+    """The cache in a folder, which need not exist; `UserCache.default` returns the user's own."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.libraries = folder, folder / "libraries"
@@ -55,15 +52,15 @@ class UserCache:
         return cls(platformdirs.user_cache_path("urdfsync", appauthor=False))
 
     def prepare(self) -> None:
-        """Make the folder. Raises CacheError if it can't be made."""
+        """Make the folder. Raises CacheError if the folder can't be made."""
         with cache_errors(self.folder):
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
 
     def load(self, key: str, kind: type[T]) -> T | None:
-        """Return the value that was saved with this key; None if there is none or it can't be read."""
+        """Return the value that was saved with this key; None without a readable one."""
         file = self.results / key
         try:
-            os.utime(file)  # note its last use
+            os.utime(file)  # note the last use of the result
             return msgspec.msgpack.decode(file.read_bytes(), type=kind)
         except (OSError, ValueError):
             return None
@@ -78,9 +75,9 @@ class UserCache:
             put(self.results / key, msgspec.msgpack.encode(value))  # JSON has no infinite numbers
 
     def trim(self, limit: int = LIMIT) -> int:
-        """Delete entries that were used longest ago, if the cache comes near the limit. Returns the freed bytes.
+        """Delete the least recently used entries, if the cache comes near the limit. Returns the freed bytes.
 
-        Copies of libraries that a check may use stay. So do entries that can't be deleted now.
+        Keeps copies of libraries that a check may use, and entries that can't be deleted now.
         """
         entries = sorted(self._entries())
         total, freed, now = sum(size for _, _, size in entries), 0, time.time()
@@ -89,30 +86,30 @@ class UserCache:
             in_use = path.parent == self.libraries and now - used < _IN_USE
             if total - freed <= _AFTER * limit or in_use:
                 continue
-            with contextlib.suppress(OSError):  # links themselves, not their targets
+            with contextlib.suppress(OSError):  # deletes links, not their targets
                 if path.is_symlink() or not path.is_dir():
                     path.unlink()
                 else:
-                    aside = path.with_name(f"old-{uuid.uuid4().hex}")  # no process may find half of it
+                    aside = path.with_name(f"old-{uuid.uuid4().hex}")  # no process may find half of the entry
                     path.rename(aside)
                     shutil.rmtree(aside, ignore_errors=True)
                 freed += size
         return freed
 
     def _entries(self) -> Iterator[tuple[float, str, int]]:
-        """Yield each entry that is deleted as a whole: the time of its last use, its path, its bytes on disk.
+        """Yield the last use, the path and the bytes on disk of each entry, which can only be deleted as a whole.
 
-        Entries are the files and folders in our folders, and each file of the compiler except its locks.
+        Entries are the files and folders in urdfsync's folders, and each file of the compiler except its locks.
         """
         for folder in (self.libraries, self.results, self.compiler):
             if folder.is_symlink():
                 continue
-            for current, folders, files in os.walk(folder):  # ignores deleted folders: other processes trim, too
+            for current, folders, files in os.walk(folder):  # `walk` ignores deleted folders: other processes trim, too
                 if folder == self.compiler:
                     names = [name for name in files if not name.startswith(".")]
                 else:
                     names, folders[:] = [*files, *folders], []
-                found = dict[str, os.stat_result]()  # one stat for each: the compiler leaves tens of thousands
+                found = dict[str, os.stat_result]()  # one stat a file: the compiler leaves tens of thousands of files
                 for name in names:
                     with contextlib.suppress(OSError):  # it was deleted
                         found[name] = os.lstat(f"{current}/{name}")
@@ -135,7 +132,7 @@ def cache_errors(folder: Path) -> Iterator[None]:
 
 
 def _bytes_on_disk(path: str, status: os.stat_result) -> int:
-    """Return the bytes on disk of a file, or of a folder with all below it. Raises OSError if it was deleted."""
+    """Return the bytes on disk of a file, or of a folder with all below it. Raises OSError after its deletion."""
     inside = [status]
     if stat.S_ISDIR(status.st_mode):
         inside += [below.lstat() for below in Path(path).rglob("*")]

@@ -1,4 +1,4 @@
-"""Compiles and simulates versions of one robot's package, each a copy in a folder where the compiler finds it."""
+"""Compiles and simulates versions of one robot's package; each version is a copy in a folder of its own."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _SAME_TIME = 1e-7  # s
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 
 _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
-"""The texts of a version of the package, and its tasks."""
+"""The texts of a version of the package, and the tasks for this version."""
 
 
 class Compilation:
@@ -85,18 +85,18 @@ class Compilation:
         self.diagnostics: list[Diagnostic] = []
         self.gaps: list[str] = []
         self.generated: Mapping[str, Series] = {}
-        """The simulations of the generated package by the names of trials, completed for the comparison."""
+        """The simulations of the generated package with completed data, by the names of trials."""
         self.edited: Mapping[str, Series] = {}
-        """The simulations of the package on disk, if it is edited."""
+        """The simulations of the package on disk, if files in it are edited."""
 
     def run(self, experiment: Experiment | None) -> None:
-        """Compile the package, and compare it in an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
-        # with an experiment, other versions of the package are compiled at the same time: no need to divide its models
+        """Compile the package, and run the experiment: this takes 20 s for a six-axis arm, minutes for a humanoid."""
+        # an experiment compiles several versions of the package at the same time, so the models need no division
         models = self._model_jobs(1 if experiment else max(1, min(self._processes, len(self._package.models))))
         done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
         failing = {task.title for label, job in models.items() for task in _failing(job, done[label])}
         alone = [part for part, whole in self._parts.items() if whole in failing]
-        if alone:  # the fault may lie in the part
+        if alone:  # the fault may lie in the component
             models["parts"] = self._package.files.texts, self._tasks(alone)
             done |= self._run_all({"parts": models["parts"]})
         self._note_models(models, done)
@@ -104,7 +104,7 @@ class Compilation:
             self._compare(experiment, done)
 
     def _versions(self, experiment: Experiment) -> dict[str, _Job]:
-        """Return jobs that move the generated package and the edited one, and each edit of the user by itself."""
+        """Return jobs that simulate the generated package, the edited one, and packages with one edit each."""
         package = self._package
         move = [_task(trial) for trial in experiment.trials]
         amended = experiment.content, experiment.options
@@ -147,7 +147,7 @@ class Compilation:
         alone = {file: self._motions(done[file], trials)[0] for file in package.edits if file in done}
         single = {file: compare_all(trials[:1], motions, without_edits) for file, motions in alone.items() if motions}
         whole = compare_all(trials[:1], self.edited, without_edits)
-        # changes in the other trials follow from these, unless a file has no effect in the first trial
+        # later trials repeat changes of the first trial; they count for files without an effect in the first
         others = compare_all(trials[1:], self.edited, without_edits)
         changes = tuple(deviation for deviation in others if not deviation.agrees)
         self.result.effects = tuple(
@@ -156,7 +156,7 @@ class Compilation:
         )
 
     def _laws(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> Sequence[Deviation]:
-        """Return the differences of laws that no other trial moves. A failed simulation is a gap."""
+        """Return the deviations from laws that the other trials do not exercise. A failed simulation is a gap."""
         if not experiment.laws:
             return ()
         motions, faults = self._motions(done["laws"], [experiment.laws])
@@ -181,9 +181,9 @@ class Compilation:
 
     @cached_property
     def _parts(self) -> Mapping[str, str]:
-        """For each model that compiles as a component of another one: the other model, which is unedited. Both by name.
+        """For the name of each model that an unedited model has as a component: the name of the unedited model.
 
-        A six-axis arm alone takes as long to compile as Test, which contains it.
+        Compiling a six-axis arm alone takes as long as compiling Test, which contains the arm.
         """
         package, parts = self._package, dict[str, str]()
         for model in package.models:
@@ -197,7 +197,7 @@ class Compilation:
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Record the models that were compiled by themselves."""
         compiled, files, users = list[CompiledModel](), self._package.files, self._users
-        failing: dict[str, list[Diagnostic]] = {}  # of the user's models
+        failing: dict[str, list[Diagnostic]] = {}  # findings by the names of the user's models
         for label, (_, tasks) in jobs.items():
             is_users = label == _USERS
             for task, answer in zip(tasks, done[label], strict=False):
@@ -221,7 +221,7 @@ class Compilation:
         self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
         parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
         for model, faults in failing.items():
-            if users.files[model] not in parts:  # else it has compiled as a part of another model
+            if users.files[model] not in parts:  # else it has compiled as a component of another model
                 self.diagnostics += map(_as_part, faults)
                 self.result.failing += (model,)
 
@@ -230,14 +230,14 @@ class Compilation:
             self.result.tool = f"{self._compiler.TITLE} {answer.version}"
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
-        """Run jobs, some at the same time. A job in which the compiler breaks down has no results."""
+        """Run jobs, some of them at the same time. A job in which the compiler breaks down has no results."""
         done: dict[str, list[CompileResult]] = {}
         with ThreadPoolExecutor(self._processes) as pool:
             futures = {label: pool.submit(self._run, label, *job) for label, job in jobs.items()}
             for label, future in futures.items():
                 try:
                     done[label] = future.result()
-                except Exception as error:  # noqa: BLE001 - of one job
+                except Exception as error:  # noqa: BLE001 - only this job fails
                     done[label], faults = [], findings_of(error)
                     if label == _USERS:  # the package itself may be sound
                         self.gaps.append(f"your models were not compiled: {faults[0].sentence}")
@@ -291,8 +291,8 @@ def _task(trial: Trial) -> CompileTask:
 
 
 def _as_part(finding: Diagnostic) -> Diagnostic:
-    """Turn an error of a user's model into a warning: the model may be a part of others."""
-    hint = "; ".join(filter(None, (finding.hint, "a part of other models need not compile by itself")))
+    """Turn an error of a user's model into a warning: the model may be a component of other models."""
+    hint = "; ".join(filter(None, (finding.hint, "a component of other models need not compile by itself")))
     return msgspec.structs.replace(finding, severity=Severity.WARNING, hint=hint)
 
 
@@ -309,7 +309,7 @@ def compare_all(
 
 
 def compare(compared: Iterable[Compared], series: Series, expected: Series) -> tuple[Deviation, ...]:
-    """Return the differences from the expected values, at the instants; infinite if a number is missing."""
+    """Return the differences from the expected values at each compared instant; infinite if a number is missing."""
     deviations: list[Deviation] = []
     for quantity in compared:
         places = [(name, instant) for name in quantity.values for instant in quantity.instants]
@@ -334,7 +334,7 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
 
 
 def curves(trial: Trial, series: Series) -> Iterator[Curve]:
-    """Yield the curves to draw, each beside the expected one."""
+    """Yield the curves to draw, each beside its expected curve."""
     for each in trial.over_time:
         values, expected = (
             tuple(tuple(_number(numbers, name, time) for time in each.instants) for name in each.values)
@@ -358,7 +358,7 @@ def edit_effects(
 ) -> Iterator[EditEffect]:
     """Yield the effect of each edited file by itself, if possible; the other files share the remaining effect.
 
-    Deviations are from the generated package: `whole` of the package on disk, `single` of packages with one edit each.
+    `whole` has the deviations of the package on disk from the generated one, `single` those of packages with one edit.
     """
 
     def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:
@@ -377,7 +377,7 @@ def edit_effects(
 
 
 def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path | None = None) -> list[Diagnostic]:
-    """Return findings for a compiler's text about a model, with the user's files in place of the copies.
+    """Return the findings in a compiler's text about a model; they name the user's files, not the copies.
 
     `file` is the file of a user's model.
     """
@@ -385,7 +385,7 @@ def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path 
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)
-        # without the model's name: the models around it lack as many equations, and the message is shown once
+        # without the model's name: the models that contain it lack as many equations, and the message is shown once
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
         return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
@@ -398,7 +398,7 @@ def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path 
 
 
 def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
-    """Return warnings for a compiler's text about a model that compiles; only those about files of the package."""
+    """Return the warnings in a compiler's text about a model that compiles; only those about files of the package."""
     complaints = dict.fromkeys(compiler.complaints(text))
     own = [complaint for complaint in complaints if Path(complaint.file).is_relative_to(package.folder)]
     findings = [_diagnostic(complaint, package, complaint.code) for complaint in own]
@@ -406,7 +406,7 @@ def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> li
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:
-    """Return the finding of a complaint. If the compiler gives no place, the edited file is the likely one."""
+    """Return a compiler's complaint as a finding. If the compiler gives no place, the edited file is likely."""
     file, message = Path(complaint.file), complaint.message.removesuffix(".")
     message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
     edited = [shown(package.folder / path) for path in sorted(package.edited)]

@@ -1,6 +1,6 @@
 """The contents of packages, libraries and programs: read, copied for compilers, hashed for the keys of results.
 
-A library may be a stranger's. So links out of it or to folders are refused, and a copy has a limit.
+A library may be a stranger's. So links to folders or out of the library are refused, and a copy has a limit.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ _BLOCK = 4096
 def content_hash(root: Path, without: Collection[str] = ()) -> str:
     """Return the SHA-256 (hex) over a file, or over the names and contents of all files below a folder.
 
-    Left out are hidden files, Python's caches, and files and folders with one of the names `without`. An unreadable
-    file counts as empty: a compiler can't read it either. Raises UrdfsyncError for a symbolic link to a folder,
-    or to a file outside of `root`.
+    Ignores hidden files, Python's caches, and files and folders with one of the names `without`. An unreadable file
+    counts as empty: no compiler can read it. Raises UrdfsyncError for a symbolic link to a folder, or to a file outside
+    of `root`.
     """
     # strings take half the time of paths: a library has 3,000 files
     top, files, hashed = os.path.realpath(root), list[str](), hashlib.sha256()
@@ -60,7 +60,7 @@ def _refuse_bad_link(top: str, link: str) -> None:
     elif os.path.isdir(target):  # noqa: PTH112
         problem = "the link leads to a folder"
     if problem:
-        raise _refusal(Path(link), problem, "replace it by the files themselves")
+        raise _refusal(Path(link), problem, "replace the link by the files themselves")
 
 
 def copy_library(root: Path, target: Path) -> None:
@@ -81,7 +81,7 @@ def copy_library(root: Path, target: Path) -> None:
         size += max(_BLOCK, os.stat(source).st_size)  # noqa: PTH116
         if size > MOST_BYTES:
             message = f"the library takes more than {MOST_BYTES // 2**20} MB, and has to be copied for the compiler"
-            raise _refusal(root, message, "take large resources out of it")
+            raise _refusal(root, message, "take large resources out of the library")
         return shutil.copyfile(source, place)
 
     if root.is_dir():
@@ -95,7 +95,7 @@ def _refusal(path: Path, message: str, hint: str) -> UrdfsyncError:
 
 
 def package_texts(folder: Path, top: Path | None = None, without: Collection[Path] = ()) -> dict[str, bytes]:
-    """Read the Modelica files of a package and its subpackages, by their path below `top`, or below `folder` for None.
+    """Read the Modelica files of a package and its subpackages, by their path below `top`, by default `folder`.
 
     Folders in `without` are left out. Only regular files and links to them count: a pipe must not be opened, and links
     to folders may go in circles. Raises OutputError for a file or a folder that can't be read.
@@ -107,7 +107,7 @@ def package_texts(folder: Path, top: Path | None = None, without: Collection[Pat
             folders[:] = [name for name in visible if Path(place, name) not in without]
             for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # left by editors
                 if (path.suffix == ".mo" or path.name == "package.order") and path.is_file():
-                    with contextlib.suppress(FileNotFoundError):  # it was deleted meanwhile
+                    with contextlib.suppress(FileNotFoundError):  # the file was deleted meanwhile
                         texts[path.relative_to(top or folder).as_posix()] = read_unrecorded(path)
     except OSError as error:
         message = f"the package can't be read: {error.strerror or error}"

@@ -1,4 +1,4 @@
-"""Comparisons of a package with an independent reference, as values, and the questions of `check` to a domain."""
+"""Comparisons of a package with an independent reference, as values; the functions that `check` needs of a domain."""
 
 from __future__ import annotations
 
@@ -53,16 +53,16 @@ class Quantity(enum.StrEnum):
     LAW = "law"
     """By how much the effort of a friction or a spring differs from its equation."""
     ENERGY = "energy"
-    """Fraction of the exchanged energy that a friction or a spring gives away, though it never got it."""
+    """Energy that a friction or a spring returns beyond what it received, as a fraction of the exchanged energy."""
 
 
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
 _TOLERANCES = {
     Quantity.ACCELERATION: 1e-7,  # solving equations for them loses digits
-    Quantity.GROUND: 1e-2,  # no reference, and stiff: 1 % of the depth makes 1 % of the force
-    Quantity.SWEEP: 1e-3,  # integrated, with errors of up to 2e-5
-    Quantity.ENERGY: 1e-2,  # integrated through jumps of dry friction
+    Quantity.GROUND: 1e-2,  # compared with its own equation; an error of 1 % in depth is 1 % in force
+    Quantity.SWEEP: 1e-3,  # the integration has errors of up to 2e-5
+    Quantity.ENERGY: 1e-2,  # the integration passes jumps of dry friction
     Quantity.LAW: 1e-6,
 }
 
@@ -84,7 +84,7 @@ class Deviation(msgspec.Struct, frozen=True):
     unit: str
     part: Part = Part.BODIES
     detail: str = ""
-    """Tells several deviations of one element apart: `below its lower position limit`."""
+    """Distinguishes several deviations of one element: `below its lower position limit`."""
     least_tolerance: float = 0.0
     """See `Compared.least_tolerance`."""
 
@@ -115,7 +115,7 @@ class Difference(msgspec.Struct, frozen=True):
 
     element: str
     quantity: str
-    """Its path in the record, such as `limits.effort`."""
+    """The path of the number or name in the record, such as `limits.effort`."""
     expected: str
     """The source's value."""
     given: str
@@ -151,7 +151,7 @@ class Probe(msgspec.Struct, frozen=True):
     """A model that puts a package to the test: Modelica text, what to simulate, and which values to hand back."""
 
     source: str
-    """One package; it names the libraries that it needs in imports."""
+    """One package, whose imports name the libraries that it needs."""
     model: str
     """Full name of the model in `source`."""
     stop: float
@@ -192,7 +192,7 @@ class Trial(msgspec.Struct, frozen=True):
     expected: Mapping[str, tuple[float, ...]]
     """Expected numbers of each value at the times in `time`; NaN is possible."""
     over_time: tuple[Compared, ...] = ()
-    """Quantities to draw over time; they are no part of the verdict."""
+    """Quantities to draw over time, which are no part of the verdict."""
     expected_over_time: Mapping[str, tuple[float, ...]] = {}
     """Expected numbers of `over_time`, as in `expected`."""
 
@@ -203,24 +203,24 @@ class Experiment(msgspec.Struct, frozen=True):
     reference: str
     """Name and version."""
     content: bytes
-    """The source to generate the package from: the given one, or a copy that is completed for the comparison."""
+    """The source to generate the package from: the given source, or a copy with the data that the comparison needs."""
     options: Any
-    """The options to generate it with: the given ones, or simpler ones."""
+    """The options for the generated package: the given ones, or simpler ones."""
     trials: tuple[Trial, ...]
-    """Simulations of a package that is generated from `content`; they work as well for one from the given source.
+    """Simulations of a package that is generated from `content`; they also run on a package from the given source.
 
-    The first one measures the effects of single edits; without its result there is no comparison.
+    The first simulation measures the effects of single edits; without its result there is no comparison.
     """
     laws: Trial | None = None
     """The simulation of parts that `options` leave out, in the package that is generated from the given source."""
     notes: tuple[str, ...] = ()
     """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """Parts that are not compared, with reasons, in the same form."""
+    """Parts that are not compared, with reasons: one sentence each, without a full stop."""
 
 
 class Sample(msgspec.Struct, frozen=True):
-    """A source, and all else that its package is generated from."""
+    """A source, and all other inputs from which its package is generated."""
 
     content: bytes
     file: str
@@ -231,7 +231,7 @@ class Sample(msgspec.Struct, frozen=True):
 
 
 class Checks(Protocol):
-    """The questions of `check` to a domain; a domain's attribute `checks`."""
+    """The functions that `check` needs of a domain; a domain's attribute `checks`."""
 
     def numbers(self, sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
         """Compare the numbers in the texts of each package with another reading of the source.

@@ -1,4 +1,4 @@
-"""One hash of all inputs of a result: `check`, the check after a build and `simulate` remember results by it."""
+"""One hash of all inputs of a result: `check`, the check after a build and `simulate` remember results by this hash."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
     The other inputs are urdfsync with its library, the domain's code, Python with its packages, the compilers and the
     Modelica libraries.
 
-    None if one of them can't be read: then the result must not be remembered.
+    None if an input can't be read: then the result must not be remembered.
     """
     own = find_own_library(LIBRARY, robot.target.package)
     places = {**needed.others, **({LIBRARY: own} if own else {})}
@@ -46,7 +46,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
             *program(robot.domain),
             *(compilers.state(tool) for tool in tools),
             [(name, str(path), content_hash(path)) for name, path in sorted(places.items())],
-            # a copy of these is used, without resources
+            # the compiler gets copies of these libraries without resources
             [(str(path), content_hash(path, [RESOURCES])) for path in needed.standard.values()],
             *(str(needed.problem), robot.target, robot.domain),
             *facts,
@@ -68,7 +68,7 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         request = BuildOptions(dry=True, package_paths=options.package_paths)
         content = source.read_source(config, robot, Store(config.root), request).content
         templates = source.templates(config, robot, domain).digest
-    except Exception:  # noqa: BLE001 - the check meets the same error and reports it
+    except Exception:  # noqa: BLE001 - the check meets this error, too, and reports it
         return None
     key = result_key(
         robot,

@@ -1,7 +1,7 @@
-"""Turns warnings of packages into variables, so that one simulation tells the time of each, and removes shapes.
+"""Removes shapes from packages, and turns warnings into variables, so that one simulation tells the time of each.
 
-A compiler may print no warnings, or check them only at the beginning. Shapes change no motion, but they are a quarter
-of the equations of an arm with meshes: rumoca takes a sixth less time without them.
+A compiler may print no warnings, or check them only at the beginning. Shapes change no motion, but a quarter of the
+equations of an arm with meshes. Without shapes, rumoca takes a sixth less time.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ _ASSERTION = re.compile(
     r"^  assert\((?P<condition>[^;]*?),\s+(?P<message>getInstanceName\(\)[^;]*), AssertionLevel\.warning\);",
     re.MULTILINE,
 )
-"""An assertion that only warns, in the layout of generated files; not one inside of another equation."""
+"""An assertion that only warns, in the layout of generated files; it must not be inside of another equation."""
 _SHAPE = re.compile(
     r"^  UrdfSync\.Visualizers\.\w+ \w+\(\n    parameters = [\w.]+,\n    animation = \w+\)(?=\s)", re.MULTILINE
 )

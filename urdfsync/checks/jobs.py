@@ -1,4 +1,4 @@
-"""Runs a compiler on versions of one robot's package, each a copy in a folder of its own."""
+"""Runs a compiler on versions of one robot's package; each version is a copy in a folder of its own."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Jobs(msgspec.Struct, frozen=True):
     """See `package.files_around`."""
     limits: Limits
     folder: Path
-    """Copies of the package go below it."""
+    """The folder for copies of the package."""
     progress: Callable[[], None] | None = None
     """See `process.run`."""
 
@@ -44,7 +44,7 @@ class Jobs(msgspec.Struct, frozen=True):
     ) -> list[CompileResult]:
         """Run tasks on a version of the package in a process. Problems name the user's files.
 
-        `label` names the copy; `changed` has other contents for some of its files, by absolute path. Raises
+        `label` names the copy; `changed` has new contents for some files of the package, by absolute path. Raises
         CompilerError, LimitError, CacheError, and the errors of `copy_library`.
         """
         cache, folder, changed = UserCache.default(), self.folder / label.replace("/", "-"), changed or {}
@@ -54,7 +54,7 @@ class Jobs(msgspec.Struct, frozen=True):
         needed = {**({LIBRARY: own} if own else {}), **self.needed.others}
         top, copied = write_package(folder, self.robot, texts, around), dict[str, Path]()
         originals = dict[str, Path]()
-        """The user's folders and files, by their copies."""
+        """For each copied folder or file, the user's original."""
         roots = list[str]()
         if not compilers.COMPILERS[self.tool.name].HAS_STANDARD_LIBRARY:
             copied = dict(self.needed.standard)
@@ -79,14 +79,14 @@ class Jobs(msgspec.Struct, frozen=True):
 
 
 def _with_imports(task: CompileTask, names: Iterable[str]) -> CompileTask:
-    """Import libraries below the first line of a task's text: rumoca loads only imported ones."""
+    """Import libraries below the first line of a task's text: rumoca loads no others."""
     first, _, rest = task.source.partition("\n")
     imports = "".join(f"  import {name};\n" for name in names if f"import {name};" not in rest)
     return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
 
 
 def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> CompileResult:
-    """Replace the paths of copies in a compiler's text by those of the originals."""
+    """Replace the paths of copies in a compiler's text by the paths of the originals."""
 
     def named(text: str) -> str:
         for copy, original in originals.items():
@@ -102,7 +102,7 @@ def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> Com
 
 
 def _in_original(library: str, original: Path, place: re.Match[str]) -> str:
-    """Return the file and line in a library for a place in its packed text."""
+    """Return the file and line in a library for a place in the library's packed text."""
     if not place[1]:
         return str(original)
     file, line = original_place(library, int(place[1]))
@@ -110,7 +110,7 @@ def _in_original(library: str, original: Path, place: re.Match[str]) -> str:
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
-    """Return a library's path for the compiler: a copy's if the path is not UTF-8, or if a file has changed."""
+    """Return a library's path for the compiler; if this is not UTF-8, or a file has changed, the path of a copy."""
     inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
     try:
         str(path).encode()

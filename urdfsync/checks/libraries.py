@@ -1,4 +1,4 @@
-"""Finds the Modelica libraries that a package needs, and copies those of their classes that it names."""
+"""Finds the Modelica libraries that a package needs, and copies the classes that the package names."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
 Version: TypeAlias = tuple[int, ...]
 
-OLDEST: Version = (4, 1)  # the oldest that the embedded compiler accepts
-NEXT: Version = (5,)  # newer versions are untested, and used only if there is no other
+OLDEST: Version = (4, 1)  # the embedded compiler accepts no older ones
+NEXT: Version = (5,)  # newer versions are untested, and used only without an older one
 
-_COPY_REVISION = 7  # to be raised when libraries are taken apart in another way
+_COPY_REVISION = 7  # raise this number when libraries are taken apart in another way
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -37,15 +37,15 @@ _HINT = (
 
 
 def find_standard_library(configured: Path | None = None) -> Mapping[str, Path]:
-    """Find the Modelica Standard Library: in the configured folder, else in the first folder with one that suits.
+    """Find the Modelica Standard Library: in the configured folder, else in the first folder with a suitable version.
 
-    Returns its three libraries by their names: each a folder with a `package.mo`, or a file. Raises UrdfsyncError.
+    Returns the three libraries by their names: each is a folder with a `package.mo`, or a file. Raises UrdfsyncError.
     """
     candidates = list[tuple[Version, dict[str, Path]]]()
     for place in [configured] if configured else library_folders():
         for version, path in _versions(place, "Modelica"):
             parts = {"Modelica": path}
-            for name in STANDARD_LIBRARIES[1:]:  # of the same version, else the newest
+            for name in STANDARD_LIBRARIES[1:]:  # take the part of the same version, else the newest
                 others = _versions(place, name)
                 if others:
                     parts[name] = dict(others).get(version, others[0][1])
@@ -80,19 +80,19 @@ def library_folders() -> list[Path]:
 
 
 def standard_libraries() -> list[Path]:
-    """Return all versions of the three standard libraries: a compiler that finds them itself may take any."""
+    """Return all versions of the three standard libraries: a compiler that finds libraries itself may take any."""
     return [path for place in library_folders() for name in STANDARD_LIBRARIES for _, path in _versions(place, name)]
 
 
 def find_library(name: str, places: Iterable[Path]) -> Path | None:
-    """Find the library `name` in the first folder that has it, in its newest version: a folder or a file."""
+    """Find the newest version of the library `name` in the first folder that has this library: a folder or a file."""
     return next((versions[0][1] for place in places if (versions := _versions(place, name))), None)
 
 
 def class_finder(package: str, standard: Mapping[str, Path], places: Sequence[Path]) -> Callable[[str], Path | None]:
     """Return a function that finds the folder or file of a top-level class outside of a robot's package.
 
-    Of the Modelica Standard Library it finds only the parts in `standard`.
+    Of the Modelica Standard Library, the function finds only the parts in `standard`.
     """
 
     def find(name: str) -> Path | None:
@@ -107,7 +107,7 @@ class Libraries(msgspec.Struct, frozen=True):
     """The libraries that a package needs, except UrdfSync."""
 
     standard: Mapping[str, Path]
-    """The Modelica Standard Library; empty without a suitable one."""
+    """The Modelica Standard Library; empty without a suitable version."""
     others: Mapping[str, Path]
     problem: Diagnostic | None = None
     """Why there is no Modelica Standard Library."""
@@ -133,7 +133,7 @@ def needed_libraries(
 ) -> dict[str, Path]:
     """Find the libraries in `places` that texts of the top-level package `top` need.
 
-    These are the libraries that the texts name, the `wanted` ones, and those that these libraries name in turn.
+    These are the `wanted` libraries, the libraries that the texts name, and the libraries that these libraries need.
 
     A text names a library in an import, or by a name that begins with the library's name and a dot. The Modelica
     Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
@@ -153,16 +153,16 @@ def needed_libraries(
 
 
 def library_texts(path: Path) -> Mapping[str, bytes]:
-    """Read the files of a library, which is a folder or a file. Raises OutputError for one that can't be read."""
+    """Read the files of a library, which is a folder or a file. Raises OutputError for an unreadable library."""
     return {path.name: read_unrecorded(path)} if path.suffix == ".mo" else package_texts(path)
 
 
 def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
-    """Return a folder with a file for each library: the classes that `texts` name, and those that these need.
+    """Return a folder with a file for each library: the classes that `texts` name, and the classes that these need.
 
     Small copies save time, since the compiler goes through all libraries for each model. An unchanged library is taken
     apart only once.
-    Raises CacheError, OutputError for a library that can't be read, and UrdfsyncError for one with bad links.
+    Raises CacheError, OutputError for an unreadable library, and UrdfsyncError for a library with bad links.
     """
     named = frozenset[str]().union(*(names_in(text.decode("utf-8", "surrogateescape")) for text in texts))
     libraries = {name: _pieces(name, path, cache) for name, path in sorted(parts.items())}
@@ -179,14 +179,14 @@ def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCac
                 try:
                     made.rename(target)
                 except OSError:
-                    if not target.is_dir():  # else another process was faster
+                    if not target.is_dir():  # if the folder exists, another process was faster
                         raise
-        os.utime(target)  # so the cache keeps it
+        os.utime(target)  # the cache deletes the least recently used folders
     return target
 
 
 def _pieces(name: str, path: Path, cache: UserCache) -> Library:
-    """Return all pieces of a library. Raises UrdfsyncError, and OutputError for one that can't be read."""
+    """Return all pieces of a library. Raises UrdfsyncError, and OutputError for an unreadable library."""
     key = f"library-{digest(_COPY_REVISION, name, content_hash(path, [RESOURCES]))}"
     if (found := cache.load(key, list[Piece])) is None:
         found = pieces(name, library_texts(path))
@@ -195,7 +195,7 @@ def _pieces(name: str, path: Path, cache: UserCache) -> Library:
 
 
 def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
-    """Return all versions of a library in a folder, the newest first, one without a known version last."""
+    """Return all versions of a library in a folder, the newest first, an unknown version last."""
     versions = []
     for path in _entries(place):
         stem = path.name.removesuffix(".mo")

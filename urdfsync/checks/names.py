@@ -30,9 +30,9 @@ class NameCheck(NamedTuple):
     users: list[Diagnostic]
     """Findings in the user's files outside of the package."""
     users_files: Mapping[Path, bytes]
-    """The user's files that use the package: they name a class of the package, or of another such file."""
+    """The user's files that name a class of the package, or of another file that uses the package."""
     uses: Mapping[Path, Set[Path]]
-    """For each file of the user, the files whose classes it names."""
+    """For each of the user's files, the files whose classes it names."""
 
 
 def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameCheck:
@@ -52,15 +52,15 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     for name, definition in sources.users.items():
         if (path := Path(definition.file)) in package.users_files:
             sources.seen.clear()
-            scopes = Scopes(sources)  # new scopes: old ones remember resolved names
-            if (node := scopes.node(name)) is None:  # there is no such package
+            scopes = Scopes(sources)  # new scopes: used scopes remember resolved names
+            if (node := scopes.node(name)) is None:  # no package has that name
                 unplaced.add(path)
                 continue
             places += _unresolved([node], scopes)
             if any(other[: len(top)] == top and len(other) > len(top) for other in sources.seen):
                 using.add(path)
             seen = {Path(file) for file in sources.seen.values() if file}
-            # a file does not use the packages around it
+            # packages around a file do not count as used by the file
             around_it = {folder / "package.mo" for folder in path.parents}
             uses.setdefault(path, set()).update(seen - around_it)
     while more := {path for path, seen in uses.items() if path not in using and seen & using}:

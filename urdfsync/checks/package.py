@@ -1,7 +1,7 @@
 """The package of one robot: on disk, generated, and the differences.
 
 A compiler reads all files below a folder, and one unparsable file stops it. So packages of other robots are left out,
-unless they are mentioned.
+unless a text mentions them.
 """
 
 from __future__ import annotations
@@ -34,18 +34,18 @@ from urdfsync.modelica.syntax import Class
 
 
 class PackageTexts(msgspec.Struct, frozen=True):
-    """A Modelica package that is stored as a folder. Paths are POSIX ones, below that folder."""
+    """A Modelica package that is stored as a folder. Paths are POSIX paths below this folder."""
 
     name: str
-    """Its full name, as in `Plant.Robots.Arm`."""
+    """The package's full name, as in `Plant.Robots.Arm`."""
     folder: Path
-    """The folder for messages; it may not exist yet."""
+    """The package's folder for messages, which may not exist yet."""
     texts: Mapping[str, bytes]
-    """Its `.mo` and `package.order` files by path."""
+    """The package's `.mo` and `package.order` files by path."""
     owners: Mapping[str, str] = msgspec.field(default_factory=dict)
     """The element that a file belongs to, in the domain's words: `joint elbow`."""
     edited: Collection[str] = ()
-    """The files that differ from the generated ones."""
+    """The files whose texts differ from the generated texts."""
 
     def text(self, path: str) -> str:
         """Return the text of a file; bytes that are not UTF-8 are replaced."""
@@ -54,13 +54,13 @@ class PackageTexts(msgspec.Struct, frozen=True):
     def diagnostic(
         self, severity: Severity, code: str, message: str, path: str, line: int = 0, column: int = 0, hint: str = ""
     ) -> Diagnostic:
-        """Return a finding in one of the files, or in a folder; it names the element."""
+        """Return a finding in one of the files, or in a folder; the finding names the element."""
         owner = self.owners.get(path, "")
         message = f"{owner}: {message}" if owner else message
         return Diagnostic(severity, code, message, shown(self.folder / path), line, column, hint)
 
     def by_hand(self, path: str) -> str:
-        """Return a hint for a file that was edited; empty for others."""
+        """Return a hint for a file that was edited; empty for other files."""
         return "the file was edited by hand" if path in self.edited else ""
 
 
@@ -73,16 +73,16 @@ class RobotPackage(msgspec.Struct):
     errors: tuple[Diagnostic, ...]
     """Errors that a build would report, except those in Modelica files."""
     on_disk: Mapping[str, bytes]
-    """The Modelica files of the package on disk, by their path below it; none if there is no package."""
+    """The Modelica files of the package on disk, by their path below the package; none without a package."""
     in_step: bool
     conflicting: bool
-    """Whether the package is out of step because of conflicts."""
+    """Whether the package is out of step because of a conflict."""
     generated: Mapping[str, bytes]
-    """The generated files of the package, by their path below it."""
+    """The generated files of the package, by their path below the package."""
     own_files: Mapping[Path, bytes]
     """The user's own Modelica files in the package."""
     files: PackageTexts
-    """The checked texts: the package on disk, or the generated one if there is none."""
+    """The checked texts: those of the package on disk, or of the generated package if none is on disk."""
     around: Mapping[str, bytes]
     """See `files_around`."""
     users_files: Mapping[Path, bytes]
@@ -92,7 +92,7 @@ class RobotPackage(msgspec.Struct):
     changed: tuple[str, ...]
     """The edited files, without those that differ in comments and blanks only."""
     edits: tuple[str, ...]
-    """Those of `changed` that belong to the main model."""
+    """The files in `changed` that belong to the main model."""
 
 
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> RobotPackage:
@@ -117,7 +117,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
     changed = tuple(path for path in edited if _words(generated[path]) != _words(on_disk[path]))
-    # while the new name of an element waits, its files are on disk under the old name
+    # if the build that renames an element waits for a conflict, its files still have the old names
     known = [action for action in built.actions if action.reason is not Reason.UNKNOWN]
     keys = (key for action in known for key in (action.path, action.origin) if key)
     written = {Path(os.path.normpath(config.root / key)) for key in keys}
@@ -160,8 +160,9 @@ def _words(text: bytes) -> list[str]:
 def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return the files of the top-level package around a robot's package, by their paths below the output folder.
 
-    Packages of other robots are among them if `texts` (the robot's own), or anything else around, mention them. Missing
-    packages around the robot's are made up. Raises OutputError for a file that can't be read.
+    Packages of other robots are included if `texts`, those of the robot, or other files around mention them. If a
+    package around the robot's is missing, the result has an empty package in its place. Raises OutputError for a file
+    that can't be read.
     """
     output, parts = robot.output, robot.target.package.split(".")
     top = output / parts[0]
@@ -194,11 +195,11 @@ class UsersModels(msgspec.Struct, frozen=True):
     files: Mapping[str, Path]
     """The file of each model or block that is not partial, by the model's full name."""
     libraries: Mapping[str, Path]
-    """Folder or file of each top-level class that holds such models, except the one around the package."""
+    """Folder or file of each top-level class that holds such models, except the class around the package."""
     left_out: tuple[Path, ...]
     """Files that no compiler would find, or that are no Modelica."""
     uses: Mapping[Path, Collection[Path]]
-    """For each file, those that it uses."""
+    """For each file, the user's files that it uses."""
 
 
 def users_models(

@@ -1,8 +1,8 @@
-"""Writes each library as one text for the compiler: only named classes, without graphics and documentation.
+"""Writes each library as one text for the compiler: the classes that are needed, without graphics and documentation.
 
-rumoca 0.10.2 goes through all of every library for each model, so a model that names a tenth of the Modelica Standard
-Library compiles in a third of the time. A class is kept if its name, and that of each class around it, is a word of
-the compiled texts or of a kept class: nothing else can be reached. Comments tell from which file and line a text is.
+rumoca 0.10.2 goes through all libraries for each model. With a tenth of the Modelica Standard Library, a model compiles
+in a third of the time. A class is kept if compiled texts or kept classes contain its name and the names of all classes
+around it. Models can reach no other class. Comments name the file and line from which a text comes.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _NAME = rf"(?:{_QUOTED}|[A-Za-z_]\w*+)"
 _KINDS = "package|model|block|function|record|type|connector|class"
 _GAP = rf"(?:\s++|{_REMARK})*+"
 _FRONT = re.compile(rf"\ufeff?{_GAP}(?:within\b(?:{_REMARK}|{_QUOTED}|[^;/'])*+;{_GAP})?", re.DOTALL)
-"""The text before the class in a file."""
+"""The text before the class of a file."""
 _LOOKS = "|".join((*sorted(LAYOUT), "Documentation"))
 _TOKEN = re.compile(rf"{_STRING}|{_QUOTED}|{_REMARK}|\bannotation\b|(?P<looks>\b(?:{_LOOKS})\s*\()|[()]", re.DOTALL)
 _MARK = "// urdfsync: "
@@ -42,7 +42,7 @@ _BEGIN_OR_END = re.compile(
 )
 _OPERATORS = "constructor 0 String + - * / ^ == <> > < >= <= and or not".split()
 _UNNAMED = {"constructor", "destructor", "equalityConstraint", *(f"'{operator}'" for operator in _OPERATORS)}
-"""Functions that the language calls without their names."""
+"""Functions that Modelica calls although no text names them."""
 _WORD = re.compile(rf"{_STRING}|{_REMARK}|({_NAME})", re.DOTALL)
 
 
@@ -61,7 +61,7 @@ Library: TypeAlias = Sequence[Piece]
 
 
 def pieces(name: str, texts: Mapping[str, bytes]) -> list[Piece]:
-    """Return the pieces of a library, from its files by their path in its folder."""
+    """Return the pieces of a library; `files` are by their path in the library's folder."""
     inside = dict[str, list[str]]()
     for path in sorted(path for path in texts if path.endswith(".mo")):
         inside.setdefault(_stem(path).rpartition("/")[0], []).append(path)
@@ -71,7 +71,7 @@ def pieces(name: str, texts: Mapping[str, bytes]) -> list[Piece]:
 
 
 def names_in(text: str) -> frozenset[str]:
-    """Return the names in a text, keywords among them; comments and strings have none."""
+    """Return the names in a text, keywords included; names in comments and strings do not count."""
     return frozenset(filter(None, _WORD.findall(text)))
 
 
@@ -104,7 +104,7 @@ def _kept(library: Library, found: Container[str]) -> Iterator[str]:
 
 
 def original_place(text: str, line: int) -> tuple[str, int]:
-    """Return the file (below the library's folder) and the line there of a line (from 1) of a packed text."""
+    """Return the file, below the library's folder, and the line in it from which a line of a packed text comes."""
     for since, each in enumerate(reversed(text.split("\n")[:line])):
         if place := _PLACE.match(each):
             return place[1], int(place[2]) + since - 1
@@ -119,9 +119,10 @@ def _stem(path: str) -> str:
 def _texts(
     owner: str, path: str, texts: Mapping[str, bytes], inside: Mapping[str, Sequence[str]]
 ) -> Iterator[tuple[str, str]]:
-    """Yield the texts of a class and of the classes inside, each with the name of the class that it is part of.
+    """Yield the texts of a class and of the classes inside, each with the name of the class that contains it.
 
-    `inside` has the files of classes by their folder. Their texts follow the name and comment of the folder's package.
+    `inside` has the files of classes by their folder; these classes follow the name and comment of the folder's
+    package.
     """
     text = _plain(texts[path].decode("utf-8", "replace"))
     text = _FRONT.sub(lambda front: "\n" * front[0].count("\n"), text, 1)
@@ -175,7 +176,7 @@ def _end_of(text: str, found: re.Match[str], end: int) -> int:
 
 
 def _semicolon(text: str, at: int, end: int) -> int:
-    """Return where a statement ends: behind its semicolon, or at `end` if it has none."""
+    """Return where a statement ends: behind its semicolon, or without a semicolon at `end`."""
     depth = 0
     for match in _SIGN.finditer(text, at, end):
         sign = match["sign"] or ""
@@ -186,7 +187,7 @@ def _semicolon(text: str, at: int, end: int) -> int:
 
 
 def _plain(text: str) -> str:
-    """Empty the annotations about looks and documentation; lines stay where they are."""
+    """Empty the annotations about graphics and documentation; all lines keep their numbers."""
     kept, start, depth, cut, begins = list[str](), 0, 0, 0, False
     for token in _TOKEN.finditer(text):
         if token["looks"] and depth and not cut:

@@ -1,6 +1,6 @@
 """Runs native code (a compiler, a reference) in a process of its own, with limits of time and memory.
 
-As a program it calls the function that is pickled on its stdin.
+As a program, this module calls the function that is pickled on stdin.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ T = TypeVar("T")
 _INTERVAL = 0.25
 """Seconds between two checks of memory and time; a check reads a file of each process of the system."""
 _GRACE = 10.0
-"""Seconds of processor time beyond the limit, after which a process ends itself if its parent has not."""
+"""Seconds of processor time beyond the limit after which a process ends itself: its parent has not ended it."""
 _MOST_IDLE = 60.0
 """Seconds by the clock after which an idle process is ended."""
 _WORK = 0.01
-"""Seconds of processor time; less counts as idle, since a waiting process also takes a little."""
+"""A process that takes at most so many seconds of processor time is idle: waiting takes a little, too."""
 
 
 class Limits(msgspec.Struct):
@@ -44,7 +44,7 @@ class Limits(msgspec.Struct):
     memory: float
     """Bytes."""
     times: dict[float, float] = {}
-    """Processor time so far of each process, by the time at which it began."""
+    """Processor time so far of each process, by the start time of the process."""
     peak: float = 0.0
     """The peak memory so far, in bytes."""
 
@@ -60,11 +60,11 @@ def limits_of(owner: str, seconds: float, gigabytes: float | None) -> Limits:
 
 
 class LimitError(UrdfsyncError):
-    """A process exceeded its time or memory; the code of the one diagnostic says which."""
+    """A process exceeded its time or memory; the code of the only diagnostic tells which of the two."""
 
 
 class BrokenProcessError(Exception):
-    """A process ended before it was done: the text is its exit code and its last words."""
+    """A process ended before its work was done: the text has the exit code and the last line of its errors."""
 
     def __init__(self, results: list[Any], code: int, words: str) -> None:
         super().__init__(": ".join(filter(None, (processes.exit_cause(code), words))))
@@ -80,10 +80,10 @@ def run(
 ) -> list[T]:
     """Return all that a function yields in a process of its own, and end the process.
 
-    `progress` is called again and again until then.
+    Calls `progress` repeatedly until the function ends.
     Raises LimitError, BrokenProcessError, and the function's own UrdfsyncError or ImportError.
     """
-    started = set[psutil.Process]()  # the system forgets the children of an ended process
+    started = set[psutil.Process]()  # the children of an ended process can't be found any more
     with tempfile.TemporaryFile() as answers, tempfile.TemporaryFile() as errors:
         with subprocess.Popen(  # noqa: S603 - a command of ours
             processes.python_module("urdfsync.checks.process"),
@@ -97,7 +97,7 @@ def run(
         ) as process:
             try:
                 if process.stdin is not None:
-                    with contextlib.suppress(OSError):  # it has ended; its exit code says why
+                    with contextlib.suppress(OSError):  # the process has ended; its exit code says why
                         process.stdin.write(pickle.dumps((limits.seconds - limits.used, function, arguments)))
                         process.stdin.flush()
                 _wait(process, limits, started, progress)
@@ -122,7 +122,7 @@ def _wait(
     started: set[psutil.Process],
     progress: Callable[[], None] | None,
 ) -> None:
-    """Wait for the end of a process; `started` gets the processes that it starts. Raises LimitError."""
+    """Wait for the end of a process; add the processes that it starts to `started`. Raises LimitError."""
     begin = worked = time.monotonic()
     while True:
         if progress:
@@ -131,14 +131,14 @@ def _wait(
             process.wait(_INTERVAL)
             return
         used, seconds = 0, 0.0
-        for child in psutil.Process().children(recursive=True):  # also those of other threads
-            with contextlib.suppress(psutil.Error):  # it has just ended
+        for child in psutil.Process().children(recursive=True):  # other threads have processes, too
+            with contextlib.suppress(psutil.Error):  # the child has just ended
                 used += child.memory_info().rss
                 is_started = process.pid in [parent.pid for parent in child.parents()]
                 if is_started:
                     started.add(child)
                 if is_started or child.pid == process.pid:
-                    seconds += sum(child.cpu_times()[:4])  # includes its ended children
+                    seconds += sum(child.cpu_times()[:4])  # includes ended children of the child
         limits.peak = max(limits.peak, used)
         if seconds > limits.times.get(begin, 0.0) + _WORK:
             limits.times[begin], worked = seconds, time.monotonic()
@@ -170,7 +170,7 @@ def main() -> None:
         # Ends this process if its parent is gone: native code may block all threads of Python.
         if sys.platform != "win32":
             signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.0) + _GRACE)
-        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin: its lock would disturb Python's exit
+        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python's exit
         last = None
         try:
             for result in function(*arguments):

@@ -1,4 +1,4 @@
-"""Results of checks in words: a line for each robot, its details indented below."""
+"""Results of checks in words: a line for each robot, with details in indented lines below."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _MOST = 3
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
     Quantity.ENERGY: "{detail} gives energy away",
-    Quantity.LAW: "the effort of its {detail} is not that of its numbers",
+    Quantity.LAW: "the effort of its {detail} contradicts its numbers",
 }
 """Sentences for differences that have no amount."""
 _FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction ", Quantity.GROUND: "ground "}
@@ -75,7 +75,7 @@ def _place(each: Difference) -> str:
 
 
 def _by_file(differences: Iterable[Difference]) -> Iterator[tuple[Difference, str]]:
-    """Yield the first differences in each file; the last of them comes with the count of the others."""
+    """Yield the first differences in each file; the last one comes with the number of further differences."""
     for _, group in itertools.groupby(differences, lambda each: each.file):
         own = list(group)
         more = f" (and {len(own) - _MOST} more there)" if len(own) > _MOST else ""
@@ -84,7 +84,7 @@ def _by_file(differences: Iterable[Difference]) -> Iterator[tuple[Difference, st
 
 
 def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
-    """Yield how the package differs from the reference, by the first compiler that could move it."""
+    """Yield how the package differs from the reference, by the first compiler that could simulate the package."""
     advice = "" if result.numbers and result.numbers.differences else _ADVICE
     reference = result.reference or "the reference"
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
@@ -127,7 +127,7 @@ def _details(result: CheckResult) -> Iterator[str]:
 
 
 def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
-    """Yield how far two compilers agree, which of them or the reference stands alone, and their time and memory."""
+    """Yield how far two compilers agree, which of three results stands alone, and the compilers' time and memory."""
     first, second = result.tools
     if result.between is not None:
         outliers: dict[str, list[Deviation]] = {}
@@ -136,7 +136,7 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
         between = {deviation.key: deviation for deviation in result.between}
         for deviation in first.deviations or ():
             if deviation.key not in by_second or deviation.key not in between:
-                continue  # compiled by one compiler, or by none
+                continue  # a compiler has not simulated it
             three = deviation, by_second[deviation.key], between[deviation.key]
             if not all(each.agrees for each in three):
                 outlier = _outlier(first.tool, second.tool, reference, *three)
@@ -171,7 +171,7 @@ def _outlier(first: str, second: str, reference: str, *deviations: Deviation) ->
 
 
 def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
-    """Yield the sentences about several robots, each once."""
+    """Yield the sentences that concern several robots, each once."""
     for label, field in (("not compared", "unchecked"), ("for the comparison", "notes")):
         robots: dict[str, list[str]] = {}
         for result in results:
@@ -190,8 +190,8 @@ def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
 def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
     """Return the sentences about a robot, and how far each part agrees with the reference.
 
-    If `verbose` is None, for a document, the section also lists the parts that were not compared. True, for a terminal,
-    adds each number.
+    For documents `verbose` is None: the section also lists the parts that were not compared. On a terminal,
+    `verbose=True` adds each number.
     """
     status, sentences = result.status, _sentences(result)
     rows = [
@@ -215,10 +215,11 @@ def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
 
 
 def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> Iterator[tuple[Deviation, str]]:
-    """Yield the first deviation of each kind, with the names of the other elements that have one; `owners` were edited.
+    """Yield the first deviation of each kind, with the names of the other elements that have one.
 
-    The element nearest to the cause comes first: an edited one. Else it is the first from the root, since a displaced
-    link moves all links behind it. Of efforts it is the last joint, since each joint carries all links behind it.
+    The element nearest to the cause comes first: one of `owners`, which are edited. Otherwise it is the first from the
+    root, since a displaced link moves all links behind it. For efforts it is the last joint, since each joint carries
+    all links behind it.
     """
     for is_free, quantities in itertools.product((False, True), KINDS):
         own = (each for each in deviations if (each.part is Part.FREE_MOTION) == is_free)

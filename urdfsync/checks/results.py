@@ -39,7 +39,7 @@ class RunOptions(msgspec.Struct, frozen=True, kw_only=True):
     wait: float = 60.0
     """Seconds to wait for a build that is writing."""
     package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
-    """Folders to search for packages after the configured ones: those that ROS searches."""
+    """Folders that ROS searches for packages; the configured folders come first."""
 
 
 class CheckOptions(RunOptions, frozen=True):
@@ -48,11 +48,11 @@ class CheckOptions(RunOptions, frozen=True):
     physics: bool = False
     """Compare poses, efforts and masses with the domain's reference."""
     strict: bool = False
-    """Count the effects of edits as differences."""
+    """Treat the effects of edits as differences."""
     tools: tuple[Tool, ...] = (Tool(),)
-    """The compilers, one or both."""
+    """One compiler, or two."""
     jobs: int | None = None
-    """The most robots checked at the same time; None: as many as cores and memory allow."""
+    """The most robots that are checked at the same time; None allows as many as cores and memory do."""
     compilers: int = 1
     """The most compilers that run at the same time for one robot."""
     executor: str = ""
@@ -68,7 +68,7 @@ class CheckStatus(enum.StrEnum):
 
     RIGHT = "right"
     INCOMPLETE = "incomplete"
-    """Nothing is wrong, but something could not be checked."""
+    """The check found no fault, but could not check all parts."""
     OUT_OF_STEP = "out of step"
     NOT_BUILT = "not built"
     DIFFERS = "differs"
@@ -83,14 +83,14 @@ class CompiledModel(msgspec.Struct, frozen=True):
     unknowns: int
     """Number of scalar unknowns, and of equations; 0 for a part of another model, or if the compiler tells none."""
     is_users: bool = False
-    """Whether the model is the user's; then `model` is its full name."""
+    """Whether the model is the user's; then `model` has its full name."""
 
 
 class EditEffect(msgspec.Struct, frozen=True):
     """The effect of the user's edits on the robot, compared with the generated package."""
 
     files: tuple[str, ...]
-    """The edited files that cause it, below the package's folder; several if they work together."""
+    """The edited files that cause the effect, below the package's folder; several if they work together."""
     deviations: tuple[Deviation, ...]
     """The deviations beyond the tolerance, from the root outwards; none if the edits change no compared quantity."""
     owners: tuple[str, ...] = ()
@@ -132,15 +132,15 @@ class ToolResult(msgspec.Struct):
     """The effects of the user's edits, each apart if possible."""
     seconds: float = 0.0
     megabytes: float = 0.0
-    """The most memory that its processes took together, measured four times a second."""
+    """The most memory that all processes took together, measured four times a second."""
     times: tuple[TrialTime, ...] = ()
-    """Times of the comparison, if the compiler tells them."""
+    """Times of the comparison, if the compiler tells times."""
     curves: tuple[Curve, ...] = ()
     """Poses and efforts of the generated package in the first simulation, for a page."""
 
 
 class CheckResult(msgspec.Struct):
-    """The result for one robot. Only the check changes it."""
+    """The result for one robot. Only the check changes this object."""
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
@@ -155,7 +155,7 @@ class CheckResult(msgspec.Struct):
     in_step: bool = True
     """Whether the package on disk is in step."""
     conflicting: bool = False
-    """Whether it is out of step because edits and new texts contradict each other."""
+    """Whether the package is out of step because edits and new texts contradict each other."""
     freedoms: int | None = None
     """Degrees of freedom; None if the domain has none."""
     numbers: Numbers | None = None
@@ -163,22 +163,22 @@ class CheckResult(msgspec.Struct):
     edited: tuple[str, ...] = ()
     """The edited files below the package's folder, without those that differ in comments and blanks only."""
     tools: tuple[ToolResult, ...] = ()
-    """One for each compiler, in the order of their runs; none if nothing was compiled."""
+    """A result for each compiler, in the order of their runs; none if nothing was compiled."""
     between: tuple[Deviation, ...] | None = None
-    """Deviations of the second compiler from the first, for the generated package; None if one could not move it."""
+    """Deviations of the second compiler from the first, for the generated package; None without two simulations."""
     between_edited: tuple[Deviation, ...] = ()
-    """The same for the package with the user's edits; none without edits."""
+    """Deviations of the second compiler from the first, for the package with the user's edits; none without edits."""
     notes: tuple[str, ...] = ()
     """Assumptions of the comparison, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """Parts that this kind of check does not cover, with reasons: one sentence each, without a full stop."""
+    """Parts that a check with these options does not cover, with reasons: one sentence each, without a full stop."""
     gaps: tuple[str, ...] = ()
     """Parts that could not be checked, with reasons: one sentence each, without a full stop."""
     diagnostics: tuple[Diagnostic, ...] = ()
     seconds: float = 0.0
     """Time from beginning to end."""
     megabytes: float = 0.0
-    """The most memory that its processes took together, measured four times a second."""
+    """The most memory that all processes took together, measured four times a second."""
     folder: str = ""
     """The package's folder for messages; empty if the check broke off."""
     reference: str = ""
@@ -282,7 +282,7 @@ def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
 
 
 def exit_code(results: Iterable[CheckResult]) -> Exit:
-    """Return 2 if anything failed; 0 if all is right, or only incomplete and not `strict`; else 1."""
+    """Return 2 for a failure, 0 if all is right, or without `strict` also incomplete, and else 1."""
     wrong = {result.status for result in results if result.strict or result.status is not CheckStatus.INCOMPLETE}
     wrong.discard(CheckStatus.RIGHT)
     if CheckStatus.FAILED in wrong:

@@ -33,11 +33,11 @@ _STEP = 0.04
 def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     """Return an earlier check of the present package, preferably with physics; None if there is none.
 
-    Only right results of the embedded compiler are remembered.
+    Only results of the embedded compiler without faults are remembered.
     """
-    if config.check.tool != "rumoca":  # for its key, OpenModelica would have to be started
+    if config.check.tool != "rumoca":  # the key has OpenModelica's version, which only a start tells
         return None
-    if key := fingerprint(config, robot, CheckOptions()):  # computed once for both checks, since it reads all libraries
+    if key := fingerprint(config, robot, CheckOptions()):  # only once: hashing reads all libraries
         cache = UserCache.default()
         return cache.load(f"{key}{PHYSICS}", CheckResult) or cache.load(key, CheckResult)
     return None
@@ -46,7 +46,7 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
 def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None = None) -> CheckResult:
     """Check one robot; copies of its package go to `folder`, or to a temporary folder for None.
 
-    A right package in step is not checked again until its fingerprint changes.
+    A package in step and without faults is not checked again until its fingerprint changes.
     """
     begin, cache = time.monotonic(), UserCache.default()
     result = CheckResult(robot.name, robot.target.package, strict=options.strict)
@@ -58,18 +58,18 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         package = read_package(config, robot, request)
         earlier = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
         if earlier and options.curves and earlier.reference and not any(tool.curves for tool in earlier.tools):
-            earlier = None  # an old result lacks the curves
+            earlier = None  # a remembered result lacks the curves
         if earlier is None:
             with tempfile.TemporaryDirectory(prefix="urdfsync-", dir=folder, ignore_cleanup_errors=True) as place:
                 _check(config, package, options, result, limits, Path(place))
             result.megabytes = limits.peak / 1e6
-            is_same = key == fingerprint(config, robot, options)  # else a file was saved meanwhile
+            is_same = key == fingerprint(config, robot, options)  # if not, a file was saved meanwhile
             if key and package.in_step and is_same:
                 cache.save(key, None if result.failed or result.differs else result)
         result = earlier or result
-        result.folder, result.strict = shown(robot.folder), options.strict  # as in this check, not as in the saved one
-        result.add(texts.missing_resources(package))  # no fingerprint covers these files
-    except Exception as error:  # noqa: BLE001 - of one robot
+        result.folder, result.strict = shown(robot.folder), options.strict  # a saved check may have other values
+        result.add(texts.missing_resources(package))  # the fingerprint does not cover these files
+    except Exception as error:  # noqa: BLE001 - only this robot fails
         result.add(findings_of(error))
     result.diagnostics = robot.without_ignored(result.diagnostics)
     result.seconds = time.monotonic() - begin
@@ -120,13 +120,13 @@ def _check(
 
 
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
-    """Compare the numbers of a package with its source. A difference only of the package on disk is the user's edit."""
+    """Compare the numbers of a package with its source. A difference only on disk is the user's edit."""
     tell(f"{package.robot.name}: reading the source again")
     source = package.inputs.source
     on_disk = package.on_disk if package.in_step else package.generated
     model = f"{package.models[0]}.mo"
     models = {path for path, text in package.generated.items() if b"\nmodel " in text} - {model}
-    # the user's templates may write other models than that of the robot in another way
+    # the user's templates may change all models but the robot's
     hidden = models if package.robot.templates is not None else set()
     packages = [{path: texts[path] for path in texts.keys() - hidden} for texts in (package.generated, on_disk)]
     try:
@@ -141,7 +141,7 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
             yield msgspec.structs.replace(each, source=place.file, source_line=place.line)
 
     faults = {(each.file, each.element, each.quantity) for each in generated.differences}
-    if hidden:  # the user's templates may add to the robot model, too
+    if hidden:  # the user's templates may add components to the robot's model
         added = {each for each in generated.differences if each.file == model and each.expected == "nothing"}
         others = tuple(each for each in generated.differences if each not in added)
         generated = msgspec.structs.replace(generated, differences=others)
@@ -159,7 +159,7 @@ def _sample(package: RobotPackage) -> Sample:
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
-    """Return why nothing can be compiled. It is an error with `--physics`, or if the user named what is missing."""
+    """Return why nothing can be compiled: an error with `--physics`, or if the user named the missing part."""
     missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
     lacks_library = any(not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
     problem = missing or (needed.problem if lacks_library else None)
@@ -204,7 +204,7 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
 def _experiments(domain: str, sample: Sample, step: float | None) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
     checks: Checks | None = registry.domain(domain).checks
-    yield checks.experiment(sample, step) if checks else "there is no reference for such packages"
+    yield checks.experiment(sample, step) if checks else "there is no reference for packages of this domain"
 
 
 def run_compilations(
@@ -232,7 +232,7 @@ def run_compilations(
 
 
 def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
-    """Return the findings: common ones of all compilers once, those of one compiler with its name."""
+    """Return the findings: those of all compilers once, those of a single compiler with its name."""
 
     def place(finding: Diagnostic) -> tuple[object, ...]:
         return finding.severity, finding.file, finding.line, finding.code, "" if finding.line else finding.message

@@ -27,7 +27,7 @@ _PAUSE = 0.1  # s between two reports of progress
 def check_robots(
     config: Config, robots: Sequence[RobotConfig], options: CheckOptions, progress: Progress
 ) -> Iterator[CheckResult]:
-    """Check robots; the results come in their order, each as soon as it and those before it are known.
+    """Check robots; yield the results in the order of the robots, each as soon as all earlier results are known.
 
     `progress` gets the step of the work, and the number of finished robots. Raises CacheError if there is no place for
     the cache, ConfigError if no cluster answers.
@@ -40,7 +40,7 @@ def check_robots(
     budget = options.memory or _SHARE_OF_FREE_MEMORY * psutil.virtual_memory().available / 1e9
     jobs = min(options.jobs or machine.cores(), len(robots))
     count = max(1, min(jobs, int(budget * 1e9 // _EXPECTED_MEMORY)))
-    if options.executor:  # other workers may share a machine
+    if options.executor:  # several workers may share a machine
         count, share = 1, options
     else:
         each = max(1, machine.cores() // jobs)
@@ -55,7 +55,7 @@ def check_robots(
         for robot in robots:
             result = _result(robot, futures, pool, progress)
             if count > 1 and any(finding.code == "out-of-memory" for finding in result.diagnostics):
-                wait(futures.values())  # alone, a robot may take all memory
+                wait(futures.values())  # a single robot may take all memory
                 whole = msgspec.structs.replace(share, memory=budget)
                 futures[robot.name] = pool.submit(check_robot, config, robot, whole, place)
                 result = _result(robot, futures, pool, progress)

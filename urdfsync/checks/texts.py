@@ -1,6 +1,6 @@
 """Finds faults in the texts of a package, without a compiler: syntax, layout, missing files.
 
-The rules of the layout are those of the language specification 3.6, section 13.4. All faults are found, not only the
+The rules of the layout come from the language specification 3.6, section 13.4. All faults are found, not only the
 first. One unparsable file makes a compiler refuse the whole package, often without naming the file.
 """
 
@@ -25,7 +25,7 @@ _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
 
 def check_layout(package: PackageTexts) -> list[Diagnostic]:
-    """Return the faults of a package's files: errors where a tool can't load the package, warnings where it may.
+    """Return the faults of a package's files: errors keep tools from loading the package, warnings may.
 
     A generated package has none.
     """
@@ -64,23 +64,23 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
 
 
 def _check_folder(package: PackageTexts, folder: PurePosixPath, stored: Collection[str]) -> Iterator[Diagnostic]:
-    """Check that a folder is a package, and that its classes differ by more than case; `stored` are their names."""
+    """Check that a folder is a package, and that its classes `stored` differ by more than case."""
     if str(folder / PACKAGE_FILE) not in package.texts:
         message, where = f"the folder holds classes, but no {PACKAGE_FILE}", str(folder) if folder.parts else ""
-        advice = "add one, or move the files elsewhere"
+        advice = "add this file, or move the classes elsewhere"
         yield package.diagnostic(_ERROR, "no-package-file", message, where, hint=advice)
     spellings: dict[str, str] = {}
     for name in sorted(stored):
         if (first := spellings.setdefault(name.casefold(), name)) != name:
             message = f"`{name}` and `{first}` differ only by case"
-            advice = "rename one: file systems that ignore case do not hold both"
+            advice = "rename one class: file systems that ignore case do not hold both"
             yield package.diagnostic(_WARNING, "same-but-for-case", message, f"{folder / name}.mo", hint=advice)
 
 
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     """Return the faults that keep compilers from reading the files around a package: syntax, `within`, package names.
 
-    `files` are by their path below the output folder. Other faults in these files are not reported.
+    `files` has contents by the path below the output folder. Other faults in these files are not reported.
     """
     findings, package = list[Diagnostic](), PackageTexts("", output, files)
     for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
@@ -92,7 +92,7 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
 
 
 def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
-    """Check one file; returns its declarations, None if it can't be read. `name` is the full name of its class."""
+    """Check one file; return its declarations, or None if it can't be read. `name` is its class's full name."""
     text = _decoded(package, path)
     if isinstance(text, Diagnostic):
         return None, [text]
@@ -126,7 +126,7 @@ def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
 
 
 def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
-    """Return the text of a file, or the finding that it is not UTF-8."""
+    """Return the text of a file, or a finding if the file is not UTF-8."""
     try:
         return normalised(package.texts[path]).decode()
     except UnicodeDecodeError as error:

@@ -31,7 +31,7 @@ def add(commands: arguments.Commands) -> None:
         "add",
         help="add a robot to urdfsync.toml",
         description="Add a table to urdfsync.toml for each source, with guesses and their reasons. Existing tables "
-        "stay as they are.",
+        "stay unchanged.",
         epilog="examples: urdfsync add cad/gripper.urdf\n          urdfsync add ur.urdf.xacro ur_type:=ur10e",
     )
     sources = "the sources of the new robots; of xacro with arguments NAME:=VALUE"
@@ -60,7 +60,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     plain = new.removeprefix("\ufeff").replace("\r\n", "\n")
     config.parse(plain, loaded.file, shown(loaded.file))  # refuses contradictory settings
     with write_errors(loaded.file):
-        write_schema(loaded.root)  # first: if it fails, the configuration stays as it is
+        write_schema(loaded.root)  # first: if writing fails, the configuration stays as it is
         write_templates(loaded.root, guesses)
         save(loaded.file, content, new.encode())
     return show_guesses(console, loaded.file, "extended", guesses, warnings)

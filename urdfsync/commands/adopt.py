@@ -1,4 +1,4 @@
-"""`urdfsync adopt`: takes over an existing package as an edited one."""
+"""`urdfsync adopt`: takes over an existing package; its differences from the generated package become edits."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def add(commands: arguments.Commands) -> None:
         help="take over packages that exist already; differences count as your edits",
         description="Build robots whose packages exist already: another tool wrote them, or urdfsync's recorded state "
         "is lost. A file that differs from the generated one counts as edited by you: it stays, and is listed. Missing "
-        "files are written. Later exports merge with your files as with any edit.",
+        "files are written. Later exports merge with these files as with any edit.",
         epilog="example: urdfsync adopt arm --dry-run",
     )
     parser.add_argument("robots", nargs="+", metavar="ROBOT", help="robots of urdfsync.toml")
@@ -61,7 +61,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def _lines(
     configuration: Config, robot: RobotConfig, result: Result, looking: BuildOptions, *, verbose: bool
 ) -> Iterator[StyledLine]:
-    """Yield the edited files with what is edited, then those that nothing generates."""
+    """Yield the edited files with their edits, then the files that no build generates."""
     inputs = inspect(configuration, robot, looking)
     files = tuple(find_edited(inputs, generate_robot(inputs)))
     edits = to_section(RobotEdits(robot.name, result.root, files), verbose=verbose, most=_EDITS)

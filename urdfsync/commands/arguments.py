@@ -21,11 +21,11 @@ from urdfsync.output.console import PURPOSES, Console, Format
 from urdfsync.overview import CODES
 
 DRIVER_ERROR = 255
-"""Exit code of a failed merge driver of git; lower ones count conflicts."""
+"""Exit code of a failed merge driver; git reads lower codes as numbers of conflicts."""
 
 
 class UsageError(UrdfsyncError):
-    """Wrong arguments; `usage` lists the right ones."""
+    """Wrong arguments; `usage` lists the right arguments."""
 
     def __init__(self, parser: argparse.ArgumentParser, message: str, hint: str = "") -> None:
         super().__init__(Diagnostic(Severity.ERROR, "usage", message, hint=hint or f"`{parser.prog} --help` says more"))
@@ -104,13 +104,13 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "help": "let the workers of a Dask scheduler that you trust do the work (tcp://HOST:PORT)",
     },
 }
-"""Arguments and options that more than one command takes."""
+"""Arguments and options that several commands take."""
 
 
 def add_command(commands: Commands, name: str, shared: str = "", *, formats: bool = False, **texts: Any) -> Parser:
     """Add the parser of a command, with some of `_SHARED` and with the options that every command has.
 
-    With `formats`, it writes its result in each `Format`.
+    With `formats`, the command can write its result in each `Format`.
     """
     texts["epilog"] += "" if "exit codes" in texts["epilog"] else f"\n\n{CODES}"
     parser = commands.add_parser(name, **texts)
@@ -139,7 +139,7 @@ def add_dry_run(container: argparse._ActionsContainer) -> None:
 
 
 def add_tool(parser: Parser, titles: Mapping[str, str]) -> None:
-    """Add the option that chooses a compiler; `titles` are the names of its option and argument."""
+    """Add the option `--tool`; `titles` has the compiler's name for each of its values."""
     *names, last = (name if name == title else f"{name} for {title}" for name, title in titles.items())
     which = f"the compiler: {', '.join(names)}, or {last}"
     parser.add_argument("--tool", choices=tuple(titles), help=f"{which} (default: as configured, else {names[0]})")
@@ -186,7 +186,7 @@ def chosen(kind: type[msgspec.Struct], args: argparse.Namespace) -> dict[str, An
 
 
 def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> list[tuple[Path, dict[str, str]]]:
-    """Return each source with its arguments of xacro, `NAME:=VALUE`: they follow it, or stand before the first one."""
+    """Return each source with the arguments of xacro, `NAME:=VALUE`, after it; the first also has those before it."""
     sources, values = list[tuple[Path, dict[str, str]]](), dict[str, str]()
     for text in texts:
         name, is_argument, value = text.partition(":=")
@@ -204,7 +204,7 @@ def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> list
 
 
 def _may_be_xacro(source: Path) -> bool:
-    """Return whether a source looks like xacro; its reader reports an unreadable one."""
+    """Return whether a source looks like xacro; its reader reports an unreadable source."""
     from urdfsync.engine.source import is_xacro
 
     try:

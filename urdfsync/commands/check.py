@@ -25,13 +25,13 @@ def add(commands: arguments.Commands) -> None:
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
         "are balanced. With --physics poses, torques and masses are compared with an independent reference that reads "
-        "the same source. Nothing is written. Effects of your edits are reported, and are no errors.",
+        "the same source. Nothing is written. The command reports effects of your edits, which are no errors.",
         epilog="examples: urdfsync check arm --physics\n"
         "          urdfsync check --physics --strict --timeout 60 --format json",
     )
     option = parser.add_argument
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
-    option("--report", type=Path, metavar="FILE.html", help="write a page with the result, as `report` does; one robot")
+    option("--report", type=Path, metavar="FILE.html", help="write a page with the result of one robot")
     option("--strict", action="store_true", help="effects of edits and unchecked robots count as differences")
     titles = {name: compiler.TITLE for name, compiler in COMPILERS.items()}
     arguments.add_tool(parser, {**titles, BOTH: BOTH})
@@ -40,7 +40,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Check the robots, and show each result at once; then the findings about all."""
+    """Check the robots, and show each result at once; at the end show the findings about all robots."""
     results = list[CheckResult]()
     write_report = prepare_page(args, console, args.report) if args.report else None
 

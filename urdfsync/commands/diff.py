@@ -26,8 +26,8 @@ def add(commands: arguments.Commands) -> None:
         "--wait",
         formats=True,
         help="show what changed in the sources since the last build",
-        description="Show what changed in a source since the last build, or since another version of it: the elements, "
-        "the effects on the whole model, and the files that change. Nothing is written.",
+        description="Show the changes of a source since the last build, or since another version of the source: "
+        "changed elements, effects on the whole model, and changed files. Nothing is written.",
         epilog="examples: urdfsync diff cad/arm.urdf\n"
         "          urdfsync diff arm --against HEAD~1\n"
         "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n"

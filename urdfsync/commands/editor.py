@@ -27,8 +27,8 @@ _HINT = "set $VISUAL or $EDITOR"
 def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
     """Let the user write one text for each conflict.
 
-    Returns the folder with the edited files, and the texts by the conflicts' paths. Raises UrdfsyncError if there is no
-    editor, if it fails, and for an unusable text; the folder stays.
+    Returns the folder with the edited files, and the texts by the conflicts' paths. Raises UrdfsyncError without an
+    editor, if the editor fails, and for an unusable text; the folder stays.
     """
     command = os.environ.get("VISUAL") or os.environ.get("EDITOR") or ""
     try:
@@ -40,7 +40,7 @@ def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
     folder, texts = Path(tempfile.mkdtemp(prefix="urdfsync-edit-")), dict[str, str]()
     hint = f"your text is in {folder}; --edit begins anew"
     for number, conflict in enumerate(conflicts):
-        file = folder / str(number) / PurePosixPath(conflict.path).name  # several may have the same name
+        file = folder / str(number) / PurePosixPath(conflict.path).name  # several conflicts may have the same name
         file.parent.mkdir()
         proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
         proposal = proposal if conflict.edited is None else conflict.edited
@@ -67,7 +67,7 @@ def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
 
 
 def _both(mine: str, generated: str) -> str:
-    """Return both texts as one, with markers around differences; for conflicts without a base."""
+    """Return both texts of a conflict without a base as one text, with markers around differences."""
     sides = [text.replace("\r\n", "\n").splitlines() for text in (mine, generated)]
     lines: list[str] = []
     for what, *places in difflib.SequenceMatcher(a=sides[0], b=sides[1], autojunk=False).get_opcodes():
@@ -77,7 +77,7 @@ def _both(mine: str, generated: str) -> str:
 
 
 def _flaw(content: bytes, conflict: Conflict) -> str:
-    """Return the fault of an edited text, as the end of a sentence; empty for a usable one."""
+    """Return the fault of an edited text, as the end of a sentence; empty for a usable text."""
     try:
         text = content.decode()
     except UnicodeDecodeError:

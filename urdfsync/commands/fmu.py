@@ -31,16 +31,16 @@ def add(commands: arguments.Commands) -> None:
         "--wait --trust --set --timeout --memory",
         help="export a robot as FMU, by OpenModelica",
         description="Export the Run model of a robot, or a model of yours, as FMU, with the package as it is on disk. "
-        "It has the model's inputs and outputs under their names. It needs OpenModelica. With --check, FMPy validates "
-        "the FMU and runs it, and the result is compared with `urdfsync simulate`.",
+        "The FMU has the model's inputs and outputs under their names. The export needs OpenModelica. With --check, "
+        "FMPy validates and runs the FMU, and urdfsync compares the result with `urdfsync simulate`.",
         epilog="examples: urdfsync fmu arm\n"
         "          urdfsync fmu arm --fmi 3 --kind cs -o arm.fmu --check\n"
         "          urdfsync fmu arm --input motion.csv --check",
     )
     option = parser.add_argument
-    option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
+    option("robots", nargs="*", metavar="ROBOT", help="the robot, if the project has several")
     option("--model", metavar="NAME", default="", help="the model (default: Run of the robot, else Test)")
-    option("-o", "--output", type=Path, metavar="FILE.fmu", help="where to write it (default: the model's name, here)")
+    option("-o", "--output", type=Path, metavar="FILE.fmu", help="the FMU's file (default: the model's name, here)")
     option("--fmi", choices=tuple(_VERSIONS), default="2", help="the version of FMI (default: 2)")
     kind = "model exchange, co-simulation or both (default: both)"
     option("--kind", choices=tuple(_EXPORTED), default="both", help=kind)
@@ -48,19 +48,19 @@ def add(commands: arguments.Commands) -> None:
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
     stop = f"end of the simulation that the FMU proposes (default: as the model says, else {STOP:g})"
     option("--stop", type=arguments.amount, metavar="S", help=stop)
-    option("--step", type=arguments.amount, metavar="S", help="the step that the FMU proposes (default: likewise)")
-    option("--check", action="store_true", help="validate it with FMPy, and compare its trajectory with `simulate`")
+    option("--step", type=arguments.amount, metavar="S", help="the step that the FMU proposes (default: the model's)")
+    option("--check", action="store_true", help="validate the FMU with FMPy, and compare it with `simulate`")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="the motion for the check (default: at rest)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Export one model, check it on demand, and write it."""
+    """Export one model as an FMU, check the FMU on demand, and write it."""
     configuration, robot = arguments.select_robot(args, console)
     if args.check and importlib.util.find_spec("fmpy") is None:
         raise ConfigError.of("no-fmpy", "`--check` needs FMPy, which is not installed", hint=install_command("fmu"))
     if args.motion and (args.kind == "me" or not args.check):
         message = "`--input` is the motion for `--check` of co-simulation"
-        raise arguments.UsageError(args.parser, message, "give both, with `--kind cs` or `both`")
+        raise arguments.UsageError(args.parser, message, "give `--check`, too, and `--kind cs` or `both`")
     if args.output and args.output.suffix.lower() != ".fmu":
         raise not_writable(args.output, "an FMU's name ends with .fmu", "name such a file")
     if args.output:

@@ -1,6 +1,6 @@
 """`urdfsync hook`: builds or checks before a commit, as `build` and `build --check` do, then looks at git's index.
 
-A commit passes if the working tree is in step, and if all files that a build of the touched robots reads or writes are
+A commit passes if the working tree is in step. All files that a build of the touched robots reads or writes must be
 staged as they are on disk. Under pre-commit, the working tree equals the index but for untracked files.
 """
 
@@ -34,7 +34,7 @@ from urdfsync.output.console import Console
 from urdfsync.spelling import counted
 
 _FEW = 4
-"""The most files to add that are named one by one."""
+"""If a hint has more files to add, it names whole folders."""
 _COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
 """The parts of the recorded state that belong into a commit."""
 _UNNEEDED = ORPHANS | {Reason.FORGET, Reason.UNKNOWN}
@@ -42,7 +42,7 @@ _UNNEEDED = ORPHANS | {Reason.FORGET, Reason.UNKNOWN}
 
 
 class Fault(msgspec.Struct, frozen=True):
-    """A reason why a commit does not pass, in one robot."""
+    """A reason why one robot keeps a commit from passing."""
 
     diagnostic: Diagnostic
     result: Result | None = None
@@ -65,7 +65,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Check the configuration of --config, or all that git tracks."""
+    """Check the configuration of --config, or all configurations that git tracks."""
     faults, errors = list[Fault](), list[Diagnostic]()
     try:
         commit = Commit()
@@ -90,7 +90,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 class Commit:
-    """The files of a commit, named by their paths from the top of the repository, as in git."""
+    """The files of a commit, by their paths from the top of the repository, as in git."""
 
     def __init__(self) -> None:
         """Raises GitError, and SourceError while files are unmerged."""
@@ -105,7 +105,7 @@ class Commit:
         self._real_folders: dict[str, str] = {}
 
     def path(self, file: str | Path) -> str | None:
-        """Return the path of a file from the top; None outside. For a file in a submodule, return the submodule's path.
+        """Return the path of a file, or of its submodule, from the top of the repository; None for a file outside.
 
         Links to folders are followed, since git tracks no files behind them.
         """
@@ -135,7 +135,7 @@ class RobotFiles:
         self.outputs = commit.paths(parents.files(robot))
         """The files that the commit needs, if they exist."""
         self.known = commit.paths([config.file])
-        """The files that the commit needs, the files that a build read, and those that it looked for."""
+        """The files that the commit needs, and the files that a build read or looked for."""
         self.note(planned)
         folders = [robot.folder, Path(self._state, "bases", robot.name), *filter(None, [robot.templates])]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
@@ -151,7 +151,7 @@ class RobotFiles:
         self.known |= self.outputs | self._commit.paths(path for _, path in entries)
 
     def _is_for_git(self, path: str) -> bool:
-        """Return whether a file belongs into a commit: some of the state does not."""
+        """Return whether a file belongs into a commit: parts of the recorded state do not."""
         return not path.startswith(self._state) or path.removeprefix(self._state).startswith(_COMMITTED)
 
     def select(self, paths: Iterable[str]) -> set[str]:
@@ -167,11 +167,11 @@ class RobotFiles:
         return self.select(index.unstaged) | outputs | inputs
 
     def find_fault(self) -> Fault | None:
-        """Return why the commit fails before a build; None if it does not."""
+        """Return why the commit fails before a build; None if it passes."""
         index = self._commit.index
         if hidden := self.select(index.hidden):
             message = f"git ignores changes of {', '.join(sorted(hidden))}"
-            return self.fault("hidden", message, "`git help update-index` says how to undo it")
+            return self.fault("hidden", message, "`git help update-index` says how to undo this")
         if partly := self.select(self._commit.files & index.unstaged):
             hint = f"{self.adding(partly)}, or put the rest aside with `git stash push --keep-index`"
             return self.fault("partly-staged", f"partly staged: {', '.join(sorted(partly))}", hint)
@@ -194,20 +194,20 @@ class RobotFiles:
         return Fault(Diagnostic(Severity.ERROR, code, message, place, hint=hint), result)
 
     def adding(self, paths: Collection[str]) -> str:
-        """Return the command that adds files to the commit; it works in each folder of the repository."""
+        """Return the command that adds files to the commit, from any folder of the repository."""
         index, names = self._commit.index, set(paths)
         ignored = names - index.tracked - index.untracked
         for folder in self.folders if len(names) > _FEW and not ignored else ():
             inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
-            if len(inside) > 1 and inside <= names:  # the whole folder can be named
+            if len(inside) > 1 and inside <= names:  # then name the whole folder
                 names = names - inside | {folder.removesuffix("/")}
-        # hooks run at the top, the user's shell elsewhere: `:/` counts from the top; a second colon ends git's signs
+        # to git `:/` means the top, from any folder; after a second colon, a name may begin with a special sign
         from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
         return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
 
 
 def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool) -> Iterator[Fault]:
-    """Yield the faults of the robots of one configuration; with `writing`, build. Raises UrdfsyncError."""
+    """Yield the faults of the robots of one configuration; with `writing`, build the robots. Raises UrdfsyncError."""
     file, key = hook.answer_place(commit.index, path)
     with Dependencies() as everything:
         config = configuration.load(Path(file))

@@ -41,7 +41,7 @@ NamedSource: TypeAlias = tuple[Path, Mapping[str, str]]
 
 
 class Guess(msgspec.Struct, frozen=True):
-    """The table of one robot, proposed or there."""
+    """The table of one robot: a new table, or a table of the configuration."""
 
     KEYS = ("robot", "source", "arguments", "package", "options")
 
@@ -51,7 +51,7 @@ class Guess(msgspec.Struct, frozen=True):
     package: str
     options: tuple[Proposal, ...] = ()
     templates: Mapping[str, str] = {}
-    """Templates to begin with, by their paths."""
+    """First templates for the user, by their paths."""
 
     @property
     def templates_folder(self) -> str:
@@ -92,7 +92,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         merge_driver.install(file.parent, console)
     _refuse_existing(file)
     with write_errors(file):
-        write_schema(file.parent)  # first: if it fails, there is no configuration yet, and `init` can be repeated
+        write_schema(file.parent)  # first: if writing fails, there is no configuration yet, and `init` can be repeated
         write_templates(file.parent, guesses)
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     if is_clone and not (is_asked or installs):
@@ -107,11 +107,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def guess_robots(
     domain: Domain, root: Path, named: Sequence[NamedSource], known: Sequence[Guess] = ()
 ) -> tuple[list[Guess], list[Diagnostic]]:
-    """Guess a robot for each of the `named` sources, else for each source below `root`; also return warnings.
+    """Guess a robot for each of the `named` sources, or for all sources below `root`; also return warnings.
 
     `known` are the existing robots. A source that is named twice with the same arguments counts once. Raises
-    ConfigError if there is no source or a given name is taken, SourceError if a named source, or every found one, is
-    unreadable.
+    ConfigError without a source, and if a given name is taken. Raises SourceError if a named source is unreadable, or
+    if all found ones are.
     """
     unique: dict[tuple[str, str], NamedSource] = {}
     for source, given in named or ((source, {}) for source in _search(root, f".{domain.name}")):
@@ -130,19 +130,19 @@ def guess_robots(
                 raise
             errors += error.diagnostics
             first = next(one for one in error.diagnostics if one.severity is Severity.ERROR)
-            hint = f"correct it and add it, or run `urdfsync init {shown(source)}`"
+            hint = f"correct the source and add it, or run `urdfsync init {shown(source)}`"
             message = f"{first.message}; left out"
             warnings.append(msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint))
         else:
             guesses.append(guess)
-            warnings += (each for each in noted if each.severity is not Severity.NOTE)  # the first build has the notes
+            warnings += (each for each in noted if each.severity is not Severity.NOTE)  # the first build shows notes
     if not guesses:
         raise SourceError(*errors)
     return guesses, warnings
 
 
 def _search(folder: Path, suffix: str) -> Iterator[Path]:
-    """Files with this suffix below `folder`, hidden files and folders left out, sorted."""
+    """Yield the files with this suffix below `folder`, without hidden files and folders."""
     for parent, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         sources = [name for name in sorted(files) if name.lower().endswith(suffix) and not name.startswith(".")]
@@ -159,7 +159,7 @@ def _guess(
         raise SourceError.of("source-name", message, shown(source), hint=hint)
     text = source_files.read_file_source(domain, source, given, config.ros_package_path())
     advice: Advice | None = domain.advice
-    if text.expansion and "name" in text.expansion.unused:  # then it names only the robot of the configuration
+    if text.expansion and "name" in text.expansion.unused:  # then `name` is only the robot's name in the configuration
         others = {key: value for key, value in given.items() if key != "name"}
         text = source_files.read_file_source(domain, source, others, config.ros_package_path())
     snapshot, reading = source_files.read_permissively(domain, text)
@@ -170,7 +170,7 @@ def _guess(
     proposals = tuple(advice.propose(snapshot, reading.diagnostics)) if advice else ()
     beside = source_files.file_beside(domain, path)
     if beside and domain.beside.OPTION and (root / beside).is_file():
-        proposals += (Proposal(domain.beside.OPTION, beside.as_posix(), "it stands beside the source"),)
+        proposals += (Proposal(domain.beside.OPTION, beside.as_posix(), "the file stands beside the source"),)
     templates = domain.starter(snapshot) if domain.starter else {}
     guess = Guess(robot, path.as_posix(), values, package, proposals, templates)
     return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))
@@ -181,8 +181,9 @@ def _free_names(
 ) -> tuple[str, str]:
     """Return names for a robot and its package that no `known` robot has.
 
-    The argument `name` decides. Otherwise these are tried: the robot's own name; this name with the arguments that
-    differ within the `fleet` of its source; the file's name. Raises ConfigError if the argument `name` is taken.
+    The argument `name` decides. Otherwise the robot's own name is tried first. Next comes this name with the arguments
+    that differ within the `fleet` of its source, then the file's name. Raises ConfigError if the argument `name` is
+    taken.
     """
     taken = {name.casefold() for one in known for name in (one.robot, one.package)}
     differing = "_".join(value for key, value in given.items() if any(other.get(key) != value for other in fleet))
@@ -194,7 +195,7 @@ def _free_names(
     names = [_names(text[:_LONGEST]) for text in texts if text]
     free = next((pair for pair in names if taken.isdisjoint(map(str.casefold, pair))), None)
     if free is None and given.get("name"):
-        message, hint = f"another robot or package has the name `{given['name']}`", "give another one with `name:=`"
+        message, hint = f"another robot or package has the name `{given['name']}`", "give another name with `name:=`"
         raise ConfigError.of("source-in-use", message, shown(source), hint=hint)
     robot, package = names[-1]
     counts = map(str, range(2, len(taken) + 3))
@@ -206,7 +207,7 @@ def _free_names(
 
 
 def _names(text: str) -> tuple[str, str]:
-    """Return names of a robot and of its package, made from any text."""
+    """Return names of a robot and of its package, which are made from any text."""
     name = re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
     return name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(text)
 
@@ -239,7 +240,7 @@ def robot_table(guess: Guess, domain: Domain) -> str:
 
 
 def write_templates(root: Path, guesses: Sequence[Guess]) -> None:
-    """Write the templates of new robots. Raises ConfigError for files that are there already, and OSError."""
+    """Write the templates of new robots. Raises ConfigError for templates that exist already, and OSError."""
     texts = {root / one.templates_folder / path: text for one in guesses for path, text in one.templates.items()}
     for file in texts:
         if file.exists():
@@ -253,7 +254,7 @@ def _assignment(key: str, value: Any) -> str:
     plain_value = msgspec.to_builtins(value)
     if isinstance(plain_value, dict):
         return f"{key} = {{ {', '.join(_assignment(*item) for item in plain_value.items())} }}"
-    if isinstance(plain_value, list | tuple):  # tomli_w gives each item a line, which can't be one comment
+    if isinstance(plain_value, list | tuple):  # one line for the comment; tomli_w writes a line for each item
         items = (tomli_w.dumps({"item": item}).strip().removeprefix("item = ") for item in plain_value)
         return f"{key} = [{', '.join(items)}]"
     return tomli_w.dumps({key: plain_value}).strip()
@@ -280,7 +281,7 @@ def write_schema(root: Path) -> None:
 
 def _refuse_existing(file: Path) -> None:
     if os.path.lexists(file):
-        hint = "`urdfsync add SOURCE` adds a robot to it; or name another file with --config"
+        hint = "`urdfsync add SOURCE` adds a robot to this file; or name another file with --config"
         raise ConfigError.of("config-exists", "the file exists already", shown(file), hint=hint)
 
 

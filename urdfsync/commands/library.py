@@ -16,7 +16,7 @@ from urdfsync.output.console import Console, line
 
 
 class LibraryDocument(msgspec.Struct):
-    """Where the library is, and a line for the shell that puts it on MODELICAPATH."""
+    """The library's folder, and a line for the shell that puts this folder on MODELICAPATH."""
 
     folder: str
     line: str
@@ -28,14 +28,14 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "library",
         help="print where the Modelica library is",
-        description="Print the folder of the Modelica library, and the line that puts it on MODELICAPATH. "
+        description="Print the folder of the Modelica library, and the line that puts this folder on MODELICAPATH. "
         "A pipe or a file gets only the line.",
         epilog='example: eval "$(urdfsync library)"',
     )
 
 
 def run(_args: argparse.Namespace, console: Console) -> int:
-    """Print the folder and the line for the shell; to `eval`, only the latter."""
+    """Print the folder and the line for the shell; a pipe gets only the line."""
     folder = str(config.library_folder())
     if os.name == "nt":
         command = f"set MODELICAPATH={folder};%MODELICAPATH%"
@@ -44,6 +44,6 @@ def run(_args: argparse.Namespace, console: Console) -> int:
     if not console.is_document and sys.stdout.isatty():
         console.print([line((folder, "")), line((command, ""))])
     elif not console.is_document:
-        sys.stdout.write(f"{command}\n")  # as it is: a shell reads it
+        sys.stdout.write(f"{command}\n")  # without styles: a shell reads the line
     console.add(LibraryDocument(folder, command))
     return console.end(Exit.IN_STEP)

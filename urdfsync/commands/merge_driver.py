@@ -30,13 +30,13 @@ def add(commands: arguments.Commands) -> None:
         "merge-driver",
         help="let git merge Modelica files by their elements",
         description="Let git merge Modelica files by the elements of their classes, in merges, rebases and "
-        "cherry-picks. With --install, set it up in this clone, and name the files in .gitattributes of the working "
-        "folder. Git then calls it with three files: it merges the changes from BASE to OTHER into MINE, and puts "
-        "contradictions between markers.",
+        "cherry-picks. With --install, set the driver up in this clone, and name the files in .gitattributes of the "
+        "working folder. Git then calls the driver with three files: it merges the changes from BASE to OTHER into "
+        "MINE, and puts contradictions between markers.",
         epilog="example: urdfsync merge-driver --install\n\nexit codes: 0 merged or installed, "
         "1 conflicts, 255 error (2 by --install)",
     )
-    parser.add_argument("--install", action="store_true", help="set it up in the clone of the working folder")
+    parser.add_argument("--install", action="store_true", help="set the driver up in the clone of the working folder")
     for name, words in (
         ("base", "the common ancestor (%%O of git)"),
         ("mine", "the version of this side, to which the result is written (%%A)"),
@@ -74,7 +74,7 @@ def _has_settings(folder: Path) -> bool:
     """Return whether git's settings of a clone name the command."""
     try:
         return bool(git.run("-C", str(folder), "config", "--get", "merge.urdfsync.driver"))
-    except git.GitError:  # there is no such setting
+    except git.GitError:  # git has no such setting
         return False
 
 
@@ -84,11 +84,11 @@ def _is_named(folder: Path) -> bool:
 
 
 def install(folder: Path, console: Console) -> None:
-    """Write the command to the clone's settings, and its line to `.gitattributes` of the folder if it is not there.
+    """Write the command to the clone's settings, and the attribute to the folder's `.gitattributes` if it is missing.
 
-    Raises UrdfsyncError if that fails.
+    Raises UrdfsyncError if writing fails.
     """
-    # git starts it in the top folder of the clone: without -P, Python would import a folder `urdfsync` from there
+    # git starts the command at the top of the clone: without -P, Python would import a folder `urdfsync` from there
     command = f"{shlex.quote(sys.executable)} -P -m urdfsync merge-driver".replace("%", "%%")
     inside, file = ("-C", str(folder)), folder / ".gitattributes"
     try:
@@ -121,7 +121,7 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     try:
         base, mine, other = (content.decode() for content in contents)
     except UnicodeDecodeError:
-        message, hint = "it is not UTF-8, so it can't be merged", "it stays as this side has it: settle it by hand"
+        message, hint = "the file is not UTF-8, so it can't be merged", "this side's text stays: settle it by hand"
         return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)]
     merged, conflicts = merge_file(base, mine, other, markers)
     if merged != mine:
@@ -131,5 +131,5 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
 
 
 def _label(given: str, default: str) -> str:
-    """Return a label of git's as one line; git before 2.44 leaves the placeholder."""
+    """Return the label that git gives a version, as one line; git before 2.44 passes the placeholder unchanged."""
     return default if given in ("", "%X", "%Y") else " ".join(given.split())

@@ -26,16 +26,16 @@ def add(commands: arguments.Commands) -> None:
         "record",
         help="write the whole robot as one record",
         description="Write the record of a source alone: all numbers of the robot, and the tables by which "
-        "UrdfSync.Robots.GenericRobot reads them. It needs no urdfsync.toml and leaves nothing else behind; meshes "
-        "are not imported. For a record that follows its source, and for a floating base, use "
-        '`approach = ["record"]` in a project: only a project computes the height at which the robot stands.',
+        "UrdfSync.Robots.GenericRobot reads them. The command needs no urdfsync.toml, writes no other file, and "
+        'imports no meshes. For a record that follows its source, use `approach = ["record"]` in a project. Do the '
+        "same for a floating base: only a project computes the height at which the robot stands.",
         epilog="examples: urdfsync record robot.urdf\n"
         "          urdfsync record robot.urdf -o modelica/Plant/ArmParameters.mo --within Plant",
     )
     option = parser.add_argument
     source = "the URDF or xacro file; for xacro also arguments, NAME:=VALUE"
     option("source", nargs="+", metavar="SOURCE", help=source)
-    option("-o", "--output", type=Path, metavar="FILE", help="where it goes (default: -, standard output)")
+    option("-o", "--output", type=Path, metavar="FILE", help="the record's file (default: -, standard output)")
     option("--force", action="store_true", help="replace a FILE that holds something else")
     name = "name of the record (default: that of FILE, or of SOURCE)"
     option("--class", dest="class_", default="", metavar="NAME", help=name)
@@ -67,8 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:
     """Write the record, as a whole or not at all; return whether it changed.
 
-    Another file's content is replaced only with `force`, the source never. Raises OutputError for both, and if writing
-    fails.
+    Raises OutputError if writing fails, if the file is the source, or without `force` if it holds something else.
     """
     check_file(file, {"the source": source})
     content = text.encode()
@@ -77,7 +76,7 @@ def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:
             return False
         if not force:
             message = "the file exists, and holds something else"
-            hint = "name another one, or replace it with --force"
+            hint = "name another file, or replace this one with --force"
             raise OutputError.of("file-exists", message, shown(file), hint=hint)
     write_file(file, content)
     return True

@@ -34,20 +34,21 @@ def add(commands: arguments.Commands) -> None:
         "report",
         "--wait",
         help="write a page with a robot in 3D, and what changed",
-        description="Write one HTML file that needs nothing else: the robot in 3D with joints that you can move, its "
-        "tree and its diagram, what changed since the last build or another version, your edits and the conflicts.",
+        description="Write one HTML file that needs no other file. It shows the robot in 3D with joints that you "
+        "can move, its tree and diagram, the changes since the last build or another version, your edits and the "
+        "conflicts.",
         epilog="examples: urdfsync report arm\n          urdfsync report arm --against HEAD~1 -o review.html",
     )
     option = parser.add_argument
-    option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
+    option("robots", nargs="*", metavar="ROBOT", help="the robot, if the project has several")
     option("--against", metavar="VERSION", help="the older version: git revision, else file (default: the last build)")
-    option("-o", "--output", type=Path, metavar="FILE.html", help="where to write it (default: the robot's name, here)")
+    option("-o", "--output", type=Path, metavar="FILE.html", help="the page's file (default: the robot's name, here)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page of one robot, and show its path."""
     from urdfsync.checks.robot import known_check
-    from urdfsync.pages.page import is_page  # with Jinja 50 ms, which `urdfsync --help` does without
+    from urdfsync.pages.page import is_page  # takes 50 ms with Jinja, which `urdfsync --help` saves
 
     configuration, robot = arguments.select_robot(args, console)
     file = args.output or default_file(f"{robot.name}.html", is_page)

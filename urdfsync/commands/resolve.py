@@ -32,8 +32,8 @@ def add(commands: arguments.Commands) -> None:
         "--wait --trust",
         help="settle conflicts between your edits and the generated files",
         description="Settle conflicts between your edits and the generated files. "
-        "Then write the files that waited for that.",
-        epilog="A file that you edited and that is no longer generated can be named too: --keep makes it yours, "
+        "Then write the files that waited for the choice.",
+        epilog="You can also name an orphan, an edited file that no build generates any more: --keep makes it yours, "
         "--take deletes it.\n\nexample: urdfsync resolve modelica/Arm/Links/Elbow.mo --merge",
     )
     parser.add_argument("paths", nargs="*", metavar="PATH", help="a file; a folder or a robot for all conflicts in it")
@@ -50,7 +50,7 @@ def add(commands: arguments.Commands) -> None:
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
     words = "move your edit to the element that is now called NAME, by default the likely one"
     choice.add_argument("--moved", nargs="?", const="", metavar="NAME", help=words)
-    words = "with --merge: which side counts where both changed the same"
+    words = "with --merge: the side that counts where both sides changed the same text"
     parser.add_argument("--prefer", choices=["mine", "generated"], help=words)
     arguments.add_dry_run(parser)
 
@@ -73,7 +73,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if not targets and not any(result.failed for result in planned):
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
     robots = [robot for robot in configuration.robots if robot.name in concerned]
-    # a choice holds for the texts of this plan: if a file is saved from now on, its choice is not applied
+    # a choice holds for the texts of this plan: if the user saves a file from now on, its choice is not applied
     choices = {action.path: UsersChoice(choice, action.sides, args.moved) for _, action in targets.values()}
     edited, folder = dict[str, str](), None
     if choice is Choice.EDIT:
@@ -94,7 +94,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if folder and not args.dry_run and edited.keys() <= accepted:
         shutil.rmtree(folder)
     elif folder:
-        hint = "copy from it into your file, or edit again"
+        hint = "copy your text from this folder into your file, or edit again"
         message = "some files were not replaced by your edited text"
         problems.append(Diagnostic(Severity.NOTE, "edit-left", message, shown(folder), hint=hint))
     return console.end(code, problems)
@@ -117,7 +117,7 @@ def _choice(args: argparse.Namespace) -> Choice:
 
 
 def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterator[tuple[Result, Action]]:
-    """Yield the file at a path if the choice is possible for it, else all conflicts below the path.
+    """Yield the file at a path if the choice is possible for that file, else all conflicts below the path.
 
     A renamed file is found by its old and by its new path.
     """
@@ -136,7 +136,7 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
                 is_found = True
                 yield result, action
         if choice is Choice.UNDO and not is_found and not os.path.lexists(path) and path.is_relative_to(result.folder):
-            yield result, Action(key_of(path, root), Reason.FORGET, Role.MODEL)  # a build may have deleted it
+            yield result, Action(key_of(path, root), Reason.FORGET, Role.MODEL)  # a build may have deleted the file
 
 
 def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str]) -> int:
@@ -155,7 +155,7 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
 def _compare(
     targets: Mapping[str, tuple[Result, Action]], results: Sequence[Result], choice: Choice
 ) -> tuple[set[str], list[Diagnostic]]:
-    """Return the paths at which the choice was applied, and the reasons why it was not applied at others.
+    """Return the paths where the choice was applied, and for other paths the reasons why it was not.
 
     A conflict that the choice does not settle is shown with its reason.
     """
@@ -171,7 +171,7 @@ def _compare(
             accepted.add(path)
         elif after is not None and after.sides != before.sides:
             message = "the file or its generated text changed after they were read, so your choice was not applied"
-            hint = "look at it, then choose again"
+            hint = "look at the file, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
         elif reason := next((one.refused.get(choice) for one in result.conflict_texts if one.path == path), None):
             hint = "prefer the other side, or use --edit"

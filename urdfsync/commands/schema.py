@@ -37,7 +37,7 @@ _RESULTS: dict[str, tuple[Any, ...]] = {
     "library": (LibraryDocument,),
     **dict.fromkeys(("merge-driver", "watch"), (None,)),
 }
-"""Types of the results in the documents of commands; `watch` writes one only if it ends with an error."""
+"""Types of the results in the documents of commands; `watch` writes a document only if it ends with an error."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -47,8 +47,8 @@ def add(commands: arguments.Commands) -> None:
         "schema",
         help="print a JSON schema, for editors and programs",
         description="Print the JSON schema of urdfsync.toml, or of what a command writes with --format json. "
-        "`urdfsync init` writes that of urdfsync.toml to .urdfsync/schema.json and names it in the configuration, so "
-        "that editors complete and check it.",
+        "`urdfsync init` writes the schema of urdfsync.toml to .urdfsync/schema.json and names it in the "
+        "configuration. Editors then complete and check the configuration.",
         epilog="examples: urdfsync schema > .urdfsync/schema.json\n          urdfsync schema build",
     )
     names = ("config", *sorted(_RESULTS))
@@ -66,7 +66,7 @@ def document_schema(name: str) -> dict[str, Any]:
     """Return the schema of a command's document; for `watch`, that of a line of output."""
     kinds: list[Any] = [Document[document_type(kind)] for kind in _RESULTS[name]]  # type: ignore[misc]
     if name == "watch":
-        from urdfsync.watch.events import Event, RobotEvent  # the other commands do without
+        from urdfsync.watch.events import Event, RobotEvent  # other commands need no events
 
         for kind in (*Event.__subclasses__(), *RobotEvent.__subclasses__()):
             head = {"version": Literal[3], "event": Literal[kind.__struct_config__.tag], "time": datetime.datetime}

@@ -34,7 +34,7 @@ def add(commands: arguments.Commands) -> None:
         "          urdfsync simulate arm --input motion.csv",
     )
     option = parser.add_argument
-    option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
+    option("robots", nargs="*", metavar="ROBOT", help="the robot, if the project has several")
     option("--model", metavar="NAME", default="", help="the model (default: Test of the robot; with --input, Run)")
     stop = f"end of the simulation (default: as the model says, else {STOP:g})"
     option("--stop", type=arguments.amount, metavar="S", help=stop)

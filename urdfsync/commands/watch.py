@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
-"""Signals that end the daemon; its own timer sends the last one."""
+"""Signals that end the daemon; the daemon's own timer sends the last one."""
 _TIMES = (
     ("settle", "MS", 300, "milliseconds without an event before a build"),
-    ("sample", "MS", 200, "milliseconds between two reads of files that must be equal"),
+    ("sample", "MS", 200, "milliseconds between two reads, which must find equal files"),
     ("patience", "S", 30, "seconds before an invalid source is reported as an error"),
     ("rescan", "S", 30, "seconds between two reads of all files: the system may drop events, and mounts send none"),
 )
@@ -50,8 +50,8 @@ def add(commands: arguments.Commands) -> None:
     option = parser.add_argument
     option("--exec", metavar="CMD", default="", help="shell command to run after a build that changed files")
     option("--view", action="store_true", help="serve a page for each robot to browsers on this machine, see `report`")
-    option("--open", action="store_true", help="open it in a browser, too")
-    option("--port", type=int, metavar="N", default=_PORT, help=f"its port, 0 for any (default: {_PORT})")
+    option("--open", action="store_true", help="also open the page in a browser")
+    option("--port", type=int, metavar="N", default=_PORT, help=f"the page's port, 0 for any (default: {_PORT})")
 
 
 def _duration(text: str) -> float:
@@ -99,7 +99,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _open(address: str) -> bool:
-    """Open a page in a browser, but not in one for terminals: the daemon writes there."""
+    """Open a page in a browser with windows: a browser in the terminal would disturb the daemon's output."""
     import webbrowser
 
     has_screen = sys.platform != "linux" or any(map(os.environ.get, ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY")))
@@ -108,7 +108,7 @@ def _open(address: str) -> bool:
 
 @contextlib.contextmanager
 def _signals(daemon: Daemon) -> Iterator[list[str]]:
-    """Stop the daemon on a signal. The first signal lets it finish its work.
+    """Stop the daemon on a signal. The first signal lets the daemon finish its work.
 
     A second signal, or a timer, interrupts the work: reading a source may never end.
     """
@@ -116,7 +116,7 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
 
     def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - as signal calls it
         received.append(signal.Signals(number).name)
-        if hasattr(signal, "setitimer"):  # else only a second signal helps
+        if hasattr(signal, "setitimer"):  # without a timer, only a second signal ends the work
             signal.setitimer(signal.ITIMER_REAL, _GRACE, _GRACE)
         daemon.stop(received[0])
 

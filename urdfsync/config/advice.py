@@ -12,7 +12,7 @@ from urdfsync.domain import Snapshot, Target
 
 
 class Proposal(msgspec.Struct, frozen=True):
-    """Value that `init` writes for one option, with the reason."""
+    """A value that `init` writes for one option, with the reason."""
 
     option: str
     value: Any
@@ -29,18 +29,15 @@ class Advice(Protocol):
     def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
         """Return option values that suit a model better than the defaults, for `init`.
 
-        `diagnostics` are those of reading it by `Domain.permissive_options`.
+        `diagnostics` come from reading the model with `Domain.permissive_options`.
         """
         ...
 
     def option_for(self, name: str, snapshot: Snapshot, target: Target, options: Any) -> str:
-        """Return the option, as the configuration has it, that brings a class, connector, input or output.
-
-        Empty if none does, or if `options` bring it.
-        """
+        """Return the option in the configuration's words that adds a class, connector, input or output; else empty."""
         ...
 
 
 def brings_back(option: str, new_name: str = "") -> str:
-    """Return the hint to set the option that brings a name back, perhaps as a new name; empty without option."""
+    """Return the hint to set the option that brings a name back, perhaps as a new name; empty without an option."""
     return f"set `{option}` to bring it back{f' as `{new_name}`' if new_name else ''}" if option else ""

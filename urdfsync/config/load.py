@@ -1,7 +1,7 @@
 """Reads `urdfsync.toml` into a frozen `Config`; reports all faults at once, each with its line.
 
-All paths in the file count from its own folder. A robot's table may hold the keys of `Keys` and the options of its
-domain; `[defaults]` the same without source, package and class; `[check]` the keys of `CheckConfig`.
+All paths in the file count from the file's folder. A robot's table may hold the keys of `Keys` and the options of its
+domain. `[defaults]` may hold the same keys without source, package and class, `[check]` the keys of `CheckConfig`.
 """
 
 from __future__ import annotations
@@ -49,13 +49,13 @@ _WORDS = {
 }
 
 _fields = functools.cache(msgspec.structs.fields)
-"""The fields of each struct type. In the daemon, finding them takes a tenth of a small build's time."""
+"""The fields of each struct type. In the daemon, finding the fields would take a tenth of a small build's time."""
 
 
 def find(start: Path) -> Path:
-    """Find the configuration file in `start` or the nearest folder above it. Raises ConfigError if there is none."""
+    """Find the configuration file in `start` or the nearest folder above it. Raises ConfigError without such a file."""
     for folder in (start, *start.parents):
-        # a pipe in its place counts, too: `load` reports it as unreadable
+        # a pipe of this name counts, too: `load` reports it as unreadable
         if dependencies.file_type(folder / FILE_NAME) not in (0, stat.S_IFDIR):
             return folder / FILE_NAME
     message = f"no {FILE_NAME} in {start} or a folder above it"
@@ -64,7 +64,7 @@ def find(start: Path) -> Path:
 
 
 def load(file: Path) -> Config:
-    """Read a configuration file. Raises ConfigError with all its faults."""
+    """Read a configuration file. Raises ConfigError with all faults of the file."""
     code, line = "unreadable-config", 0
     try:
         text = dependencies.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
@@ -132,7 +132,7 @@ def _is_finite(value: Any) -> bool:
 
 
 class _Table(NamedTuple):
-    """A table: its name in messages, its values, and the line of each key; the table's own line for `""`."""
+    """A table: its name in messages, its values, and the line of each key; `""` has the table's own line."""
 
     name: str
     values: Mapping[str, Any]
@@ -149,7 +149,7 @@ class _Reader:
         self._file, self._root = file, root
 
     def check_characters(self) -> None:
-        """Report control characters: no name, path or option needs one, and some systems stop at one."""
+        """Report control characters: no name, path or option needs them, and some systems end a text there."""
         for path, text in tomlfile.strings(self._document):
             if any(ord(char) < 32 or ord(char) == 127 for char in text):
                 message = f"there is a control character in {text!r}"
@@ -249,7 +249,7 @@ class _Reader:
         for old, new in keys.renamed.items():
             if (other := olds.setdefault(new, old)) != old:
                 message = f"robot `{name}`: both `{other}` and `{old}` are renamed to `{new}`"
-                self._report("wrong-rename", lines[f"renamed.{old}"], message, "take one of them out")
+                self._report("wrong-rename", lines[f"renamed.{old}"], message, "take one entry out")
         for key, message, hint in find_name_problems(keys.package, keys.class_):
             self._report("modelica-name", lines[key], message, hint)
         if keys.command and keys.arguments is not None:
@@ -257,7 +257,7 @@ class _Reader:
             self._report("wrong-value", lines["arguments"], message, hint)
         elif keys.command_inputs and not keys.command:
             message = f"robot `{name}`: `command_inputs` without `command`"
-            self._report("wrong-value", lines["command_inputs"], message, "add the command, or take them out")
+            self._report("wrong-value", lines["command_inputs"], message, "add the command, or take the inputs out")
         output = self._absolute(keys.output)
         for folder, owner in ((STATE_FOLDER, "urdfsync"), (".git", "git")):
             if Path(_folded(output)).is_relative_to(_folded(self._root / folder)):
@@ -266,7 +266,7 @@ class _Reader:
         if len(self.problems) > before:
             return None
         source, given = Path(table.values["source"]), keys.arguments or {}
-        # as text, since xacro gets text on its command line
+        # as texts, like the arguments on xacro's command line
         arguments = {key: value if isinstance(value, str) else json.dumps(value) for key, value in given.items()}
         shared: dict[str, Any] = {field.name: getattr(keys, field.name) for field in _fields(SharedKeys)}
         return RobotConfig(
@@ -280,7 +280,7 @@ class _Reader:
         )
 
     def _read(self, table: _Table, struct: type[msgspec.Struct]) -> Any:
-        """Read the keys of `struct` in `table` as its instance; None if one of them is wrong or missing."""
+        """Return an instance of `struct` with the values in `table`; None if a key is wrong or missing."""
         values: dict[str, Any] = {}
         before = len(self.problems)
         for field in _fields(struct):
@@ -323,7 +323,7 @@ class _Reader:
         return len(self.problems) > before
 
     def _path(self, kind: type, value: Any) -> Path:
-        """Return a path in the file as an absolute one; msgspec calls this, and reports the TypeError."""
+        """Return a path in the file as an absolute path; msgspec calls this function, and reports its TypeError."""
         if kind is not Path or not isinstance(value, str) or not value:  # "." is the folder of the configuration
             raise TypeError
         return self._absolute(Path(value))

@@ -41,7 +41,7 @@ def model_class(package: str, chosen: str) -> str:
 
 def is_package(name: str) -> bool:
     """Whether a package may have this full name: it must not hide names that generated models use."""
-    # the same as `PACKAGE_PATTERN`, which takes 4 ms to compile
+    # the same rule as `PACKAGE_PATTERN`, which takes 4 ms to compile
     reserved = {word.lower() for word in RESERVED_CLASSES | DEVICES}
     return all(
         part.isascii() and part.isidentifier() and part not in KEYWORDS | FUNCTIONS and part.lower() not in reserved

@@ -17,7 +17,7 @@ _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 
 
 def working_folder() -> Path:
-    """Return the working folder. Raises ConfigError if it was deleted."""
+    """Return the working folder. Raises ConfigError if the folder was deleted."""
     try:
         return Path.cwd()
     except FileNotFoundError:
@@ -39,7 +39,7 @@ def library_folder() -> Path:
 
 
 def find_own_library(name: str, package: str) -> Path | None:
-    """Return the library UrdfSync if `name` means it and `package` is not in it; else None."""
+    """Return the folder of UrdfSync if `name` is that library's and `package` is no part of it; else None."""
     return library_folder() / LIBRARY if name == LIBRARY != package.partition(".")[0] else None
 
 
@@ -49,9 +49,9 @@ def templates_folder(domain: Domain) -> Path:
 
 
 def explained(page: str) -> Iterator[tuple[str, list[str]]]:
-    """Yield the names in the first column of a page's tables, each with the cells beside it.
+    """Yield the names in the first column of a page's tables, each with the other cells of its row.
 
-    SARIF and the schema take their explanations from there.
+    SARIF and the schema take their explanations from the pages.
     """
     text = _LINK.sub(r"\1", (_data_folder("docs") / page).read_text(encoding="utf-8"))
     for row in _ROW.findall(text):

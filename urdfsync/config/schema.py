@@ -1,7 +1,7 @@
 """Makes the JSON schema of `urdfsync.toml`, for editors, from the types that read it.
 
-A schema can't compare tables or paths: clashing packages, two elements with one name, an output in `.urdfsync`. `load`
-reports these.
+A schema can't compare tables or paths. So it misses clashing packages, one name for two elements, and an output in
+`.urdfsync`. `load` reports these.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from urdfsync.diagnostics import IGNORABLE
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 SCHEMA_FILE = "schema.json"
-"""Its name in the state folder."""
+"""The name of the schema's file in the state folder."""
 _NO_CONTROL = "^[^\\u0000-\\u001f\\u007f]*$"
 _PATH = {"type": "string", "minLength": 1}
 _GIVEN = {"type": "array", "minItems": 1}
@@ -47,7 +47,7 @@ def config_schema() -> dict[str, Any]:
         robots[name] = _robot({**keys, "domain": keys["domain"] | {"enum": [name]}, **own})
     inherited = {key: described for own in (keys, *options) for key, described in own.items() if key not in OWN_KEYS}
     robot: dict[str, Any] = {"$ref": f"#/$defs/{DEFAULT_DOMAIN}"}
-    for name in domains:  # by conditions editors show the faulty key; of alternatives they show only that none fits
+    for name in domains:  # `if`, since editors then show the faulty key; with `anyOf` they only say that no choice fits
         named = {"properties": {"domain": {"const": name}}, "required": ["domain"]}
         if name != DEFAULT_DOMAIN:
             robot = {"if": named, "then": {"$ref": f"#/$defs/{name}"}, "else": robot}

@@ -27,7 +27,7 @@ Compiler: TypeAlias = Literal["rumoca", "omc"]
 
 
 class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
-    """The keys of a robot's table that are taken as they are; paths are absolute."""
+    """The keys of a robot's table whose values stay as written; only paths become absolute."""
 
     source: Path
     output: Path = msgspec.field(default_factory=lambda: Path(DEFAULT_OUTPUT))
@@ -52,7 +52,7 @@ class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Keys(SharedKeys, frozen=True, kw_only=True):
-    """The keys of a robot's table that every domain shares; the domain's options stand beside them."""
+    """The keys of a robot's table that all domains share; the table also has the domain's options."""
 
     package: str
     class_: str = msgspec.field(name="class", default="")
@@ -63,14 +63,14 @@ class CheckConfig(msgspec.Struct, frozen=True):
     """The keys of the table `[check]`: how packages are compiled and simulated."""
 
     library: Path | None = None
-    """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
+    """The folder that holds the Modelica Standard Library, absolute; None to search for the library."""
     tool: Literal[Compiler, "both"] = "rumoca"
     """See `checks.compilers.choose`."""
     omc: str = ""
-    """OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
+    """OpenModelica's compiler, as an absolute path or a name on the PATH; empty to search for the compiler."""
 
     def program(self, compiler: str) -> str:
-        """Return the program in the key with a compiler's name; empty without one."""
+        """Return the program in the key with a compiler's name; empty without such a key."""
         named: str = getattr(self, compiler, "")
         return named
 
@@ -85,10 +85,9 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
     options: Any
     """An instance of `Domain.options`."""
     arguments: Mapping[str, str] | None = None
-    """Arguments of xacro; None without the key: then the source's name or content shows whether it is xacro."""
+    """Arguments of xacro; without the key None, and the source's name or content shows whether it is xacro."""
     lines: Mapping[str, int] = {}
-    """Line of every key in the configuration; the table's own line for `""`, the line of a table's entry for
-    `KEY.NAME`.
+    """Line of every key in the configuration; `""` has the table's own line, `KEY.NAME` that of an entry in a table.
     """
 
     @property
@@ -118,12 +117,12 @@ class Config(msgspec.Struct, frozen=True):
         return self.file.parent
 
     def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-        """Leave out warnings and notes that all robots ignore; these findings belong to no robot."""
+        """Leave out warnings and notes that all robots ignore, of findings that belong to no robot."""
         shown_findings = {finding for robot in self.robots for finding in robot.without_ignored(diagnostics)}
         return tuple(finding for finding in diagnostics if finding in shown_findings)
 
     def select(self, names: Sequence[str]) -> tuple[RobotConfig, ...]:
-        """Return the robots for names, sources, or places around their packages; all robots without `names`.
+        """Return the robots for names, sources, or paths around or in their packages; all robots without `names`.
 
         Raises ConfigError for a name that means no robot, and for a configuration without robots.
         """
@@ -151,7 +150,7 @@ class Config(msgspec.Struct, frozen=True):
         return tuple(robot for robot in self.robots if not names or robot.name in chosen)
 
     def select_one(self, robots: Sequence[str], command: str) -> RobotConfig:
-        """Return the named robot, or the only one. Raises ConfigError for several: `command` takes one."""
+        """Return the named robot, or the only one. Raises ConfigError for several robots: `command` takes one."""
         chosen = self.select(robots)
         if len(chosen) > 1:
             names = ", ".join(robot.name for robot in chosen)

@@ -25,7 +25,7 @@ _QUOTED = r"'([^']*)'"
 def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
     """Parse a document to nested dictionaries, not deeper than `DEEPEST`.
 
-    Raises `error` with file, line and column if it is not TOML.
+    Raises `error` with file, line and column if the document is not TOML.
     """
     line, column, hint = 0, 0, ""
     message = f"tables and lists are nested more than {DEEPEST} deep"
@@ -34,7 +34,7 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
         if all(len(path) <= DEEPEST for path, _ in strings(document)):
             return document
     except RecursionError:
-        pass  # the message above is right
+        pass  # too deep, as `message` says
     except tomli.TOMLDecodeError as problem:
         message = str(problem)
         if found := find_markers(text):
@@ -47,7 +47,7 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
                 message = f"the table `{'.'.join(re.findall(_QUOTED, twice[1]))}` is there twice"
                 hint = "put the keys of both into one table"
             elif message == "cannot overwrite a value":
-                message, hint = "a key is set twice", "remove one of them"
+                message, hint = "a key is set twice", "remove one of the two"
             elif message == "invalid value":
                 hint = "put strings into quotes"
     except ValueError:  # from int(), which refuses to read thousands of digits
@@ -72,7 +72,7 @@ def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
 def find_lines(text: str) -> tuple[dict[tuple[str, ...], int], dict[tuple[str, ...], list[int]]]:
     """Return the first line of each key or table, and the lines of the items of each array of tables, `[[…]]`.
 
-    Both are by full paths; lines count from 1.
+    The keys of both are full paths; lines count from 1.
     """
     lines: dict[tuple[str, ...], int] = {}
     items: dict[tuple[str, ...], list[int]] = {}
@@ -85,7 +85,7 @@ def find_lines(text: str) -> tuple[dict[tuple[str, ...], int], dict[tuple[str, .
 
 
 def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
-    """Yield for each line whether it opens a table, and the full path of its key, its table or the table around."""
+    """Yield for each line whether it opens a table, and the full path of its key, or of the table that contains it."""
     header: tuple[str, ...] = ()
     for line in text.split("\n"):
         keys: tuple[str, ...] = ()
@@ -99,10 +99,7 @@ def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
 
 
 def without_table(text: str, *table: str) -> str:
-    """Return the text without a table and those inside of it.
-
-    Comments that touch a table go with it. Comments behind a blank line at its end stay: they belong to the next table.
-    """
+    """Return the text without a table, the tables inside, and the comments that touch them."""
     lines, paths = re.findall(r"[^\n]*\n|[^\n]+", text), list(_paths(text))
     starts = [number for number, (opens, _) in enumerate(paths) if opens]
     begins = []  # first lines of the tables, with the comments above
@@ -131,6 +128,6 @@ def _is_comment(line: str) -> bool:
 
 
 def nearest(lines: dict[tuple[str, ...], int], *path: str) -> int:
-    """Return the line of the key at `path`, else of the nearest table above it; 0 if there is none."""
+    """Return the line of the key at `path`, else of the nearest table above it; 0 without one."""
     paths = (path[:length] for length in range(len(path), 0, -1))
     return next((lines[prefix] for prefix in paths if prefix in lines), 0)

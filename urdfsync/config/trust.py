@@ -27,13 +27,13 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
     """
     if robot.output.is_relative_to(config.root):
         return None
-    message = f"`output` leads out of the configuration's folder, to {robot.output}"  # whole: a user decides by it
+    message = f"`output` leads out of the configuration's folder, to {robot.output}"  # the user has to see the path
     return _find_untrusted(config, message, robot.lines.get("output", 0))
 
 
 def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | None:
     """Return an error if a robot has a command in an untrusted folder. Raises ConfigError."""
-    import shlex  # 2 ms, and few robots have a command
+    import shlex  # takes 2 ms, and few robots have a command
 
     message = f"robot `{robot.name}`: its `command` was not run: {shlex.join(robot.command)}"
     return _find_untrusted(config, message, robot.lines.get("command", 0), "untrusted-command")
@@ -44,7 +44,7 @@ def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagno
 
     Raises ConfigError. Models and libraries have external functions, by which a compiler may run other programs.
     """
-    key, reason = "tool", "models can start programs through it"
+    key, reason = "tool", "models can start programs through this compiler"
     if program := config.check.program(compiler):
         key, reason = compiler, program
     message = f"`{key}` in the table `[check]`: {title} was not run: {reason}"
@@ -53,7 +53,7 @@ def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagno
 
 def _find_untrusted(config: Config, message: str, line: int, code: str = "untrusted-output") -> Diagnostic | None:
     """Return an error with this message if the configuration's folder is not trusted. Raises ConfigError."""
-    import platformdirs  # 6 ms, and few configurations write outside of their folder
+    import platformdirs  # takes 6 ms, and few configurations write outside of their folder
 
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
     try:

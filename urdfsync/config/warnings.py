@@ -42,12 +42,12 @@ def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
             continue
         near = nearest(replaces, sorted(templates), 0.5)
         hint = f"did you mean `{near}`?" if near else f"rename it to one of {', '.join(sorted(templates))}"
-        message = "the file replaces no template: none of urdfsync has this name"
+        message = "the file replaces no template: urdfsync has none of this name"
         yield Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint)
 
 
 def _files(folder: Path) -> dict[str, Path]:
-    """Return the files below a folder by their names in it, POSIX; hidden ones are left out."""
+    """Return the files below a folder, except hidden ones, by their POSIX paths in the folder."""
     files = {path.relative_to(folder): path for path in map(Path, walk_files(folder))}
     return {
         name.as_posix(): path for name, path in files.items() if not any(part.startswith(".") for part in name.parts)

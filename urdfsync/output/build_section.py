@@ -35,8 +35,8 @@ _ORPHANS = "for an orphan: `urdfsync resolve FILE --keep` makes it yours, --take
 def build_section(result: Result, *, verbose: bool | None = None, named: Container[str] = ()) -> Section:
     """Return what a build did, or would do, with the files that change.
 
-    If `verbose`, edited files that stay are listed, too, and numbers have all digits. If not, only files with a text of
-    the user's are listed, and those `named` by their keys.
+    If `verbose`, the section also lists edited files that stay, and numbers have all digits. Otherwise it lists only
+    files with a text of the user's, and the `named` files.
     """
     points, tables = change_parts(result.effective_changes, verbose=bool(verbose))
     silent = _SILENT if verbose or named else _SILENT | {Reason.KEEP}
@@ -73,10 +73,7 @@ def show(
     *,
     quiet: bool = False,
 ) -> None:
-    """Show `told`, a result about one robot, as a section; with --quiet, show it only if the user has to act.
-
-    With `quiet`, only its first line and what to do are shown. Without a `result`, all findings are new.
-    """
+    """Show `told`, a result about one robot, as a section; with --quiet, show it only if the user has to act."""
     if console.is_document:
         console.add(told, to_section)
         return
@@ -103,7 +100,7 @@ def mark_of(result: Result) -> Mark:
 
 
 def out_of_step(result: Result) -> Diagnostic | None:
-    """Return the finding that a package is out of step, at its `package.mo`; None if it is in step."""
+    """Return the finding that a package is out of step, at its `package.mo`; None for a package in step."""
     if result.in_step:
         return None
     hint = _SETTLE if result.conflicts else _BUILD if not result.are_files_in_step else _FIT
@@ -130,7 +127,7 @@ def _edited_line(target: DisputedFile) -> int:
 def change_parts(
     changes: Changes | None, most: int = 12, *, verbose: bool = False
 ) -> tuple[list[StyledLine], list[Table]]:
-    """Return changes of a model: structural ones as lines, others as a table that shows `most` rows."""
+    """Return changes of a model: structural changes as lines, other changes as a table that shows `most` rows."""
     if changes is None:
         return [], []
     structure = tuple(each for each in changes.changes if each.change_class is ChangeClass.STRUCTURAL)

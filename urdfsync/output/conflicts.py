@@ -25,11 +25,11 @@ _WIDTH = 240
 _ELEMENTS = 5
 """The most changes of each side that are listed."""
 _SIGNS = {"+": "green", "-": "red", "@": "cyan"}
-"""Styles of the lines of a difference, by how they begin."""
+"""Styles of the lines of a difference, by the first characters of a line."""
 
 
 def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
-    """Yield all conflicts of one robot: the first ones in full, the others on a line each, and the command for all."""
+    """Yield all conflicts of one robot, the first ones in full, others on a line each, and the command for all."""
     conflicts = result.conflicts
     full = len(conflicts) if console.verbose else 0 if console.quiet else FULL
     menus = list[dict[str, str]]()
@@ -37,7 +37,7 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
         menu = _choices(target)
         yield line(("", ""))
         yield from _full_lines(target, console, menu)
-        if menu not in menus:  # the same choices are explained once
+        if menu not in menus:  # the same choices are explained only once
             width = max(map(len, menu))
             yield from (line((f"      {choice:<{width}}  {words}", "dim")) for choice, words in menu.items())
             menus.append(menu)
@@ -55,12 +55,12 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     yield from (line(("", "")), line((f"  {_command(command, console)}", "bold"), (f"  {what}", "dim")))
     never_built = all(action.base is None for action in result.actions)
     if never_built and all(target.action.reason is Reason.UNOWNED for target in conflicts):
-        what = "takes them for your edits, and lists these"
+        what = "takes the files for your edits, and lists them"
         yield line((f"  {_command(['adopt', result.robot], console)}", "bold"), (f"  {what}", "dim"))
 
 
 def _full_lines(target: DisputedFile, console: Console, choices: Mapping[str, str]) -> Iterator[StyledLine]:
-    """Yield lines about one conflict: the reason, the differences, the saved versions, and the first of the choices."""
+    """Yield lines about one conflict: the reason, the differences, the saved versions, and the first choice."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     clauses = [reason(action, result.changes), target.relation]
@@ -126,8 +126,8 @@ def _choices(target: DisputedFile) -> dict[str, str]:
 
 
 def _element_lines(texts: Conflict) -> list[StyledLine]:
-    """Return the changes of each side by element, if they merge and both texts are classes."""
-    from urdfsync.merge.edits import find_edits, in_words  # only a conflict needs it
+    """Return the changes of each side by element, if the changes merge and both texts are classes."""
+    from urdfsync.merge.edits import find_edits, in_words  # only conflicts need the merge
 
     if texts.base is None or texts.merge is None or texts.merge.text is None:
         return []
@@ -144,16 +144,16 @@ def _element_lines(texts: Conflict) -> list[StyledLine]:
 
 
 def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
-    """Yield contradictions between markers, as `--edit` has them; if there are none, the changes of the merge."""
+    """Yield contradictions between markers, as in `--edit`; without contradictions, the changes of the merge."""
     if texts.merge is None:
         return difference_lines(texts.mine, texts.generated, "mine", "generated")
-    old = (texts.merge.contradictions and texts.merge.with_mine) or texts.mine  # the merge of all other changes
+    old = (texts.merge.contradictions and texts.merge.with_mine) or texts.mine  # without contradictory changes
     return difference_lines(old, texts.merge.proposal, "mine", "merge")
 
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
     """Yield the difference of two texts, in git's form."""
-    import difflib  # 1 ms, as shlex below: few builds have conflicts
+    import difflib  # takes 1 ms, as shlex below, and few builds have conflicts
 
     texts = _split_lines(old), _split_lines(new)
     for text in difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT):
@@ -184,5 +184,5 @@ def _command(arguments: Sequence[str], console: Console) -> str:
 
 
 def _sentence(clause: str) -> str:
-    """Return the clause as a sentence; the program's name keeps its small letter."""
+    """Return the clause as a sentence; the name `urdfsync` keeps its small letter."""
     return f"{clause if clause.startswith('urdfsync') else clause[:1].upper() + clause[1:]}."

@@ -32,19 +32,19 @@ R = TypeVar("R", bound=msgspec.Struct)
 Format: TypeAlias = Literal["text", "json", "markdown", "sarif"]
 """The format of the output stream."""
 PURPOSES: Mapping[Format, str] = {"markdown": "for a comment", "sarif": "for findings at their lines"}
-"""What the help says of formats."""
+"""The purpose of formats, for the help."""
 FEW = 5
-"""The most warnings of one code that are shown; the others are counted."""
+"""The most warnings of one code that are shown; further warnings are counted."""
 BAR_AFTER = 0.5
 """Seconds of work before a progress bar appears."""
 _SEVERITIES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
 class StyledLine(msgspec.Struct, frozen=True):
-    """One line as pieces of text, each with a style of rich; empty for none.
+    """One line as pieces of text, each with a style of rich; the style is empty for plain text.
 
-    Pipes and files get the text without rich: its import takes 20 of the 95 ms of a build of one changed mass, which
-    has a bar in docs/speed.md.
+    Pipes and files get the text without rich: its import takes 20 of the 95 ms in which a build writes one changed
+    mass.
     """
 
     parts: tuple[tuple[str, str], ...]
@@ -66,7 +66,7 @@ def line(*parts: tuple[str, str]) -> StyledLine:
 
 
 def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: bool) -> Sequence[StyledLine]:
-    """Return the first lines and, as the last of `most`, the number of the others; with `verbose` all lines."""
+    """Return at most `most` lines, of which the last gives the number of missing lines; with `verbose` all lines."""
     rest = len(lines) - most + 1
     if verbose or rest < 2:
         return lines
@@ -165,7 +165,7 @@ class Console:
         write_lines(lines, sys.stderr if error else sys.stdout)
 
     def tell(self, lines: Iterable[StyledLine]) -> None:
-        """Write lines on the output stream, unless it gets a document or --quiet is given."""
+        """Write lines on the output stream, unless it gets a document or the user gives --quiet."""
         if not (self.is_document or self.quiet):
             self.print(lines)
 
@@ -180,7 +180,7 @@ class Console:
         self.findings(diagnostics)
 
     def add(self, result: R, to_section: Callable[[R], Any] | None = None) -> None:
-        """Add a result to the document, which has it even if the command fails later."""
+        """Add a result to the document; a later failure of the command does not remove it."""
         self.stop_progress()
         if self.format == "json":
             self._results.append(result)
@@ -198,17 +198,17 @@ class Console:
 
     def _document(self, code: int, diagnostics: Sequence[Diagnostic]) -> str:
         """Return the document; `diagnostics` belong to no robot."""
-        if self.format != "json":  # each other format is a module, which most commands do not need
+        if self.format != "json":  # each other format has a module, which most commands do not need
             document: str = importlib.import_module(f"urdfsync.output.{self.format}").document(
                 self._sections, diagnostics, code
             )
             return document
         values = Document(command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics)
-        indent = None if self._command == "watch" else 2  # its output is one object per line
+        indent = None if self._command == "watch" else 2  # each line of the daemon's output is one object
         return json.dumps(plain(values), indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:
-        """Show a step of the work once it takes more than a moment."""
+        """Show the present step, if the command has worked for more than a moment."""
         is_wanted = not self.is_document and not self.quiet and sys.stderr.isatty()
         if not is_wanted or time.monotonic() - self._begin < BAR_AFTER:
             return

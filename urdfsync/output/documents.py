@@ -19,7 +19,7 @@ from urdfsync.diagnostics import Diagnostic
 
 Item = TypeVar("Item")
 JSON_VERSION: Literal[3] = 3
-"""Version of the JSON documents and events; it grows if a key is removed or changes its meaning."""
+"""Version of the JSON documents and events; the number grows if a key is removed or changes its meaning."""
 
 
 class Document(msgspec.Struct, Generic[Item], kw_only=True):
@@ -27,12 +27,12 @@ class Document(msgspec.Struct, Generic[Item], kw_only=True):
 
     version: Literal[3] = JSON_VERSION
     command: str
-    """Empty if the arguments name none."""
+    """Empty if the arguments name no command."""
     exit: int
     results: Sequence[Item]
     """One result for each finished robot."""
     diagnostics: Sequence[Diagnostic]
-    """Diagnostics about no robot."""
+    """Diagnostics that belong to no robot."""
 
 
 def plain(value: Any) -> Any:

@@ -39,7 +39,7 @@ def _edit_line(_place: str, element: str, what: str) -> StyledLine:
 
 
 def _told(file: EditedFile) -> list[tuple[str, str]]:
-    """Return the edited elements, each with its edit; the element is empty for the whole file."""
+    """Return the edited elements, each with its edit; an edit of the whole file has an empty element."""
     if file.base is None:
         return [("", "its base, the text that urdfsync wrote last, is lost: nothing to compare with")]
     if (edits := file.edits) is None:

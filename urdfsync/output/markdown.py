@@ -1,6 +1,7 @@
 """Writes Markdown for a comment on a merge request: structure first, then tables, folded if they are long.
 
-It is HTML, which GitHub and GitLab accept: quoted text can't become markup there, and cells may have any text.
+The comment is HTML, which GitHub and GitLab accept: quoted text can't become markup in HTML, and cells may have any
+text.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from urdfsync.spelling import visible
 FOLDED = 30
 """Tables and lists with more rows are folded."""
 MOST_ROWS = 100
-"""The most rows of a table that are written; the others are counted."""
+"""The most rows of a table that are written; further rows are counted."""
 LONGEST = 50_000
 """The most characters of details about robots; GitHub allows 65,536 for a comment."""
 _TOO_LONG = " (the rest is too long for a comment: the command without `--format` shows it)"
@@ -28,7 +29,7 @@ _CODE = re.compile("`([^`]+)`")
 
 
 def document(sections: Iterable[Section], findings: Sequence[Diagnostic] = (), _code: int = 0) -> str:
-    """Return one comment: robots, those that need attention first, then findings about no robot."""
+    """Return one comment: robots that need attention, other robots, then findings about no robot."""
     environment = html_environment(Path(__file__).parent)
     environment.filters |= {"quoted": _quoted, "findings": findings_table}
     environment.globals |= {"most_open": FOLDED, "most_rows": MOST_ROWS}

@@ -1,7 +1,7 @@
 """Changes of a model in words: the rows of each element.
 
-The components of a vector share a row; so do all rounding, and all unmodelled parts. Elements with the same rows share
-them.
+The components of a vector share a row; so do all rounding errors, and all unmodelled parts. Elements with equal rows
+share these rows.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from urdfsync.output.sections import Table
 from urdfsync.spelling import same_count
 
 _NAMES = 140
-"""The most characters of the names in a title, which has one name at least."""
+"""The most characters of the names in a title; a title has one name at least."""
 _SAME = 1e-9
-"""Up to this value, a relative change of a sum is rounding; a length (m) or an angle (rad) is too small to measure."""
+"""Up to this value, a relative change of a sum is rounding, and a length (m) or an angle (rad) can't be measured."""
 _COMPONENT = r"(.*)\[(\d+)\]"
 _MOVED = 3
-"""The most elements of a kind with exchanged names that are named."""
+"""If more elements of a kind exchanged their names, they share one row."""
 _WIDTH = 40
 """The most characters of a text that are shown."""
 _CONTEXT = 12
@@ -34,13 +34,13 @@ _HASH = "[0-9a-f]{64}"
 
 
 class Row(NamedTuple):
-    """A change in words, in parts that a table can have in columns; empty ones are left out."""
+    """A change in words, in parts for the columns of a table; empty parts are left out."""
 
     label: str
     """The place in the element; empty for the element itself."""
     value: str
     relation: str = ""
-    """The same in other words, such as a percentage."""
+    """The change relative to the old value, such as a percentage."""
 
     def __str__(self) -> str:
         """Return the row as text: `limit / effort 54 → 60 N·m (+11.1 %)`."""
@@ -62,7 +62,7 @@ def outline(changes: Changes, *, everything: bool = False) -> list[tuple[str, tu
 
 
 def _moved_names(changes: Changes) -> dict[str, str]:
-    """Return a row for each element that exchanged its name; if they are more than three of a kind, one row for all."""
+    """Return a row for each element that exchanged its name; more than three elements of a kind share one row."""
     renamed = [change for change in changes.changes if change.kind is ChangeKind.RENAMED]
     kinds: dict[str, dict[str, str]] = defaultdict(dict)
     for change in renamed:
@@ -88,7 +88,7 @@ def _step(old: str, new: str) -> int:
 
 
 def _title(elements: Sequence[str]) -> str:
-    """Return elements in words; their common kind is written once."""
+    """Return elements in words, with their common kind only once."""
     first, space, _ = elements[0].partition(" ")
     begin = f"{first} " if space and all(element.startswith(f"{first} ") for element in elements) else ""
     names = [element.removeprefix(begin) for element in elements]
@@ -98,7 +98,7 @@ def _title(elements: Sequence[str]) -> str:
 
 
 def _element_rows(changes: Sequence[Change]) -> list[Row]:
-    """Return a row for each change or vector, one for the number of unmodelled changes, and one for all rounding."""
+    """Return a row for each change or vector, a row for all unmodelled changes, and a row for all rounding errors."""
     counts = {"not modelled": 0, "rounding": 0}
     vectors: dict[object, list[Change]] = defaultdict(list)
     for change in changes:
@@ -120,7 +120,7 @@ def _element_rows(changes: Sequence[Change]) -> list[Row]:
 
 
 def change_row(components: Sequence[Change], *, exact: bool = False) -> Row:
-    """Return a change, or those of the components of a vector, in words.
+    """Return a change, or the changes of a vector's components, in words.
 
     With `exact`, numbers have all digits, and texts are not cut.
     """
@@ -149,7 +149,7 @@ def change_row(components: Sequence[Change], *, exact: bool = False) -> Row:
 
 
 def effect_rows(effects: Sequence[Effect]) -> list[Row]:
-    """Return properties of the whole model as rows, without those that differ by rounding at most."""
+    """Return properties of the whole model as rows; properties that differ only by rounding are left out."""
     rows = []
     for effect in effects:
         old, new = effect.old, effect.new
@@ -182,7 +182,7 @@ def number_table(effects: Sequence[Effect]) -> Table:
 
 
 def _pair(old: Any, new: Any, *, mark: str = "", exact: bool = False) -> str:
-    """Return two values; numbers are followed by `mark`, and have all digits if they would look equal otherwise.
+    """Return two values; `mark` follows numbers, which have all digits if they would look equal otherwise.
 
     Long texts are cut, unless `exact`.
     """

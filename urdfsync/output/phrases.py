@@ -29,10 +29,10 @@ _CHOSEN = {
 
 
 def reason(action: Action, changes: Changes | None) -> str:
-    """Return the reason of an action, as the end of a sentence that begins with the path, and what it waits for.
+    """Return the end of a sentence that begins with a path: the action's reason, and the cause of a wait.
 
-    The reason names the changed elements of the model, if any: `link forearm and 2 more`. Their changes are listed
-    beside it.
+    The reason names the changed elements of the model, if any: `link forearm and 2 more`. A section lists the changes
+    of these elements, too.
     """
     return "; ".join(filter(None, [_cause(action, changes), action.replaces, action.waits_for]))
 

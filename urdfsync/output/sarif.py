@@ -43,7 +43,7 @@ def document(sections: Iterable[Section], findings: Sequence[Diagnostic], code: 
             notifications.append({"descriptor": {"id": finding.code}, **values})
     rules = []
     for rule in sorted({finding.code for finding in told}):
-        text = {"text": meanings.get(rule, "its message says what to do").translate(_ESCAPES)}
+        text = {"text": meanings.get(rule, "the message says what to do").translate(_ESCAPES)}
         rules.append({"id": rule, "shortDescription": text, "fullDescription": text, "help": text})
     invocation = {
         "executionSuccessful": code not in (Exit.ERROR, Exit.LOCKED, Exit.INTERRUPTED),

@@ -18,7 +18,7 @@ class Mark(enum.StrEnum):
     WRONG = "❌ "
     OPEN = "⚠️ "
     NONE = ""
-    """No verdict: two versions differ, as they may."""
+    """No verdict: versions may differ."""
     FINE = "✅ "
 
 
@@ -26,7 +26,7 @@ _SEVERITIES = {Severity.ERROR: Mark.WRONG, Severity.WARNING: Mark.OPEN, Severity
 
 
 class Table(msgspec.Struct, frozen=True):
-    """Rows of texts; each format escapes them."""
+    """Rows of texts; each format escapes the texts."""
 
     title: str
     columns: tuple[str, ...]
@@ -42,7 +42,7 @@ class Table(msgspec.Struct, frozen=True):
 
 
 class Section(msgspec.Struct, frozen=True):
-    """All results of a command about one robot."""
+    """All results of a command for one robot."""
 
     robot: str
     summary: str

@@ -44,8 +44,8 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
 
 
 def _path(action: Action) -> str:
-    """Return the path of the user's file; a file in conflict may still have its old name."""
-    if action.reason is Reason.KEEP and not action.is_on_disk:  # the user made a folder of the class
+    """Return the path of the user's file, which may have the old name of its element during a conflict."""
+    if action.reason is Reason.KEEP and not action.is_on_disk:  # the user turned the class into a folder
         return f"{action.path.removesuffix('.mo')}/package.mo"
     return action.origin or action.path if action.is_conflict else action.path
 

@@ -28,7 +28,7 @@ def text(section: Section, *, verbose: bool = False, quiet: bool = False) -> Ite
 
 
 def details(section: Section, *, verbose: bool = False) -> Iterator[StyledLine]:
-    """Yield the lines below the first one; without `verbose`, not all of many."""
+    """Yield the lines below the first one; without `verbose`, long tables are cut."""
     yield from first_lines(section.points, section.most, "line", verbose=verbose)
     for table in section.tables:
         if table.line and table.rows:

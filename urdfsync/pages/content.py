@@ -36,12 +36,12 @@ class Content(msgspec.Struct, frozen=True):
     section: Section
     """The changes in words."""
     numbers: Table
-    """Mass, reach, loads and the like, of both versions."""
+    """Mass, reach, loads and other properties of both versions."""
     against: str
     """The older version, in words."""
     picture: Picture
     statuses: Mapping[str, str]
-    """Elements that are `changed`, `added`, `removed` or `renamed`; the page adds those with other meshes."""
+    """Elements that are `changed`, `added`, `removed` or `renamed`; the page adds elements whose meshes changed."""
     renamed: Mapping[str, str]
     """New names of elements by the old ones."""
     changes: Mapping[str, Sequence[str]]
@@ -64,7 +64,7 @@ def gather(
 ) -> Content:
     """Return the content of a robot's page; `against` is a git revision, else a file relative to `folder`.
 
-    If nothing changed since the last build, the older version is the first different one of `shown_before`. Raises
+    If nothing changed since the last build, the older version is the first of `shown_before` that differs. Raises
     UrdfsyncError if the source or the older version can't be read.
     """
     options = msgspec.structs.replace(options, dry=True)
@@ -77,7 +77,7 @@ def gather(
     changes, result = compared.result.changes or Changes(), compared.result
     draw: Drawing | None = inputs.domain.drawing
     model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
-    actions = result.actions if against is None else None  # a comparison has other actions
+    actions = result.actions if against is None else None  # the actions of a comparison are not those of a build
     return Content(
         robot=robot,
         version=(generation.now, generation.imported.contents),
@@ -117,7 +117,7 @@ def _numbers(domain: Domain, now: Version) -> Sequence[Effect]:
 
 
 def _last_build(inputs: Inputs) -> Contents | None:
-    """Return the recorded version of the last complete build, with its unchanged imports."""
+    """Return the recorded version of the last complete build, with the imports that the user has not changed."""
     last = inputs.last
     if last.version is None:
         return None

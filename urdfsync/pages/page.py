@@ -36,7 +36,7 @@ SCRIPTS = (
     *("robot.js", "meshes.js", "loops.js", "orbit.js", "panels.js", "motion.js"),
     *("poses.js", "drag.js", "stage.js", "marks.js", "page.js"),
 )
-"""Our own scripts, in their order: each may use declarations of those before it."""
+"""The scripts of urdfsync, in their order: each may use declarations of earlier scripts."""
 FOLLOWER = "follow.js"
 """The last script of a page that a daemon serves."""
 _FOLDER = Path(__file__).parent
@@ -46,10 +46,10 @@ _MOST_INSTANTS = 1000
 _LEAST = 1e-17
 """The least relative error on the scale of a check."""
 _DATA = "against statuses renamed changes files diagram".split()
-"""The content for the scripts."""
+"""The fields of the content that the scripts read."""
 _SUFFIXES = (".html", ".htm")
 _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
-"""The mark that each page has in its first bytes, and the number of these bytes."""
+"""The mark of each page, and the number of first bytes that contain this mark."""
 _ESCAPES = {ord(char): f"\\u{ord(char):04x}" for char in "<>&\u2028\u2029"}
 
 
@@ -61,7 +61,7 @@ def page(
 ) -> bytes:
     """Return the page, with a simulation that plays, and a check. Raises UrdfsyncError if three.js can't be had.
 
-    With the number of a `build`, the page follows the daemon that serves it.
+    With the number of a `build`, the page follows the daemon that serves the page.
     """
     library = threejs.load()
     names = SCRIPTS if build is None else (*SCRIPTS, FOLLOWER)
@@ -87,7 +87,7 @@ def page(
         version=__version__,
         policy=_policy(scripts, styles, "'none'" if build is None else "'self'"),
         style=markupsafe.Markup(style),  # noqa: S704 - our own
-        scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
+        scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - scripts of urdfsync and of trimesh
         data=markupsafe.Markup(_json(data)),  # noqa: S704 - escaped for a script element
         meshes={name: _packed(mesh) for name, mesh in picture.meshes.items()},
         content=content,
@@ -135,7 +135,7 @@ def _json(values: Any) -> str:
 
 
 def _packed(mesh: Triangles) -> str:
-    """Return the content of a mesh; the page's data tell how many points and faces it has."""
+    """Return the content of a mesh; the page's data have the numbers of points and faces."""
     return base64.b64encode(gzip.compress(mesh.content, 6, mtime=0)).decode()
 
 
@@ -156,7 +156,7 @@ def _motion(result: SimulateResult) -> dict[str, Any]:
 
 
 def _compared(result: CheckResult) -> list[tuple[Deviation, float, float]]:
-    """Return all compared quantities, the worst first, each with the logarithms of its error and its tolerance."""
+    """Return all compared quantities, the worst first, with the logarithms of errors and tolerances."""
     deviations = sorted(result.deviations, key=lambda each: each.relative / each.tolerance, reverse=True)
     sizes = ((each.relative, each.tolerance) for each in deviations)
     logs = [[math.log10(min(max(size, _LEAST), 1.0)) for size in pair] for pair in sizes]

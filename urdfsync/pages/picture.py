@@ -23,9 +23,9 @@ from urdfsync.versions.comparison import Contents
 _MOST, _LEAST = 500_000, 200
 """The most triangles of a page, and the least share of one mesh. A triangle takes some 13 bytes."""
 _FINE = 200
-"""A mesh loses something visible if its corners were merged in fewer cells along its longest edge."""
+"""With fewer cells along a mesh's longest edge, in each of which corners are merged, the loss is visible."""
 _MOST_REFUSED = 4
-"""The most files that are read for the picture although they are too large for the package: each may take 16 s."""
+"""The most files that are too large for the package, but read for the picture: each may take 16 s."""
 
 
 class Picture(msgspec.Struct, frozen=True):
@@ -35,15 +35,15 @@ class Picture(msgspec.Struct, frozen=True):
     before: Scene | None
     """None if nothing changed, or there is no older version."""
     meshes: Mapping[str, Triangles]
-    """The meshes of both versions by their names, those that are seen first before the others."""
+    """The meshes of both versions by their names, those of visual shapes first."""
     poses: Mapping[str, Mapping[str, float]]
     """Named poses of files beside the source: positions by hinges."""
     notes: Sequence[str]
-    """What is missing, each in words, then the meshes that have lost something visible."""
+    """Sentences about missing parts, then about meshes whose simplification is visible."""
 
 
 class _File(NamedTuple):
-    """A file with a mesh, which was imported, or is too large for the package: then it is the `source`."""
+    """A file with a mesh: an imported one, or, if that is too large for the package, the source's file."""
 
     path: str
     content: bytes
@@ -60,7 +60,7 @@ def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> P
         raise UrdfsyncError.of("no-picture", message, shown(robot.source))
     imports, sources = dict(generation.now.imports or {}), dict[str, _File]()
     for dependency, file in imported.refused[:_MOST_REFUSED]:
-        if dependency.key not in imports:  # else an earlier build's copy is used
+        if dependency.key not in imports:  # otherwise the copy of an earlier build is used
             with contextlib.suppress(OSError):
                 content = read_file(file)
                 imports[dependency.key] = Import(dependency.target, digest(content), "", {})
@@ -101,7 +101,7 @@ def _by_name(
 
 
 def _shares(faces: Mapping[str, int], most: int) -> dict[str, int]:
-    """Return the triangles of each mesh that has to be simplified; small meshes leave their rest to the others."""
+    """Return the triangles of each mesh that has to be simplified; others get what small meshes do not need."""
     shares = dict[str, int]()
     for number, name in enumerate(sorted(faces, key=faces.__getitem__)):
         share = max(_LEAST, most // (len(faces) - number))
@@ -125,7 +125,7 @@ def _read(
 
 
 def _coarse(meshes: Mapping[str, Triangles], files: Mapping[str, _File]) -> Iterable[str]:
-    """Yield one line about all meshes that have lost something visible, if there are any."""
+    """Yield one line about all meshes whose simplification is visible, if there are any."""
     coarse = sorted((mesh.faces / mesh.total, name) for name, mesh in meshes.items() if 0 < mesh.cells < _FINE)
     if coarse:
         (_, worst), count = coarse[0], len(coarse)

@@ -24,13 +24,13 @@ class Shape(msgspec.Struct, frozen=True):
     form: str
     """`box`, `cylinder`, `capsule`, `sphere` or `mesh`; cylinders and capsules stand along z."""
     size: tuple[float, ...]
-    """Edges of a box; radius and length of all others, without the half spheres of a capsule."""
+    """Edges of a box; radius and length of other shapes, without the half spheres of a capsule."""
     pose: Pose
     """In the frame of the body."""
     color: tuple[float, ...]
     """Red, green, blue and opacity, from 0 to 1."""
     mesh: str = ""
-    """The name of its mesh, whose scale is in `pose`."""
+    """The name of the shape's mesh; `pose` includes the mesh's scale."""
 
 
 class Body(msgspec.Struct, frozen=True):
@@ -39,12 +39,12 @@ class Body(msgspec.Struct, frozen=True):
     element: str
     """The element in the domain's words: `link hand`."""
     component: str
-    """Its name in the diagram."""
+    """The body's name in the diagram."""
     facts: Facts
     shapes: tuple[Shape, ...] = ()
     mass: float = 0.0
     center: Pose | None = None
-    """The frame of its inertia, in the centre of mass; None for a body without mass."""
+    """The frame of the body's inertia, in the centre of mass; None for a body without mass."""
     inertia: tuple[float, ...] = ()
     """The moments and products xx, xy, xz, yy, yz and zz in this frame."""
 
@@ -62,19 +62,19 @@ class Hinge(msgspec.Struct, frozen=True):
     """The pose of the axis's frame in the parent's frame, at position 0."""
     axis: tuple[float, ...]
     motion: str = ""
-    """`rotational` or `translational` along `axis`, `planar` with it as normal, `floating`, `ball`; empty if fixed."""
+    """`rotational` or `translational` along `axis`, `planar` normal to `axis`, `floating`, `ball`; empty if fixed."""
     start: float = 0.0
     way: float = 0.0
-    """How far a test moves it from the start and back, along a cosine."""
+    """The distance that a test moves the hinge from the start and back, along a cosine."""
     lower: float | None = None
     upper: float | None = None
     """None for no limit."""
     leader: str = ""
-    """The element that it follows; empty if it moves by itself."""
+    """The element that the hinge follows; empty if it moves by itself."""
     multiplier: float = 1.0
     offset: float = 0.0
     is_dependent: bool = False
-    """Whether loops move it."""
+    """Whether loops move the hinge."""
 
 
 class End(msgspec.Struct, frozen=True):
@@ -87,7 +87,7 @@ class End(msgspec.Struct, frozen=True):
 class Loop(msgspec.Struct, frozen=True):
     """A connection of two bodies that hinges already connect.
 
-    Its equations hold the position and axes of its second end, resolved in the first end.
+    The loop's equations hold position and axes of the second end, resolved in the first end.
     """
 
     element: str
@@ -101,7 +101,7 @@ class Loop(msgspec.Struct, frozen=True):
 
 
 class Scene(msgspec.Struct, frozen=True):
-    """A whole robot. A hinge that follows another stands after it."""
+    """A whole robot. A hinge stands after the hinge that it follows."""
 
     bodies: tuple[Body, ...]
     """The root first, each after its parent."""
@@ -112,7 +112,7 @@ class Scene(msgspec.Struct, frozen=True):
     height: float | None = None
     """The height of the root above the ground when the robot stands there at its start; None if its base is fixed."""
     noun: str = "robot"
-    """The whole in one word."""
+    """The word for the whole scene."""
 
 
 class Triangles(msgspec.Struct, frozen=True):
@@ -127,7 +127,7 @@ class Triangles(msgspec.Struct, frozen=True):
     box: tuple[float, ...]
     """The least and the greatest x, y and z of the points."""
     cells: int
-    """Corners were merged in so many cells along the longest edge; 0 if all were kept."""
+    """Number of cells along the longest edge, in each of which corners were merged; 0 if all corners were kept."""
 
 
 class Pictures(Protocol):
@@ -138,13 +138,13 @@ class Pictures(Protocol):
     ) -> tuple[Scene, Mapping[str, str]]:
         """Return the model as a picture whose joints can be moved, and the import of each mesh by its name. Pure.
 
-        Meshes of one file have one name, also if the model scales or mirrors them. An import without facts is a file
-        that is too large for the package.
+        Meshes of one file have one name, also if the model scales or mirrors the meshes. A file that is too large for
+        the package has an import without facts.
         """
         ...
 
     def named_poses(self, source: Path, snapshot: Snapshot) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:
-        """Return the poses that files beside a source define, as positions of hinges, and faults of them in words."""
+        """Return the poses that files beside a source define, as positions of hinges, and faults of the files."""
         ...
 
     def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:

@@ -1,8 +1,8 @@
-"""Loads three.js from trimesh, which contains it for its own viewer.
+"""Loads three.js from trimesh, whose viewer contains three.js.
 
 This repository contains no third-party JavaScript. The page gets three.js from the installed trimesh, which reads
-meshes anyway: r140, 0.7 MB, under the MIT licence. meshcat and viser have it in one file with their own programs (0.9
-and 0.8 MB), and each would be a further dependency.
+meshes anyway: r140, 0.7 MB, under the MIT licence. meshcat and viser have three.js in one file with their own programs
+(0.9 and 0.8 MB), and would be further dependencies.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ class Library(NamedTuple):
 
 
 def load() -> Library:
-    """Return three.js. Raises UrdfsyncError if the installed trimesh lacks it."""
-    spec = importlib.util.find_spec("trimesh")  # does not import it, which would take half a second
+    """Return three.js. Raises UrdfsyncError if the installed trimesh lacks three.js."""
+    spec = importlib.util.find_spec("trimesh")  # an import of trimesh would take half a second
     for folder in (spec.submodule_search_locations or ()) if spec else ():
         try:
             with zipfile.ZipFile(Path(folder, _ARCHIVE)) as archive:

@@ -1,4 +1,4 @@
-"""Starts this Python as a helper process, and serves in one."""
+"""Helper processes that run this Python: functions to start them, and functions that they call."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def python_module(module: str, *arguments: str) -> list[str]:
 
 
 def importable() -> dict[str, str]:
-    """Return the environment variables with which such a command finds this package if it is not installed."""
+    """Return the environment variables with which another Python imports this package, even if it is not installed."""
     home = Path(__file__).parents[2]
     if home.name in ("site-packages", "dist-packages"):
         return {}
@@ -43,7 +43,7 @@ def end_with_parent(read: Callable[[], object]) -> None:
         with contextlib.suppress(EOFError, OSError):
             while read():
                 pass
-        import psutil  # 15 ms, and only a check needs it
+        import psutil  # takes 15 ms, and only a check needs it
 
         for child in psutil.Process().children(recursive=True):
             child.kill()  # a busy compiler may not notice the end of stdin

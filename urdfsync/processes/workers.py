@@ -1,6 +1,6 @@
 """Runs jobs at the same time, in processes of this machine or by the workers of a Dask cluster.
 
-Workers of a cluster see the project at the same path, such as on a shared file system, and have the same urdfsync.
+Workers of a cluster must see the project at the same path, and have the same urdfsync.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ class Workers:
 
 @contextlib.contextmanager
 def workers(count: int, address: str = "") -> Iterator[Workers]:
-    """Start `count` processes, or use the Dask scheduler at an address. Raises ConfigError if none answers.
+    """Start `count` processes, or use the Dask scheduler at an address. Raises ConfigError if no scheduler answers.
 
-    All processes end with the `with` block; after an exception they end at once, and a cluster drops waiting jobs.
+    All processes end with the `with` block. After an exception they end at once, and a cluster drops waiting jobs.
     """
     if address:
         with contextlib.closing(_connect(address)) as client:
@@ -65,8 +65,8 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
                 raise
             executor.shutdown()
         return
-    # No fork: the thread of a progress bar may hold a lock at that moment. No server for forks either: it needs a
-    # socket in the folder for temporary files, whose path may be too long for one.
+    # No fork: the thread of a progress bar may hold a lock at that moment. No server for forks: it needs a socket in
+    # the folder for temporary files, whose path may be too long for a socket.
     context = get_context("spawn")
     with _safe_path():
         end, steps = context.Pipe(duplex=False), context.SimpleQueue()
@@ -74,7 +74,7 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
     try:
         yield Workers(executor, steps)
     except BaseException:
-        end[1].close()  # ends the workers: they read its other end
+        end[1].close()  # ends the workers, which read the other end of this pipe
         raise
     finally:
         executor.shutdown()
@@ -94,7 +94,7 @@ def _connect(address: str) -> Any:
     Answers are unpickled, so the program at this address must be trusted.
     """
     try:
-        from distributed import Client  # an extra; takes a second to import
+        from distributed import Client  # Dask is an extra; its import takes a second
     except ImportError:
         message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
         raise ConfigError.of("no-cluster", message, hint=hint) from None
@@ -108,11 +108,11 @@ def _connect(address: str) -> Any:
 
 @contextlib.contextmanager
 def _safe_path() -> Iterator[None]:
-    """Start Python processes that import nothing from the working folder, which may be a stranger's repository.
+    """Start Python processes in a `with` block that import nothing from the working folder: it may be a stranger's.
 
-    They do not import the main module either: it may be a script that calls the API, and would call it again. An
-    executor starts some at once, for its locks, and others when work is submitted. The variable is restored afterwards:
-    a later command of the user's may need its own folder on the path.
+    Nor do they import the main module: it may be a script that calls the API, and would call it again. An executor
+    starts some processes at once, for its locks, and others when work is submitted. The end restores PYTHONSAFEPATH: a
+    later command of the user's may need its own folder on the path.
     """
     before, main = os.environ.get("PYTHONSAFEPATH"), sys.modules["__main__"]
     os.environ["PYTHONSAFEPATH"], sys.modules["__main__"] = "1", ModuleType("__main__")
@@ -127,10 +127,10 @@ def _safe_path() -> Iterator[None]:
 
 
 def _begin(end: Connection, steps: SimpleQueue[str]) -> None:
-    """Prepare a process: it ends when the command closes its end of a pipe, or ends; Ctrl-C does not end it."""
+    """Prepare a process, which ends when the command ends or closes its pipe; Ctrl-C does not end the process."""
     global _steps
     _steps = steps
-    signal(SIGINT, SIG_IGN)  # the command gets the signal, too, and ends the workers
+    signal(SIGINT, SIG_IGN)  # Ctrl-C also reaches the command, which ends the workers
     end_with_parent(end.recv_bytes)
 
 

@@ -1,1 +1,1 @@
-"""Completion in shells: the scripts, and what they ask."""
+"""Completion in shells: the scripts, and the program that answers them."""

@@ -1,4 +1,4 @@
-"""Completion in shells: prints the script for a shell, and answers its questions.
+"""Completion in shells: prints the script for a shell, and the answers that this script asks for.
 
 A shell waits for the answer at each TAB, so imports here take a few ms at most. Options come from a table of all
 parsers; robots and joints come from the configuration and the recorded state. If these have faults, the answer is
@@ -17,9 +17,9 @@ SHELLS = ("bash", "zsh", "fish")
 _SHELLS = os.path.dirname(__file__)
 _STATE = ".urdfsync/robots"
 _LARGEST = 500_000
-"""Largest configuration in bytes: it is read in a fifth of a second, and hundreds of robots have a smaller one."""
+"""Largest configuration in bytes: reading it takes a fifth of a second; hundreds of robots need less."""
 _LARGEST_STATES = 10_000_000
-"""Largest recorded states in bytes: they are read in a fifth of a second, and belong to robots with 10,000 links."""
+"""Largest recorded states in bytes: reading them takes a fifth of a second; robots with 10,000 links need as much."""
 _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-")
 
 
@@ -64,8 +64,8 @@ def _names(kind: str, words: list[str]) -> list[str]:
 
 
 def _robots(words: list[str]) -> list[str]:
-    """Return the robots of the configuration that a line is about."""
-    import tomllib  # 10 ms that completing an option saves
+    """Return the names of the robots in the configuration that a command line means."""
+    import tomllib  # takes 10 ms, which completion of an option saves
 
     try:
         content = read_unrecorded(uptodate.find_config(words) or "")
@@ -76,7 +76,7 @@ def _robots(words: list[str]) -> list[str]:
 
 
 def _joints(words: list[str]) -> list[str]:
-    """Return the joints of the last build, of the robots on the line or of all, if their names are component names."""
+    """Return the joints of the last build whose names are component names: of the robots on the line, else of all."""
     folder = os.path.join(os.path.dirname(uptodate.find_config(words) or ""), _STATE)
     try:
         states = sorted(os.listdir(folder))

@@ -1,4 +1,4 @@
-"""The models and variables by which a package is simulated, and how `simulate` gets them from a domain."""
+"""The models and variables of a package for simulations, and the functions by which a domain gives them."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ class Signal(msgspec.Struct, frozen=True):
     variable: str
     unit: str
     limits: tuple[str, ...] = ()
-    """Parameters with the lower and the upper limit; a single one limits the absolute value; empty for no limit."""
+    """Parameters with the lower and the upper limit; a single one limits the absolute value; empty without a limit."""
     added: tuple[tuple[str, str], ...] = ()
-    """Pairs of a parameter and a variable; their products are added to the variable."""
+    """Pairs of a parameter and a variable; the products are added to the value of `variable`."""
 
 
 class Axis(msgspec.Struct, frozen=True):
@@ -30,9 +30,9 @@ class Axis(msgspec.Struct, frozen=True):
     effort: Signal | None = None
     """None for a joint without a drive of its own."""
     acceleration: Signal | None = None
-    """Its first limit holds while the joint slows down, its second while it speeds up; None without such a limit."""
+    """The first limit holds while the joint slows down, the second while it speeds up; None without such limits."""
     is_dependent: bool = False
-    """Whether the joint follows others through loops."""
+    """Whether the joint follows other joints through loops."""
 
 
 class LoopSignals(msgspec.Struct, frozen=True):
@@ -54,7 +54,7 @@ class Bench(msgspec.Struct, frozen=True):
     run: str
     """The model that is driven by inputs; empty if there is none."""
     layouts: tuple[tuple[Axis, ...], ...]
-    """For each approach, the axes with the names that its models give them."""
+    """For each approach, the axes under their names in its models."""
     loops: tuple[LoopSignals, ...] = ()
 
 

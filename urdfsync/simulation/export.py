@@ -29,9 +29,9 @@ TOLERANCE = 1e-10
 _DESCRIPTION = "modelDescription.xml"
 _BY_URDFSYNC = "exported by urdfsync"
 _BEGINNING = 2**16
-"""This number of first bytes of a description contains the attributes of its root element."""
+"""The first bytes of a description, so many of them, contain the attributes of its root element."""
 _MOST_BYTES = 2**28
-"""The most bytes of an FMU that is opened: its list of contents, which is read, may be nearly the whole file."""
+"""The most bytes of an FMU that is opened: its list of contents may be nearly the whole file."""
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
 _MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
 
@@ -73,15 +73,15 @@ def export(
 ) -> Exported:
     """Export a model as FMU. Writes nothing but the cache.
 
-    Raises UrdfsyncError for faults of the model or the compiler, and with `for_trial` for inputs that no motion can
-    drive; OSError for unreadable files.
+    Raises OSError for unreadable files, UrdfsyncError for faults of the model or the compiler. With `for_trial`, inputs
+    that no motion can drive are faults, too.
     """
     begin = time.monotonic()
     prepared = prepare(config, robot, options, for_export=True)
     model = prepared.model
     inputs = tuple(model.inputs()) if for_trial else ()
     if for_trial and options.motion:
-        read_motion(options.motion, inputs)  # report its faults before the export, which takes minutes
+        read_motion(options.motion, inputs)  # report the motion's faults before the export, which takes minutes
     stop = options.stop or model.settings.get("StopTime", STOP)
     step, tolerance = model.step(stop, options.step), options.tolerance or TOLERANCE
     name = re.sub(r"\W", "_", model.name)

@@ -1,4 +1,4 @@
-"""Files that the user asks for: series as CSV, plots. Each is written as a whole or not at all."""
+"""Files that the user asks for: series as CSV, plots. Each file is written as a whole or not at all."""
 
 from __future__ import annotations
 
@@ -58,11 +58,11 @@ def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
 
 
 def default_file(name: str, is_ours: Callable[[Path], bool]) -> Path:
-    """Return the file with this name in the working folder. Raises OutputError if it exists and `is_ours` is false."""
+    """Return the file with this name in the working folder. Raises OutputError for a file that is not `is_ours`."""
     file = Path(name)
     if file.is_symlink() or (file.exists() and not is_ours(file)):
-        hint = "name a file with `--output`, this one to replace it"
-        raise not_writable(file, "it is there, and urdfsync did not write it", hint)
+        hint = "name a file with `--output`; name this one to replace it"
+        raise not_writable(file, "the file exists, and urdfsync did not write it", hint)
     return file
 
 
@@ -84,7 +84,7 @@ def write_outputs(files: Mapping[str, Path], result: SimulateResult) -> None:
 def _content(kind: str, file: Path, result: SimulateResult) -> bytes:
     if kind == "csv":
         return "".join(_csv_lines(result.series)).encode()
-    from urdfsync.simulation.plot import draw  # matplotlib takes 0.5 s, and is an extra
+    from urdfsync.simulation.plot import draw  # its import takes 0.5 s; matplotlib is an extra
 
     return draw(result, file.suffix.lower().removeprefix("."))
 

@@ -1,4 +1,4 @@
-"""Tries an FMU out: FMPy validates and simulates it, and the trajectory is compared with that of `simulate`."""
+"""Tries an FMU out: FMPy validates and simulates the FMU, and the trajectory is compared with that of `simulate`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ AGREEMENT = 1e-6
 """The greatest difference that counts as agreement, relative to a variable's greatest value or 1."""
 _REFERENCE_TOLERANCE = 1e-10
 _TOLERANCES = (1e-10, 1e-8, 1e-6)
-"""Tolerances of FMPy's integration of model exchange; the first successful one counts."""
+"""Tolerances of FMPy's integration of model exchange; the first successful integration counts."""
 _SAME_TIME = 1e-9
 _LONGEST_MESSAGE = 300
 KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
@@ -38,7 +38,7 @@ class Trial(msgspec.Struct, frozen=True):
     """The findings of FMPy about an FMU."""
 
     findings: tuple[str, ...]
-    """Findings of its validation."""
+    """Findings of FMPy's validation."""
     agreement: Mapping[str, float]
     """For each kind that was simulated, the greatest relative difference of a variable from `simulate`."""
     worst: Mapping[str, str]
@@ -57,7 +57,7 @@ class WrittenFmu(msgspec.Struct, frozen=True):
     kind: Export
     file: Path
     trial: Trial | None
-    """None if it was not tried out."""
+    """None if the FMU was not tried out."""
     diagnostics: tuple[Diagnostic, ...]
     """All findings, of the export and of the trial."""
 
@@ -68,7 +68,7 @@ def find_faults(trial: Trial, file: Path) -> list[Diagnostic]:
         Diagnostic(Severity.WARNING, "fmu-not-valid", f"FMPy: {words}", shown(file)) for words in trial.findings
     ]
     for kind, problem in trial.problems.items():
-        message = f"{KINDS[kind]}: FMPy can't simulate it: {problem}"
+        message = f"{KINDS[kind]}: FMPy can't simulate the FMU: {problem}"
         warnings.append(Diagnostic(Severity.WARNING, "fmu-not-simulated", message, shown(file)))
     for kind, difference in trial.agreement.items():
         if not difference <= AGREEMENT:

@@ -11,11 +11,11 @@ from urdfsync.simulation.bench import Axis, Bench, Signal
 from urdfsync.simulation.results import JointResult, LoopResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300
-"""A larger limit counts as none: compilers write infinity as their greatest number."""
+"""A larger limit is no limit: compilers write infinity as their greatest number."""
 _ROUNDING = 1e-6
 """The margin of `UrdfSync.Functions.isAtMost`: this number in the quantity's unit, plus this fraction of the limit."""
 _INTEGRATION = 1e-4
-"""The error of the integration that is no violation of a limit, as a share of the quantity's whole range.
+"""Up to this share of a quantity's whole range, an excess is an error of the integration and passes no limit.
 
 With the tolerance of Test, 1e-6, a prescribed motion over 1 rad begins up to 2e-5 rad below 0. This does not count as
 passing the lower limit 0.
@@ -64,10 +64,10 @@ def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
 
 
 def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:
-    """Return the components that are robots, with their layouts: those with the largest part of a layout's positions.
+    """Return the components that are robots, with their layouts: no other component has a larger part of a layout.
 
-    A robot need not have all of them, since the user may have replaced a joint by another model. Other components may
-    have some of them, if they share the name of a joint.
+    A robot need not have all positions of its layout, since the user may have replaced a joint by another model. Other
+    components may have some positions, if they share the name of a joint.
     """
     shares: dict[tuple[str, int], float] = {}
     for number, layout in enumerate(layouts):
@@ -90,7 +90,7 @@ def _names(signal: Signal) -> Iterator[str]:
 
 
 def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str, float]) -> Any:
-    """Return the numbers of a signal as an array; None if the model lacks it."""
+    """Return the numbers of a signal as an array; None if the model lacks the signal."""
     name = _below(place, signal.variable)
     if name not in series:
         return None
@@ -104,7 +104,7 @@ def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str,
 
 
 def _by_direction(accelerations: Any, speeds: Any) -> Any:
-    """Return the sizes of accelerations, negative where they slow a joint down."""
+    """Return the magnitudes of accelerations, negative where the joint slows down."""
     import numpy as np  # see above
 
     sizes = np.abs(accelerations)

@@ -37,7 +37,7 @@ class Input(msgspec.Struct, frozen=True):
 
 
 class Driven(msgspec.Struct, frozen=True):
-    """The changes to a model by which its inputs can follow a table."""
+    """The changes that let the inputs of a model follow a table."""
 
     changed: Mapping[Path, bytes]
     """Contents of files in which the inputs are outputs, so that equations of the model may set them."""
@@ -69,7 +69,7 @@ class Model:
         return wanted or self.settings.get("Interval") or stop / self.settings.get("NumberOfIntervals", STEPS)
 
     def inputs(self) -> list[Input]:
-        """Return all inputs, those of base classes first. Raises ConfigError for an input that can't be driven."""
+        """Return all inputs, the inputs of base classes first. Raises ConfigError for an input that can't be driven."""
         inputs: list[Input] = []
         for node, component in self._components():
             if component.type.parts[-1] != "RealInput" and "input" not in component.prefixes:
@@ -91,7 +91,7 @@ class Model:
     def driven(self, package: str) -> Driven:
         """Return the changes that let inputs follow a table, and that switch off the filters of the package's drives.
 
-        Drives of the user's own models keep their filters: without one, start values may contradict the motion.
+        Drives of the user's own models keep their filters: without a filter, start values may contradict the motion.
         """
         changed: dict[str, list[int]] = {}
         modifiers = []
@@ -128,13 +128,13 @@ def find_model(scopes: Scopes, package: str, name: str, content: Callable[[str],
                 raise ConfigError.of("no-model", message, shown(Path(node.file)))
             return Model(scopes, node, content)
     near = _near(scopes, package, name)
-    hint = f"did you mean `{near}`?" if near else "give its full name; libraries are found beside the package, "
+    hint = f"did you mean `{near}`?" if near else "give its full name; libraries have to be beside the package, "
     hint = hint if near else f"{hint}in the folders of `users` and on MODELICAPATH"
     raise ConfigError.of("no-model", f"there is no model `{name}`", hint=hint)
 
 
 def _near(scopes: Scopes, package: str, name: str) -> str:
-    """Return the name most like a missing one, in its deepest existing package; empty for none."""
+    """Return the name most similar to a missing one, in the deepest existing package around it; empty without one."""
     around, _, last = name.rpartition(".")
     for place in dict.fromkeys((around or package, package)):
         node = scopes.node(place.split("."))

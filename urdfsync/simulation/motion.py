@@ -38,7 +38,7 @@ _HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s
 
 
 class Motion(msgspec.Struct, frozen=True):
-    """Times in s, from 0 on, and the value of each input at each of them, in the unit of the input."""
+    """Times in s, from 0 on, and the value of each input at each time, in the unit of the input."""
 
     times: tuple[float, ...]
     values: tuple[tuple[Input, tuple[float, ...]], ...]
@@ -61,7 +61,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
             hint = "sort the rows by time"
             _refuse(file, f"the time does not increase: {before:g} s, then {time:g} s", line, hint)
     if (start := columns["time"][0]) != 0:
-        _refuse(file, f"the time begins at {start:g} s", rows[0][0], "let it begin at 0")
+        _refuse(file, f"the time begins at {start:g} s", rows[0][0], "begin the time at 0")
     return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
 
 
@@ -95,7 +95,7 @@ def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
 
 
 def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
-    """Return the value of each input at other times, by the functions of `in_modelica`."""
+    """Return the value of each input at other times, as the functions of `in_modelica` compute it."""
     from scipy.interpolate import CubicSpline, make_interp_spline
 
     samples = {}
@@ -214,7 +214,7 @@ class ModelicaMotion(msgspec.Struct, frozen=True):
 
 
 def in_modelica(motion: Motion) -> ModelicaMotion:
-    """Return functions of a package, and an equation for each input that calls them."""
+    """Return functions of a package, and for each input an equation that calls its function."""
     count, lines, equations = len(motion.times), [_constant("times", motion.times)], []
     halvings = max(1, math.ceil(math.log2(count - 1)))
     for number, (signal, values) in enumerate(motion.values, 1):
@@ -236,9 +236,9 @@ def _constant(name: str, values: Sequence[float]) -> str:
 def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[float]:
     """Return the second derivatives of a cubic spline through points.
 
-    Its third derivative has no jump at the second point and at the last but one. So the spline is exact for a cubic.
-    Through three points it is a parabola, through two points a straight line.
+    The spline's third derivative has no jump at the second point and at the last but one. So the spline is exact for a
+    cubic. Through three points the spline is a parabola, through two points a straight line.
     """
-    from scipy.interpolate import CubicSpline  # its import takes 0.5 s, which other simulations save
+    from scipy.interpolate import CubicSpline  # the import takes 0.5 s, which other simulations save
 
     return [float(number) for number in CubicSpline(times, values)(times, 2)]

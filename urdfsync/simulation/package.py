@@ -35,7 +35,7 @@ class Prepared(msgspec.Struct, frozen=True):
 
     package: RobotPackage
     bench: Bench
-    """Empty if the domain has none."""
+    """Empty if the domain has no models to simulate."""
     model: Model
     needed: libraries.Libraries
     values: Mapping[str, str]
@@ -44,7 +44,7 @@ class Prepared(msgspec.Struct, frozen=True):
 
 
 def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for_export: bool = False) -> Prepared:
-    """Find the model, and read the package. Raises UrdfsyncError for faults of these or of the compiler."""
+    """Find the model, and read the package. Raises UrdfsyncError for faults of model, package or compiler."""
     _check_compiler(options)
     request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
     package = read_package(config, robot, request)
@@ -52,7 +52,7 @@ def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for
     if not package.on_disk:
         message, hint = f"the package of robot `{robot.name}` is not built", "run `urdfsync build`"
         raise ConfigError.of("not-built", message, place, hint=hint)
-    message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
+    message, hint = "the package is out of step with its source, and is used as it is", "run `urdfsync build`"
     late = Diagnostic(Severity.WARNING, "out-of-step", message, place, hint=hint)
     benches: Benches | None = package.inputs.domain.simulation
     bench = benches.bench(package.generation.now.snapshot, robot.target, robot.options) if benches else None
@@ -82,7 +82,7 @@ def _check_compiler(options: SimulateOptions) -> None:
 def _find_model(
     config: Config, options: SimulateOptions, name: str, package: RobotPackage
 ) -> tuple[Model, libraries.Libraries]:
-    """Return the model of a name, and the libraries that it and the package need. Raises UrdfsyncError."""
+    """Return the model of a name, and the libraries that the model and the package need. Raises UrdfsyncError."""
     robot, texts = package.robot, package.files.texts
     needed = libraries.find_libraries(config, robot, [*texts.values(), *package.around.values()])
     if needed.problem and not compilers.COMPILERS[options.tool.name].HAS_STANDARD_LIBRARY:
@@ -99,7 +99,7 @@ def _find_model(
         own = [package.users_files[file]] if file in package.users_files else []
         others = libraries.needed_libraries([*texts.values(), *package.around.values(), *own], top, places, [library])
         if library not in others and find_own_library(library, target) is None:
-            others[library] = file  # the file has another name than its class
+            others[library] = file  # the file's name differs from the name of its class
         needed = msgspec.structs.replace(needed, others={**needed.others, **others})
     return model, needed
 
@@ -120,7 +120,7 @@ def run_task(
     progress: Callable[[], None],
     changed: Mapping[Path, bytes] | None = None,
 ) -> CompileResult:
-    """Run a task, a simulation or an export; `plain` is its text without changed parameters.
+    """Run a task, a simulation or an export; `plain` is the task's text without changed parameters.
 
     For `changed` see `Jobs.run`. Raises UrdfsyncError if the model does not compile, or lacks a parameter.
     """
@@ -130,7 +130,7 @@ def run_task(
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
         jobs = Jobs(package.robot, options.tool, prepared.needed, package.around, limits, Path(folder), progress)
         (result,) = jobs.run(kind, package.files.texts, [task], changed)
-        if result.problem and task.parameters:  # perhaps there is no such parameter
+        if result.problem and task.parameters:  # perhaps the model lacks the parameter
             names = msgspec.structs.replace(task, source=plain, runs=(), export=None)
             (answer,) = jobs.run("plain", package.files.texts, [names], changed)
             result = answer if answer.parameters else result

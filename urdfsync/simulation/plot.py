@@ -26,7 +26,7 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 def draw(result: SimulateResult, kind: str) -> bytes:
     """Return a picture, `png` or `svg`; the same result gives the same bytes.
 
-    Without joints it has the other series. Raises ConfigError if these are too many.
+    Without joints, the picture has the other series. Raises ConfigError for too many series.
     """
     series = [] if result.joints else [name for name in result.series if name != "time"]
     if not (result.joints or 0 < len(series) <= _MOST):
@@ -46,7 +46,7 @@ def draw(result: SimulateResult, kind: str) -> bytes:
             last = panels[0][column]
             for row, name in enumerate(_ROWS):
                 if not any(getattr(joint, name) for joint in joints):
-                    panels[row][column].set_visible(False)  # following joints have no effort
+                    panels[row][column].set_visible(False)  # a joint that follows another has no effort
                     continue
                 last = panels[row][column]
                 _draw_panel(last, name, joints, result)
@@ -76,7 +76,7 @@ def _saved(figure: Figure, kind: str) -> bytes:
 
 
 def _columns(joints: Sequence[JointResult]) -> Iterator[Sequence[JointResult]]:
-    """Yield the joints of each column: those of one robot and one unit, six at most."""
+    """Yield the joints of each column: joints of one robot and one unit, six at most."""
     groups: dict[tuple[str, str], list[JointResult]] = {}
     for joint in joints:
         groups.setdefault((joint.robot, joint.position.unit if joint.position else ""), []).append(joint)
@@ -98,7 +98,7 @@ def _draw_panel(panel: Any, name: str, joints: Sequence[JointResult], result: Si
     low, high = panel.get_ylim()
     for quantity, colour in zip(drawn, _COLOURS, strict=False):
         for limit in _limits(quantity):
-            if low - 0.5 * (high - low) <= limit <= high + 0.5 * (high - low):  # others would flatten the curves
+            if low - 0.5 * (high - low) <= limit <= high + 0.5 * (high - low):  # far limits would flatten the curves
                 panel.axhline(limit, color=colour, linestyle="--", linewidth=0.8)
     panel.set_ylabel(f"{name} [{', '.join(dict.fromkeys(units))}]" if units else name)
 

@@ -13,11 +13,11 @@ from urdfsync.checks.results import RunOptions
 from urdfsync.diagnostics import Diagnostic
 
 STOP = 1.0
-"""End of a simulation in s, unless the model's annotation `experiment` or the user gives one."""
+"""End of a simulation in s, unless the model's annotation `experiment` or the user gives an end."""
 STEPS = 500
 """Number of intervals of results, unless the annotation or the user gives their length."""
 TOLERANCE = 1e-6
-"""Tolerance of the integration, unless the annotation or the user gives one."""
+"""Tolerance of the integration, unless the annotation or the user gives a tolerance."""
 
 
 class SimulateOptions(RunOptions, frozen=True):
@@ -29,7 +29,7 @@ class SimulateOptions(RunOptions, frozen=True):
     step: float | None = None
     tolerance: float | None = None
     method: str = ""
-    """One of the compiler's methods of integration; empty leaves it to the compiler."""
+    """One of the compiler's methods of integration; empty leaves the choice to the compiler."""
     values: tuple[str, ...] = ()
     """Changed parameters, `NAME=VALUE`."""
     motion: Path | None = None
@@ -38,7 +38,7 @@ class SimulateOptions(RunOptions, frozen=True):
     """Patterns of further variables for the series."""
     tool: Tool = Tool()
     as_exported: bool = False
-    """Simulate like the FMU: filters of drives stay, inputs change at each step, or stay at 0."""
+    """Simulate as the FMU does: drives keep their filters, and inputs change at each step or stay at 0."""
 
 
 class Range(msgspec.Struct, frozen=True):
@@ -74,15 +74,15 @@ class JointResult(msgspec.Struct, frozen=True):
     element: str
     """The element in the domain's words: `joint elbow`."""
     robot: str
-    """The component that is the robot: `robot`, `cell.left`; empty if it is the model itself."""
+    """The component that is the robot: `robot`, `cell.left`; empty if the model itself is the robot."""
     position: Range | None = None
     speed: Range | None = None
     effort: Range | None = None
     acceleration: Range | None = None
-    """The size of the acceleration, negative where the joint slows down; None also if it has no limit."""
+    """The magnitude of the acceleration, negative where the joint slows down; None also without a limit."""
     passed: tuple[PassedLimit, ...] = ()
     is_dependent: bool = False
-    """Whether it follows others through loops."""
+    """Whether the joint follows other joints through loops."""
 
 
 class LoopResult(msgspec.Struct, frozen=True):

@@ -78,7 +78,7 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
     key = result_key(package.robot, [options.tool], prepared.needed, *facts)
     if key and (earlier := cache.load(key, SimulationResult)):
         return earlier, run, True
-    later = threading.Timer(_LATER, cache.trim)  # takes 200 ms, so it is done while the compiler is busy
+    later = threading.Timer(_LATER, cache.trim)  # trimming takes 200 ms, so it is done while the compiler is busy
     later.daemon = True
     later.start()
 
@@ -92,14 +92,14 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
         simulation = msgspec.structs.replace(part, problem=simulation.problem)
     if not simulation.values:
         raise UrdfsyncError(*_end(model, options, simulation))
-    is_same = key == result_key(package.robot, [options.tool], prepared.needed, *facts)  # else a file was saved
+    is_same = key == result_key(package.robot, [options.tool], prepared.needed, *facts)  # if not, a file was saved
     if key and is_same:
         cache.save(key, None if simulation.problem else simulation)
     return simulation, run, False
 
 
 def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:
-    """Return a run that ends at the last result of a stopped one; None if it did not stop, or its time is unknown."""
+    """Return a run until the last result of a simulation that stopped; None if it did not, or at an unknown time."""
     moment = _TIME.search(simulation.problem)
     if simulation.values or moment is None:
         return None
@@ -108,7 +108,7 @@ def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:
 
 
 def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, str, Mapping[Path, bytes]]:
-    """Return the compiler's task, its text without changed parameters, and the files that change for it."""
+    """Return the compiler's task, its text without changed parameters, and the changed contents of files."""
     robot, model, values = prepared.package.robot, prepared.model, prepared.values
     inputs, changes, changed = model.inputs(), modifiers(values), dict[Path, bytes]()
     stop = options.stop or model.settings.get("StopTime", STOP)
@@ -148,7 +148,7 @@ def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, st
 
 
 def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list[str]) -> str:
-    """Return a package with a model that extends another one; it names the libraries, since rumoca loads no others."""
+    """Return a package with a model that extends another one; its imports name the libraries for rumoca."""
     names = dict.fromkeys(("Modelica", robot.target.package.partition(".")[0], model.partition(".")[0]))
     imports = "".join(f"  import {name};\n" for name in names)
     lines = [*course.declarations, *(("equation", *course.equations) if course.equations else ())]

@@ -45,10 +45,10 @@ def find_unknown(model: str, names: Iterable[str], parameters: Collection[str]) 
 
 
 def nearest_parameter(name: str, parameters: Iterable[str]) -> str:
-    """Return the parameter that the user may have meant: its name, or the last part of it, is much like `name`'s.
+    """Return the parameter that the user may have meant: its whole name or its last part resembles that of `name`.
 
-    Of several with this last part, it is the one that shares most other parts with `name`, then the shortest. Empty if
-    there is none.
+    Of several parameters with this last part, the one that shares most other parts with `name` counts, then the
+    shortest. Empty without such a parameter.
     """
     parameters = list(parameters)
     if near := nearest(name, parameters, _LIKENESS):
@@ -64,7 +64,7 @@ def nearest_parameter(name: str, parameters: Iterable[str]) -> str:
 
 
 def modifiers(values: Mapping[str, str]) -> list[str]:
-    """Return modifiers of a model that give its parameters these values. Raises ConfigError for contradictions."""
+    """Return modifiers that give the parameters of a model these values. Raises ConfigError for contradictions."""
     tree: dict[str, Any] = {}
     for name, value in values.items():
         *path, last = name.split(".")

@@ -1,1 +1,1 @@
-"""The table domain: lists of parts, and what connects them, become Modelica by templates alone."""
+"""The table domain: templates turn lists of parts and their connections into Modelica."""

@@ -1,4 +1,4 @@
-"""The model by which a package of a table is simulated: `urdfsync.simulation.bench.Benches` describes the function."""
+"""Names the model that simulates a package of a table; `urdfsync.simulation.bench.Benches` describes the function."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ from urdfsync.table.model import Options, Table
 
 
 def bench(snapshot: Table, target: Target, options: Options) -> Bench | None:  # noqa: ARG001 - see `Benches`
-    """Return the model of the whole system, if there is one."""
+    """Return the model of the whole system; None if the options choose no such model."""
     return Bench(target.name, "", ()) if "system" in options.files else None

@@ -1,4 +1,4 @@
-"""The table domain as the core sees it: `urdfsync.domain.Domain` describes its functions."""
+"""The table domain; `urdfsync.domain.Domain` describes its functions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elemen
 
 
 class _Module:
-    """A module of this package that few commands need: it is loaded at its first use."""
+    """A module that few commands need. The first use loads it."""
 
     def __init__(self, name: str) -> None:
         self._name = f"urdfsync.table.{name}"
@@ -48,7 +48,7 @@ class _Connections:
 
 
 class TableDomain(Domain):
-    """Tables of elements, in CSV, TOML, JSON, YAML or XLSX, to Modelica."""
+    """Turns tables of elements into Modelica packages."""
 
     name = "table"
     warnings = ("not-modelled",)
@@ -58,13 +58,13 @@ class TableDomain(Domain):
     advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:
-        """Return templates for the columns of a table, to be edited."""
+        """Return templates for the columns of a table. The user edits these templates."""
         from urdfsync.table.starter import templates
 
         return templates(snapshot)
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
-        """Return the libraries of the configuration."""
+        """Return the libraries in the configuration."""
         return tuple(options.uses.items())
 
     def read(self, content: bytes, file: str, options: Options) -> Reading:
@@ -84,7 +84,7 @@ class TableDomain(Domain):
         target: Target,
         options: Options,
     ) -> Iterator[Artifact | Order]:
-        """Yield the files that the options choose; templates decide what is in them."""
+        """Yield the files that the options choose. Templates decide on the content."""
         elements = {key: _element(snapshot, key, options) for key in snapshot.elements}
         parent = target.package.rpartition(".")[0]
         folders = {folder: role for folder, role, file in _FOLDERS if file in options.files}
@@ -140,15 +140,15 @@ def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
 
 
 def _element(snapshot: Table, key: str, options: Options) -> dict[str, Any]:
-    """Return an element as templates have it; its row has no empty cells."""
+    """Return an element for templates; its row has no empty cells."""
     row = snapshot.elements[key]
     names: dict[str, Any] = {"name": key, "class": type_name(key), "component": component_name(key)}
-    names["units"] = dict(sorted(snapshot.columns.items()))  # a recorded table has them in this order
+    names["units"] = dict(sorted(snapshot.columns.items()))  # the order of a recorded table
     return {**names, "kind": row.get(options.kind, ""), "row": dict(sorted(row.items()))}
 
 
 def _columns(row: Mapping[str, Value], types: Mapping[str, str]) -> list[dict[str, Any]]:
-    """Return the filled cells of a row as a record declares them, sorted by column."""
+    """Return the filled cells of a row as parameters of a record, sorted by column."""
     return [
         {
             "name": column_name(column),

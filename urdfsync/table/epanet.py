@@ -1,6 +1,6 @@
-"""Reads a water network in EPANET's format by wntr: its nodes and links are elements, each end of a link a connection.
+"""Reads a water network in EPANET's format by wntr: nodes and links are elements, each end of a link is a connection.
 
-Numbers are those at the beginning of the simulated time, in SI.
+Numbers are in SI. A number that changes over time has its first value.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _KINDS = {
     "pump": "PUMPS",
     "valve": "VALVES",
 }
-"""Kinds of elements, and the sections of the file that list them."""
+"""Kinds of elements, with their sections in the file."""
 
 
 def read(content: bytes, file: str) -> tuple[Sheet, Sheet]:
@@ -41,9 +41,9 @@ def read(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         path.write_bytes(content)
         try:
             network = wntr.network.WaterNetworkModel(str(path))
-        except Exception as error:  # noqa: BLE001 - it may raise anything on a damaged file
+        except Exception as error:  # noqa: BLE001 - wntr may raise any error for a damaged file
             reason = " ".join(str(error).replace(str(path), file).split()) or type(error).__name__
-            hint = "correct it: EPANET reads it, too"
+            hint = "correct the file until EPANET reads it"
             raise SourceError.of("table-file", f"this is no water network: {reason}", file, hint=hint) from None
     lines = _lines(content.decode(errors="replace"))
     elements, connections = list[tuple[int, list[object]]](), list[tuple[int, list[object]]]()
@@ -94,7 +94,7 @@ def _kind(element: Any) -> str:
 
 
 def _lines(text: str) -> Mapping[tuple[str, str], int]:
-    """Return the line of each element, by its section and name."""
+    """Return the line of each element, by section and name."""
     lines, section = dict[tuple[str, str], int](), ""
     for number, line in enumerate(text.split("\n"), 1):
         first = (line.split() or [""])[0]

@@ -1,4 +1,4 @@
-"""Reads tables from CSV, TOML, JSON, YAML and XLSX; each becomes sheets of plain cells with their lines."""
+"""Reads tables from CSV, TOML, JSON, YAML and XLSX as sheets: rows of plain cells, with line numbers."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ CONNECTIONS = "connections"
 _LARGEST = 200_000_000
 """The most bytes of an unpacked workbook."""
 MARK = b"\n\0connections\0\n"
-"""Stands between a source and the connections in the CSV beside it."""
+"""Separates a source from the connections in the CSV beside it."""
 
 
 def read_sheets(content: bytes, file: str) -> tuple[Sheet, Sheet]:
-    """Return elements and connections. Raises SourceError for a source that has no table."""
+    """Return elements and connections. Raises SourceError for a source without a table."""
     content, _, beside = content.partition(MARK)
     suffix = PurePath(file).suffix.lower()
     if suffix not in _READERS:
@@ -42,13 +42,13 @@ def read_sheets(content: bytes, file: str) -> tuple[Sheet, Sheet]:
 
 
 def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:  # noqa: ARG001 - see `Beside`
-    """Return a source with the connections of the CSV beside it, and the lines of both."""
+    """Return a source with the connections of the CSV beside it, and the line of each connection in both texts."""
     first = content.count(b"\n") + MARK.count(b"\n")
     return content + MARK + other, [(first + line, line) for line in range(1, other.count(b"\n") + 2)]
 
 
 def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
-    """Read a CSV, separated by commas, semicolons or tabs, as its header is."""
+    """Read a CSV. The header decides between commas, semicolons and tabs."""
     text = _decode(content, file, first)
     header = text.split("\n", 1)[0]
     separator = max(",;\t", key=header.count)
@@ -85,7 +85,7 @@ def _read_yaml(text: str) -> Any:
     import yaml
 
     class Loader(yaml.SafeLoader):  # type: ignore[misc] # PyYAML has no types
-        """PyYAML takes the last one of equal keys, `100:1` for 6001, and `010` for 8: here all cells are texts."""
+        """Reads all cells as texts, and refuses equal keys. PyYAML reads `100:1` as 6001, and `010` as 8."""
 
         yaml_implicit_resolvers = {  # noqa: RUF012 - PyYAML's name and type
             first: [(tag, pattern) for tag, pattern in kinds if tag.endswith((":merge", ":null"))]
@@ -104,7 +104,7 @@ def _read_yaml(text: str) -> Any:
 
 
 def _without_repetition(pairs: Sequence[tuple[Any, Any]]) -> dict[Any, Any]:
-    """Return a dict. Raises ValueError for a key that stands there twice."""
+    """Return a dict. Raises ValueError for a repeated key."""
     found = dict[Any, Any]()
     for key, value in pairs:
         if key in found:
@@ -114,9 +114,10 @@ def _without_repetition(pairs: Sequence[tuple[Any, Any]]) -> dict[Any, Any]:
 
 
 def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
-    """Return the sheets of data with the list or mapping `elements`, and perhaps `connections`.
+    """Return the sheets of elements and connections.
 
-    A list alone has the elements; so has a mapping of mappings, whose keys name them.
+    The data has `elements` and perhaps `connections`. Without `elements`, the list or the mapping itself has the
+    elements, and the keys of the mapping name them.
     """
     lists = data if isinstance(data, Mapping) else {"elements": data}
     if "elements" not in lists:
@@ -134,18 +135,18 @@ def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
 
 
 def _from_entries(entries: object, text: str, file: str, position: int) -> Sheet:
-    """Return the sheet of entries that begin behind a position of the text."""
+    """Return the sheet of entries that begin after a position in the text."""
     if isinstance(entries, Mapping) and all(isinstance(entry, Mapping) for entry in entries.values()):
         column = "key" if any("name" in entry for entry in entries.values()) else "name"
         entries = [{column: name, **entry} for name, entry in entries.items()]
     if not (isinstance(entries, list) and all(isinstance(entry, Mapping) for entry in entries)):
-        hint = "write one entry for each element, with its columns as keys"
+        hint = "write one entry for each element, with the columns as keys"
         raise SourceError.of("table-file", "the elements are neither a list nor a table of entries", file, hint=hint)
     header = list(dict.fromkeys(str(column) for entry in entries for column in entry))
     rows = list[tuple[int, Sequence[object]]]()
     for entry in entries:
         cells = {str(column): value for column, value in entry.items()}
-        # entries are in order, so the line of one is where its first value stands behind that of the last one
+        # entries are in order: the line of an entry is that of its first value after the previous entry
         first = next(iter(cells.values()), "")
         found = _find_word(text, str(first), position) if isinstance(first, str | int | float) else -1
         rows.append((text.count("\n", 0, max(found, position)) + 1, [cells.get(column) for column in header]))
@@ -154,7 +155,7 @@ def _from_entries(entries: object, text: str, file: str, position: int) -> Sheet
 
 
 def _find_word(text: str, word: str, position: int) -> int:
-    """Return where a whole word stands from a position on; -1 if it does not."""
+    """Return the next position of a whole word from a position on; -1 if the word is missing."""
     while (found := text.find(word, position)) >= 0:
         if not (text[found - 1 : found].isalnum() or text[found + len(word) : found + len(word) + 1].isalnum()):
             return found
@@ -163,7 +164,7 @@ def _find_word(text: str, word: str, position: int) -> int:
 
 
 def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
-    """Read the first sheet, and the sheet `connections`; formulas have the values that were last computed."""
+    """Read the first sheet, and the sheet `connections`. Formulas have the values that were last computed."""
     try:
         import openpyxl
     except ImportError:
@@ -175,13 +176,13 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         raise SourceError.of("table-file", f"the workbook has more than {_LARGEST:,} bytes", file, hint="split it")
     books = []
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # openpyxl warns of what it leaves out, such as conditional formats
+        warnings.simplefilter("ignore")  # openpyxl warns of ignored parts, such as conditional formats
         for computed in (True, False):
             try:
                 books.append(openpyxl.load_workbook(io.BytesIO(content), data_only=computed))
-            except Exception as error:  # noqa: BLE001 - it may raise anything on a damaged file
+            except Exception as error:  # noqa: BLE001 - openpyxl may raise any error for a damaged file
                 message = f"this is no workbook: {error}"
-                raise SourceError.of("table-file", message, file, hint="save it as .xlsx again") from None
+                raise SourceError.of("table-file", message, file, hint="save the workbook as .xlsx again") from None
     values, formulas = books
     names = values.sheetnames
     named = {name.lower(): name for name in names}
@@ -191,7 +192,7 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
 
 
 def _unpacked_size(content: bytes) -> int:
-    """Return the bytes of all files in an archive; 0 if it is none."""
+    """Return the bytes of all files in an archive; 0 if the content is no archive."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             return sum(file.file_size for file in archive.infolist())
@@ -201,13 +202,13 @@ def _unpacked_size(content: bytes) -> int:
 
 def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
     if merged := next(iter(values.merged_cells.ranges), None):
-        message, hint = f"sheet `{values.title}` has merged cells: {merged}", "unmerge them, and fill each cell"
+        message, hint = f"sheet `{values.title}` has merged cells: {merged}", "unmerge these cells, and fill each cell"
         raise SourceError.of("table-file", message, file, merged.min_row, hint=hint)
     rows = list[tuple[int, Sequence[object]]]()
     for number, (cells, originals) in enumerate(zip(values.iter_rows(), formulas.iter_rows(), strict=True), 1):
         for cell, original in zip(cells, originals, strict=True):
             if cell.value is None and original.value is not None:
-                message, hint = f"the formula in {cell.coordinate} was never computed", "open the workbook, and save it"
+                message, hint = f"the formula in {cell.coordinate} has no result", "open the workbook, and save it"
                 raise SourceError.of("table-file", message, file, number, hint=hint)
         if any(cell.value is not None for cell in cells):
             rows.append((number, [cell.value for cell in cells]))
@@ -225,7 +226,7 @@ def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
 
 
 def _without_end(cells: Sequence[object]) -> Sequence[object]:
-    """Return the cells up to the last one that is filled."""
+    """Return the cells up to the last filled cell."""
     last = max((number for number, cell in enumerate(cells, 1) if cell is not None), default=0)
     return cells[:last]
 
@@ -241,7 +242,7 @@ def _decode(content: bytes, file: str, first: int = 0) -> str:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = first + error.object.count(b"\n", 0, error.start) + 1
-        message, hint = "the file is not UTF-8", "save it as UTF-8, then try again"
+        message, hint = "the file is not UTF-8", "save the file as UTF-8, then try again"
         raise SourceError.of("table-file", message, file, line, hint=hint) from None
 
 

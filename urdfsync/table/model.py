@@ -1,4 +1,4 @@
-"""A table of elements and the connections between them, as values."""
+"""A table of elements and their connections, as values."""
 
 from __future__ import annotations
 
@@ -14,41 +14,41 @@ TYPES = "text", "integer", "boolean"
 File: TypeAlias = Literal["record", "model", "system"]
 
 FROM, TO = "from", "to"
-"""The columns of a connection that name its elements."""
+"""The columns of a connection with the keys of its two elements."""
 
 
 class Sheet(NamedTuple):
-    """A table as it was written: the header, and each row with its line."""
+    """A table as written: the header, and each row with its line."""
 
     header: Sequence[str]
     rows: Sequence[tuple[int, Sequence[object]]]
     notes: Sequence[str] = ()
-    """What the source has and the sheet lacks, in words."""
+    """Names of parts of the source that the sheet lacks."""
 
 
 NOTHING = Sheet((), ())
 
 
 def shown_unit(kind: str) -> str:
-    """Return the unit of a column of this kind for people; empty for numbers without unit, texts and the like."""
+    """Return the unit to show for a column; empty for numbers without a unit, texts and booleans."""
     return "" if kind in ("1", *TYPES) else kind
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How a table becomes a package."""
+    """The options of one table."""
 
     key: str = ""
     """The column that names the elements; empty for the first column."""
     kind: str = ""
     """The column that chooses the template of an element's model, `model/KIND.mo.jinja`; empty for `model.mo.jinja`."""
     connections: str = ""
-    """The CSV with the connections; empty if the source has them, or none."""
+    """The CSV with the connections; empty if the source has the connections, or no connections exist."""
     files: tuple[File, ...] = ("record", "model")
     """The files to generate: a record and a model for each element, and one model of the whole system."""
     classes: tuple[str, ...] = ()
-    """Further classes of the package, such as a connector, from `CLASS.mo.jinja`."""
+    """More classes of the package, such as a connector, from `CLASS.mo.jinja`."""
     columns: Mapping[str, str] = {}
-    """The unit of columns, or `text`, `integer` or `boolean`; the table's header may state it, too."""
+    """Units of columns, or `text`, `integer` or `boolean`. The header of the table may state the units instead."""
     uses: Mapping[str, str] = msgspec.field(default_factory=lambda: {"Modelica": "4.0.0"})
     """The libraries that the templates need, with their versions."""
 
@@ -57,10 +57,10 @@ class Table(msgspec.Struct, frozen=True):
     """All rows of a source, sorted by their keys."""
 
     columns: dict[str, str]
-    """The columns of elements: the SI unit of numbers as Modelica writes it, or `text`, `integer`, `boolean`."""
+    """The columns of elements: the SI unit of numbers in Modelica's spelling, or `text`, `integer`, `boolean`."""
     elements: dict[str, dict[str, Value]]
     """The filled cells of each element, by key and column."""
     connection_columns: dict[str, str] = {}
-    """The columns of connections, likewise."""
+    """The columns of connections, with units or types."""
     connections: dict[str, dict[str, Value]] = {}
-    """The filled cells of each connection, by `FROM TO`, with a number if there are several."""
+    """The filled cells of each connection, by `FROM TO`; equal pairs get a number."""

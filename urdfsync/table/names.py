@@ -13,9 +13,9 @@ _LONGEST = 100
 
 
 def component_name(key: str, noun: str = "element") -> str:
-    """Return the identifier of a component: the letters and digits of its key, from a small letter on."""
+    """Return the identifier of a component: the letters and digits of its key, with a small first letter."""
     if not key.isascii():
-        from anyascii import anyascii  # 30 ms, and few tables need it
+        from anyascii import anyascii  # a late import saves most tables 30 ms
 
         key = anyascii(key)
     stem = re.sub(r"[^A-Za-z0-9]+", "_", key).strip("_")
@@ -25,19 +25,19 @@ def component_name(key: str, noun: str = "element") -> str:
 
 
 def column_name(column: str) -> str:
-    """Return the identifier of a column: that of a component, with `_` behind a word that Modelica reserves."""
+    """Return the identifier of a column, as of a component; a reserved word of Modelica gets a final `_`."""
     name = component_name(column, "column")
     return f"{name}_" if name in KEYWORDS else name
 
 
 def type_name(key: str) -> str:
-    """Return the identifier of an element's record and model, from a capital letter on."""
+    """Return the identifier of an element's record and model, with a capital first letter."""
     name = component_name(key)
     return name[0].upper() + name[1:]
 
 
 def find_clashes(keys: Iterable[str], noun: str = "element") -> Iterator[tuple[str, str]]:
-    """Yield each key that can't be a name in Modelica, with the reason."""
+    """Yield each key that can't become a name in Modelica, with the reason."""
     by_name = defaultdict[str, list[str]](list)
     for key in keys:
         by_name[component_name(key, noun).lower()].append(key)

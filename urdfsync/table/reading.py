@@ -1,4 +1,4 @@
-"""Reads a source as a table: keys, types and units are checked, and numbers are converted to SI."""
+"""Reads a source as a table: checks keys, types and units, and converts numbers to SI."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _TRUTH = {"true": True, "false": False}
 
 
 class _Column(NamedTuple):
-    """A column: its name, and its unit or the name of its type."""
+    """A column: name, and unit or name of the type."""
 
     name: str
     type: Unit | str
@@ -52,7 +52,7 @@ class _Reader:
         self._file, self._options = file, options
 
     def read(self, elements: Sheet, connections: Sheet) -> Table:
-        """Return the table; it is whole if there is no error among the findings."""
+        """Return the table, which is complete if no finding is an error."""
         key = self._options.key or (name_and_unit(elements.header[0])[0] if elements.header else "")
         columns = self._columns(elements, {key, self._options.kind} - {""})
         links = self._columns(connections, {FROM, TO})
@@ -87,16 +87,16 @@ class _Reader:
         return Table(types, dict(sorted(rows.items())), of_links, dict(sorted(joined.items())))
 
     def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
-        """Return the columns; those of `texts` have texts."""
+        """Return the columns; the columns in `texts` have texts."""
         columns = list[_Column]()
         for number, cell in enumerate(sheet.header):
             name, unit = name_and_unit(cell)
             if not name or not name.isprintable():
-                self._error("no-column", f"column {number + 1} has no name", 1, "name it in the header")
+                self._error("no-column", f"column {number + 1} has no name", 1, "name the column in the header")
             elif name in (column.name for column in columns):
                 self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
             if name in texts and unit not in ("", "text"):
-                hint = "let `key` and `kind` name columns of texts, in the table of the configuration"
+                hint = "name columns of texts as `key` and `kind` in the configuration"
                 self._error("no-key", f"column `{name}` has the unit {unit}: it can't name elements", 1, hint)
             is_text = name in texts or not name
             columns.append(_Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
@@ -106,7 +106,7 @@ class _Reader:
         return columns
 
     def _type(self, name: str, unit: str, sheet: Sheet, number: int) -> Unit | str:
-        """Return the unit or the type of a column, by its header and the configuration."""
+        """Return the unit or the type of a column, from the header and the configuration."""
         declared = self._options.columns.get(name, "")
         try:
             if (unit or declared) in TYPES:
@@ -125,8 +125,8 @@ class _Reader:
             return "text"
         cells = [cells[number] for _, cells in sheet.rows if number < len(cells) and cells[number] not in (None, "")]
         if cells and all(_is_number(cell) for cell in cells):
-            hint = f"write `{name} [kg]` with its unit, `{name} [1]` if it has none, or `{name} [text]`"
-            self._error("no-unit", f"column `{name}` has numbers, and no unit", 1, hint)
+            hint = f"write `{name} [kg]` with the unit, `{name} [1]` without a unit, or `{name} [text]`"
+            self._error("no-unit", f"column `{name}` has numbers but no unit", 1, hint)
         return "text"
 
     def _rows(self, sheet: Sheet, columns: Sequence[_Column], key: str) -> dict[str, dict[str, Value]]:
@@ -140,7 +140,7 @@ class _Reader:
                 first = self.lines[f"element {name}"]
                 self._error("duplicate-key", f"the key `{name}` stands in line {first}, too", line, "rename one")
             elif self._options.kind and not (isinstance(kind, str) and _KIND.fullmatch(kind)):
-                hint = "use letters, digits, `_` and `-`: it names a template"
+                hint = "use letters, digits, `_` and `-`: the kind names a template"
                 self._error("no-kind", f"the kind `{kind or ''}` of `{name}` can't be a template", line, hint)
             else:
                 rows[name], self.lines[f"element {name}"] = row, line
@@ -155,7 +155,7 @@ class _Reader:
             for name in ends:
                 if name not in elements:
                     near = nearest(name, elements)
-                    hint = f"did you mean `{near}`?" if near else "add it, or correct the connection"
+                    hint = f"did you mean `{near}`?" if near else "add the element, or correct the connection"
                     self._error("no-element", f"there is no element `{name}`", line, hint)
             key, number = " ".join(ends), 2
             while key in rows:
@@ -164,10 +164,10 @@ class _Reader:
         return rows
 
     def _values(self, sheet: Sheet, columns: Sequence[_Column]) -> Iterator[tuple[int, dict[str, Value]]]:
-        """Yield the rows with their values; tell of the first fault in each cell."""
+        """Yield the rows with their values; report the first fault of each cell."""
         for line, cells in sheet.rows:
             if len(cells) != len(columns):
-                message = f"the row has {counted(len(cells), 'cell')}, and the header {len(columns)}"
+                message = f"the row has {counted(len(cells), 'cell')}, but the header has {len(columns)}"
                 self._error("ragged-row", message, line, "fill each cell, or quote a text that has the separator")
                 continue
             row = dict[str, Value]()
@@ -187,7 +187,7 @@ class _Reader:
 
 
 def name_and_unit(header: str) -> tuple[str, str]:
-    """Return the name and the unit in a cell of a header; both may be empty."""
+    """Return the name and the unit in a cell of a header. Both may be empty."""
     match = _HEADER.fullmatch(header)
     return (match["name"], (match["unit"] or "").strip()) if match else (header, "")
 
@@ -199,7 +199,7 @@ def _is_number(cell: object) -> bool:
 
 
 def read_value(cell: object, kind: Unit | str) -> Value | None:
-    """Return the value of a cell in SI; None if it is empty. Raises ValueError."""
+    """Return the value of a cell in SI; None for an empty cell. Raises ValueError."""
     text = cell.strip() if isinstance(cell, str) else cell
     if text is None or text == "":
         return None
@@ -215,16 +215,16 @@ def read_value(cell: object, kind: Unit | str) -> Value | None:
         raise ValueError(f"`{text}` is neither true nor false")
     if kind == "text":
         if not isinstance(text, str | int | float):
-            raise ValueError("a list or a table is no cell")  # its text may be endless
-        str(text).encode()  # JSON may have half of a character: an error of Unicode is a ValueError
+            raise ValueError("a cell can't be a list or a table")  # the text of a list may be endless
+        str(text).encode()  # JSON may have half of a character: UnicodeError is a ValueError
         return str(text)
     if not isinstance(text, str | int | float):
-        raise ValueError("a list or a table is no number")  # noqa: TRY004 - as all faults of cells
+        raise ValueError("a number can't be a list or a table")  # noqa: TRY004 - as all faults of cells
     if not _is_number(text):
         point = str(text).replace(",", ".") if str(text).count(",") == 1 else ""
         more = f": write {point}" if _NUMBER.fullmatch(point) else ""
-        if re.fullmatch(r"[-+]?\d{1,3},\d{3}", str(text)):  # in English a number of thousands
-            more = f": write {point} or {str(text).replace(',', '')}, whichever it is"
+        if re.fullmatch(r"[-+]?\d{1,3},\d{3}", str(text)):  # an English number with thousands
+            more = f": write {point} or {str(text).replace(',', '')}, as you mean it"
         raise ValueError(f"`{text}` is no number{more}")
     number = Decimal(str(text))
     if isinstance(kind, Unit):

@@ -1,4 +1,4 @@
-"""A table as a picture: a box for each element, in columns by distance from the best connected one, with lines between.
+"""A table as a picture: a box for each element, a line for each connection.
 
 `urdfsync.pages.scene.Pictures` describes the functions.
 """
@@ -62,12 +62,12 @@ def named_poses(source: Path, table: Table) -> tuple[Mapping[str, Mapping[str, f
 
 
 def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:  # noqa: ARG001 - see `Pictures`
-    """Return nothing: a table has no meshes."""
+    """Return the reason why no mesh can be shown."""
     return "a table has no meshes"
 
 
 def _places(table: Table) -> dict[str, tuple[float, float]]:
-    """Return x and y of each element: connected groups one above the other, unconnected elements in rows at the end."""
+    """Return x and y of each element: connected groups one below the other, then rows of other elements."""
     beside = defaultdict[str, dict[str, None]](dict)
     for row in table.connections.values():
         ends = str(row[FROM]), str(row[TO])

@@ -1,4 +1,4 @@
-"""Templates and options for a new table, for `init`."""
+"""Templates and options that `init` writes for a new table."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def option_for(name: str, snapshot: Table, target: Target, options: Any) -> str:
 
 
 def templates(snapshot: Table) -> Mapping[str, str]:
-    """Return templates for the columns of a table, to be edited, by their paths."""
+    """Return templates for the columns of a table, by path. The user edits these templates."""
     declarations = [line for column in snapshot.columns for line in _declare(snapshot, column)]
     record = "\n".join([_RECORD, *declarations, "", "end << class >>;", ""])
     files = {"record.mo.jinja": record, "model.mo.jinja": _MODEL}
@@ -33,7 +33,7 @@ def templates(snapshot: Table) -> Mapping[str, str]:
 
 
 def _declare(snapshot: Table, column: str) -> list[str]:
-    """Return the lines that declare a column; if elements have an empty cell in it, only for the others."""
+    """Return the lines that declare a column; a condition leaves out elements with an empty cell."""
     name, kind = column_name(column), snapshot.columns[column]
     cells = [row[column] for row in snapshot.elements.values() if column in row]
     if not cells:
@@ -52,7 +52,7 @@ _DECLARATIONS = {
     "integer": ("Integer {}", "{}"),
     "boolean": ("Boolean {}", "{} | lower"),
 }
-"""Types without a unit: declaration, and value."""
+"""Types without a unit, with declaration and value."""
 _RECORD = """\
 within << within >>;
 

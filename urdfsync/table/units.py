@@ -1,4 +1,4 @@
-"""Units of columns: what a number is multiplied by, and added, to be in SI."""
+"""Converts the numbers of columns to SI."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from urdfsync.diagnostics import SourceError
 from urdfsync.extras import install_command
 
 _COHERENT = frozenset("m kg s A K mol cd rad sr Hz N Pa J W C V F Ohm S Wb T H lm lx Bq Gy kat".split())
-"""The SI units without a prefix: most tables have no others, and pint takes longer to load than a whole build."""
+"""The SI units without a prefix: most tables have only these, and loading pint takes longer than a whole build."""
 _TERM = rf"(?:{'|'.join(sorted(_COHERENT))})(?:-?[1-9])?"
 _MODELICA = re.compile(rf"(?:1|{_TERM}(?:\.{_TERM})*)(?:/(?:{_TERM}|\({_TERM}(?:\.{_TERM})+\)))?")
-"""Matches a product of SI units over at most one such product, as Modelica writes it."""
+"""Matches a product of SI units, or a quotient of two products, in Modelica's spelling."""
 _UNIT = re.compile(r"(?=.)(?!.*[.*/^]{2})(?!.*\d[\deE])(1/)?[^\W\d_%°]*[%°]?[\w.*/()^-]*")
 _KNOWN = frozenset(
     "meter gram second ampere kelvin mole candela radian steradian hertz newton pascal joule watt coulomb volt "
@@ -25,18 +25,18 @@ _KNOWN = frozenset(
     "watt_hour ampere_hour volt_ampere calorie british_thermal_unit knot kilometer_per_hour mile_per_hour percent "
     "ppm".split()
 )
-"""The units of tables, by pint's names. It knows many more, and takes `mil` for an angle, `G` for gauss."""
+"""The allowed units, by pint's names. Further units of pint would surprise: `mil` is an angle, `G` is gauss."""
 _PREFIXES = frozenset(" pico nano micro milli centi deci hecto kilo mega giga tera".split(" "))
-"""Others make units of typing errors: `PS` would be petasiemens."""
+"""The allowed prefixes. With others, typing errors become units: `PS` would be petasiemens."""
 
 
 class Unit(NamedTuple):
-    """A unit: a number in it, times `factor` plus `offset`, is in the SI unit `si`."""
+    """A unit: number · `factor` + `offset` is the number in the SI unit `si`."""
 
     factor: Decimal
     offset: Decimal
     si: str
-    """As Modelica writes it, for example `kg.m2/s2`; `1` for a number without unit."""
+    """The SI unit in Modelica's spelling, for example `kg.m2/s2`; `1` for a number without a unit."""
 
     def convert(self, number: Decimal) -> float:
         """Return a number in SI."""
@@ -45,9 +45,9 @@ class Unit(NamedTuple):
 
 @functools.lru_cache(maxsize=256)
 def find_unit(text: str) -> Unit:
-    """Return a unit such as `N.cm`, `kg.m2`, `W/(m2.K)` or `degC`; `1` is a number without unit.
+    """Return a unit such as `N.cm`, `kg.m2`, `W/(m2.K)` or `degC`; `1` stands for no unit.
 
-    Raises ValueError for an unknown one, SourceError without pint.
+    Raises ValueError for an unknown unit, SourceError without pint.
     """
     text = _with_dots(text)
     if _MODELICA.fullmatch(text):
@@ -59,7 +59,7 @@ def find_unit(text: str) -> Unit:
 
 
 def is_same_kind(text: str, other: str) -> bool:
-    """Whether numbers in one unit can be converted to the other one. Raises as `find_unit`."""
+    """Return whether numbers can be converted between two units. Raises the errors of `find_unit`."""
     text, other = map(_with_dots, (text, other))
     if text == other:
         return True
@@ -68,7 +68,7 @@ def is_same_kind(text: str, other: str) -> bool:
 
 
 def _with_dots(text: str) -> str:
-    """Return a unit with `N.m` for `Nm`, which pint takes for a textile unit, and the like."""
+    """Return a unit with `N.m` instead of `Nm` and the like: pint reads `Nm` as a textile unit."""
     return re.sub(r"\b([mk]?N)([cm]?m)\b", r"\1.\2", text)
 
 
@@ -93,7 +93,7 @@ def _quantity(registry: Any, number: int, text: str) -> Any:
     product = re.sub(r"(?<=[\w%°)])\.(?=[^\W\d(])", "*", text) if _UNIT.fullmatch(text) else "no unit"
     try:
         quantity = registry.Quantity(Decimal(number), re.sub(r"(?<=[^\W\d])(-?[1-9])", r"**\1", product))
-    except Exception:  # noqa: BLE001 - pint parses any text, and raises errors of many kinds
+    except Exception:  # noqa: BLE001 - pint parses any text, and raises many kinds of errors
         raise ValueError(f"`{text}` is no unit") from None
     for name, _ in quantity.unit_items():
         prefix, unit, _ = next(iter(registry.parse_unit_name(name)))
@@ -103,7 +103,7 @@ def _quantity(registry: Any, number: int, text: str) -> Any:
 
 
 def _si(text: str, registry: Any) -> str:
-    """Return a unit without its prefixes if Modelica writes it so, such as `N.m` for `N.cm`; else nothing."""
+    """Return a unit without prefixes, such as `N.m` for `N.cm`; empty if Modelica can't write this unit."""
     plain = re.sub(r"[A-Za-z]+", lambda match: _without_prefix(match[0], registry), text)
     return plain if _MODELICA.fullmatch(plain) else ""
 
@@ -117,7 +117,7 @@ def _without_prefix(symbol: str, registry: Any) -> str:
 
 
 def _as_modelica(units: Any, registry: Any) -> str:
-    """Return base units as Modelica writes them, for example `kg.m2/(s2.K)`; `1` for none."""
+    """Return base units in Modelica's spelling, for example `kg.m2/(s2.K)`; `1` for no unit."""
     powers = [(registry.get_symbol(name), power) for name, power in units]
     above = [f"{symbol}{power if power != 1 else ''}" for symbol, power in powers if power > 0]
     below = [f"{symbol}{-power if power != -1 else ''}" for symbol, power in powers if power < 0]

@@ -31,26 +31,26 @@ _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 def propose(robot: Robot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
-    """Propose a base, a start if loops are at a dead point, and to allow errors about parts that no model has."""
+    """Propose a base, a start for loops at a dead point, and the errors to allow."""
     proposals, codes = [guess_base(robot)], {entry.code for entry in diagnostics}
     if "loop-singular" in codes and (start := Assembly(robot, Options()).closed.proposed):
         proposals.append(Proposal("start", start, "with all joints at zero, loops are at a dead point"))
     if needed := [code for code in get_args(LeftOut) if code in codes]:
-        proposals.append(Proposal("allow", needed, "the model leaves this out, see the warnings"))
+        proposals.append(Proposal("allow", needed, "the model leaves this part out, see the warnings"))
     return proposals
 
 
 def option_for(name: str, robot: Robot, target: Target, options: Options) -> str:
-    """Return the option that adds `name`: the record of the robot, a frame of a link, or a variable of Run."""
+    """Return the option that adds `name`: the name of a record, a frame or a variable of Run."""
     if name == f"{target.name}Parameters" and "record" not in options.approach:
         return 'approach = ["package", "record"]'
     return connector_options(Assembly(robot, options, target)).get(name, "")
 
 
 def guess_base(robot: Robot) -> Proposal:
-    """Guess from names whether a robot moves freely: it stands on the ground, flies or swims.
+    """Guess from names whether a robot moves freely: on the ground, in the air or in water.
 
-    The reason quotes the name that the guess rests on.
+    The reason quotes the name that decides.
     """
     root = KinematicTree.of(robot).links[0].name
     if root.lower() == "world":
@@ -58,7 +58,7 @@ def guess_base(robot: Robot) -> Proposal:
     if _FOOTPRINT.search(root):
         return Proposal("base", "floating", f'its root link is named "{root}"')
     turning = [joint for joint in robot.joints if joint.type in ("continuous", "revolute")]
-    # a rotor carries no joint, unlike the motors of arms
+    # a rotor carries no further joint; a motor of an arm does
     carrying = {joint.parent for joint in robot.joints}
     spinning = [joint for joint in turning if joint.type == "continuous" and joint.child not in carrying]
     for limbs, pattern, joints in (*((*limbs, turning) for limbs in _LIMBS), ("rotors", _ROTORS, spinning)):

@@ -23,9 +23,9 @@ _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the U
 
 
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
-    """Return every file of the robot's package, without imported meshes.
+    """Return every file of the robot's package but imported meshes.
 
-    Raises KeyError or ValueError for a robot that fails a check, or has meshes without facts.
+    Raises KeyError or ValueError for an invalid robot, or for a mesh without facts.
     """
     assembly = Assembly(robot, options, target)
     tree, package, folders = assembly.tree, target.package, dict[str, list[Artifact]]()
@@ -61,7 +61,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         files += parameters
         root, *others = tree.links
         if not any(link.inertial for link in tree.links):
-            # Modelica's frames need a root body: a robot without masses gets one without mass
+            # Modelica's frames need a root body: a robot without masses gets a massless one
             root = msgspec.structs.replace(root, inertial=Inertial())
         folders["Links"] = [file for link in (root, *others) for file in _link(assembly, link, imports)]
         joints = [file for joint in tree.joints for file in _joint(assembly, joint)]
@@ -97,9 +97,9 @@ def _classes(files: Sequence[Artifact]) -> tuple[str, ...]:
 
 
 def record(robot: Robot, target: Target, options: Options) -> Artifact:
-    """Return the record of the whole robot without a package around it; `target` names the record itself.
+    """Return the record of the whole robot without a package around it; `target` names the record.
 
-    Its text equals the record in a package, if the names are equal and the robot has no mesh.
+    For a robot without meshes, the record in a package with the same names is equal.
     """
     robot_target = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
     assembly = Assembly(robot, options, robot_target)
@@ -109,7 +109,7 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
 
 
 def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
-    """Return the classes of the package that have to compile by themselves, the main one first."""
+    """Return the classes of the package that compilers check, the main class first."""
     suffixes = ("", "Run", "Test") if "package" in options.approach else (_PARAMETERS,)
     generic = ("Generic",) if has_bench(joints, options) else ()
     return tuple(f"{target.name}{suffix}" for suffix in (*suffixes, *generic))
@@ -121,7 +121,7 @@ def has_bench(joints: Sequence[Joint], options: Options) -> bool:
 
 
 def _of_robot(assembly: Assembly, suffix: str, data: Mapping[str, Any], role: Role = Role.MODEL) -> Artifact:
-    """Return a file of the robot itself; its name is the robot's name with a suffix."""
+    """Return a file of the robot itself, named after the robot with a suffix."""
     name = assembly.target.name
     record_name = f"{name}{suffix if role is Role.RECORD else _PARAMETERS}"
     common = {"within": assembly.target.package, "type": name, "title": f"robot {name}", "record": record_name}
@@ -168,7 +168,7 @@ def _element(
     data: tuple[Mapping[str, Any], Mapping[str, Any]],
     note: str,
 ) -> Iterator[Artifact]:
-    """Yield model and record of an element by their templates and data; the model has a note."""
+    """Yield model and record of an element; the note becomes the documentation of the model."""
     identifier, folder = assembly.tree.names[kind, name], "Links" if kind == "link" else "Joints"
     within = f"{assembly.target.package}.{folder}"
     named = {"within": within, "type": identifier.type, "record": identifier.record, "title": title}

@@ -30,17 +30,17 @@ class Assembly(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def closed(self) -> ClosedLoops:
-        """The closed loops, and the driven joints: the `wanted_joints`, but in loops at most one per freedom."""
+        """The closed loops, and the driven joints: the `wanted_joints`; in loops, at most one per degree of freedom."""
         tree = KinematicTree.of(self.robot, (self.target.name,))
         if len(tree.leaders_first()) < len(tree.joints):
-            raise ValueError("a joint follows one that is not there, or itself")
+            raise ValueError("a joint follows itself or a missing joint")
         wanted, named = wanted_joints(tree.joints, self.options), self.options.driven
         if not tree.loops:
             return ClosedLoops(tree=tree, driven=wanted)
         if named is None:
             named = (*(joint.name for joint in tree.joints if joint.actuated), *self.options.commands)
         with machine.single_thread():
-            from urdfsync.urdf.kinematics.assemble import assemble  # 60 ms for numpy, needed by few robots
+            from urdfsync.urdf.kinematics.assemble import assemble  # a late import saves most robots 60 ms
 
         return assemble(tree, wanted, frozenset(named))
 
@@ -56,14 +56,14 @@ class Assembly(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def every_connector(self) -> Connectors:
-        """The names if the robot had all frames and motors, and a Run that drives all drivable joints."""
+        """The names for a robot with all frames and motors, if Run drives all drivable joints."""
         joints = tuple(joint.name for joint in self.tree.joints)
         every = msgspec.structs.replace(self.options, frames="all", driven=joints, inputs="names", drives="motor")
         return Assembly(self.robot, every, self.target).connectors
 
 
 def connector_options(assembly: Assembly) -> dict[str, str]:
-    """Return, for each connector and variable of Run that the options leave out, the option that adds it.
+    """Return the connectors and variables of Run that the options leave out, each with the option that adds it.
 
     An option is a line of the configuration.
     """

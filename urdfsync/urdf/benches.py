@@ -1,4 +1,4 @@
-"""How a generated robot is compiled, compared and simulated: its models, its reference, the variables of its joints.
+"""Describes how a generated robot is compiled, compared and simulated.
 
 `urdfsync.checks.experiment.Checks` and `urdfsync.simulation.bench.Benches` describe the functions.
 """
@@ -21,7 +21,7 @@ _VARIABLES: Mapping[Motion, tuple[str, str, str, str]] = {
     "rotational": ("revolute.phi", "revolute.w", "tau", "revolute.a"),
     "translational": ("prismatic.s", "prismatic.v", "f", "prismatic.a"),
 }
-"""Position and speed in the model of a joint, effort of a flange, and acceleration in the model of the joint."""
+"""Names of position and speed in a joint's model, of the effort at its flange, and of the acceleration in the model."""
 _GENERIC_VARIABLES: Mapping[Motion, tuple[str, str, str]] = {
     "rotational": ("phi", "w_phi", "a_phi"),
     "translational": ("s", "v_s", "a_s"),
@@ -32,11 +32,11 @@ _UNITS: Mapping[Motion, tuple[str, str, str, str]] = {
 }
 
 _FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6, "ball": 3}
-"""Degrees of freedom of joints with none or several."""
+"""Degrees of freedom of joint types that do not have exactly one."""
 
 
 def bench(robot: Robot, target: Target, options: Options) -> Bench | None:
-    """Return how a robot is simulated: by Test and Run of its package, else by the generic robot with its record."""
+    """Return the bench of a robot: Test and Run of its package, else the generic robot; None without both."""
     assembly = Assembly(robot, options, target)
     layouts = {"package": _axes(assembly), "record": _generic_axes(assembly.tree)}
     axes = tuple(tuple(layout) for approach, layout in layouts.items() if approach in options.approach)
@@ -63,7 +63,7 @@ def _loops(tree: KinematicTree) -> Iterator[LoopSignals]:
 
 
 def _axes(assembly: Assembly) -> Iterator[Axis]:
-    """Yield the joints of one degree of freedom in the robot of a package, from the root outwards."""
+    """Yield the axes of a package's robot: joints with one degree of freedom, from the root outwards."""
     tree, drives, dependent = assembly.tree, assembly.connectors.drives, assembly.closed.dependent
     for joint in tree.joints:
         if motion := MOTION_KINDS.get(joint.type):
@@ -88,7 +88,7 @@ def _axes(assembly: Assembly) -> Iterator[Axis]:
 
 
 def _generic_axes(tree: KinematicTree) -> Iterator[Axis]:
-    """Yield the axes of the generic robot, which numbers them by kind."""
+    """Yield the axes of the generic robot. Turning and sliding axes are numbered separately."""
     for motion in MOTIONS:
         for number, joint in enumerate(tree.axes(motion), 1):
             position, speed, acceleration = _GENERIC_VARIABLES[motion]
@@ -111,18 +111,18 @@ def _acceleration(joint: Joint, variable: str, limits: str) -> Signal | None:
 
 def numbers(sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
     """Return the numbers of packages, compared with the second reading of the source."""
-    from urdfsync.urdf.second.comparison import compare_numbers  # most of a second, for yourdfpy, which no build needs
+    from urdfsync.urdf.second.comparison import compare_numbers  # a late import saves builds most of a second
 
     return compare_numbers(sample, packages)
 
 
 def models(robot: Robot, target: Target, options: Options) -> Sequence[str]:
-    """Return the classes of the robot and its benches; of the record, if there is no robot model."""
+    """Return the classes of the robot and its benches; without a robot model, the record."""
     return package_models(robot.joints, target, options)
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
-    """Return the comparison with Pinocchio, or why there is none, such as for planar or floating joints."""
-    from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
+    """Return the comparison with Pinocchio, or the reason why no comparison is possible, such as a planar joint."""
+    from urdfsync.urdf.physics.experiment import experiment  # a late import: no build needs numpy
 
     return experiment(sample, step)

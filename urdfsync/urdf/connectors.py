@@ -1,7 +1,7 @@
-"""Names the components beside links and joints: connectors, couplings, sensors, visuals, variables of Run.
+"""Names the components other than links and joints: connectors, couplings, sensors, visuals, variables of Run.
 
-The name of an element gives the name of its connector. If an element has that name already, the connector gets a
-number. So a new connector never renames an element or its file.
+A connector is named after its element. If an element has the name of the connector, the connector gets a number. So a
+new connector never renames an element or its file.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ _IN_RUN: Mapping[Command, Sequence[Command]] = {
     "velocity": ("velocity", "effort"),
     "effort": ("position", "velocity", "effort"),
 }
-"""Variables of Run for a joint, by its command: the command is the input, the others are outputs."""
+"""Variables of Run for a joint, by its command: the command is the input, other variables are outputs."""
 
 
 class Drive(msgspec.Struct, frozen=True):
-    """Names by which a joint that can be driven is connected."""
+    """Names of the connectors and variables of a joint that can be driven."""
 
     motion: Motion
     axis: str
@@ -39,47 +39,47 @@ class Drive(msgspec.Struct, frozen=True):
     support: str
     """The flange of the drive's housing."""
     motor: str | None
-    """The flange at the motor's side of the gear; None if there is none."""
+    """The flange at the motor's side of the gear; None without such a flange."""
     command: Command | None
-    """Variable that is the input of Run; None if Run does not drive the joint."""
+    """The quantity that is the input of Run; None if Run does not drive the joint."""
     position: str | None
-    """Variable of Run for the position; None if Run has none, or has it in the vector of all inputs."""
+    """Variable of Run for the position; None if Run has no such variable, or has the position in its input vector."""
     velocity: str | None
     """Likewise."""
     effort: str | None
     """Likewise."""
     gear: str | None = None
-    """Component of a gear whose motor moves another joint, too."""
+    """Component of a gear whose motor moves another joint as well."""
     other: str | None = None
-    """URDF name of that other joint."""
+    """URDF name of the other joint that the motor moves."""
 
 
 class Connectors(msgspec.Struct, frozen=True):
-    """Names of components, by the URDF name of the link or joint that they belong to, in canonical order."""
+    """Names of components by the URDF name of their link or joint, in canonical order."""
 
     frames: dict[str, str]
-    """Frames of links: the leaves, and those that the options name."""
+    """Frames of leaf links, and of links that the options name."""
     drives: dict[str, Drive]
     """Flanges and variables of joints that can be driven."""
     couplings: dict[str, str]
-    """Couplings of joints that follow another one."""
+    """Couplings of joints that follow another joint."""
     sensors: dict[str, str]
     """Components of sensors."""
     sensor_frames: dict[str, str]
     """Frames of cameras and laser scanners."""
 
     def __hash__(self) -> int:
-        """Return a hash of the elements that have connectors."""
+        """Return a hash of the elements with connectors."""
         return hash((*self.frames, *self.drives, *self.sensors))
 
 
 def connector_names(closed: ClosedLoops, options: Options) -> Connectors:
     """Return the names for a robot.
 
-    Names in the option `frames` that are no link are skipped: `check_options` reports them.
+    A name in the option `frames` that no link has is skipped: `check_options` reports it.
     """
     tree, taken = closed.tree, taken_names(closed.tree)
-    if options.frames == "all":  # also for the root, so that a link that becomes the root keeps its frame
+    if options.frames == "all":  # the root, too: a link that becomes the root keeps its frame
         framed = {link.name for link in tree.links}
     else:
         framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
@@ -108,7 +108,7 @@ def connector_names(closed: ClosedLoops, options: Options) -> Connectors:
     couplings = {joint.name: free_name(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()}
     flanges = (flange for drive in drives.values() for flange in (drive.axis, drive.support, drive.motor, drive.gear))
     used = {name.lower() for name in (*frames.values(), *couplings.values(), *filter(None, flanges))}
-    # Sensors are named last, and their frames after them: a new sensor renames only sensors.
+    # Sensors are named last, then their frames: a new sensor renames only sensors.
     sensors = identify([("sensor", sensor.name) for sensor in tree.sensors], used | taken)
     used |= {identifier.component.lower() for identifier in sensors.values()}
     return Connectors(
@@ -136,7 +136,7 @@ def taken_names(tree: KinematicTree) -> frozenset[str]:
 
 
 def free_name(identifier: Identifier, suffix: str, taken: frozenset[str]) -> str:
-    """Return the component's name with a suffix; if that is taken, with the first free number from 2, too."""
+    """Return the component's name with a suffix. If that name is taken, add the first free number from 2."""
     name, number = identifier.component + suffix, 2
     while name.lower() in taken:
         name, number = f"{identifier.component}{suffix}_{number}", number + 1

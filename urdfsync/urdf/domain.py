@@ -1,4 +1,4 @@
-"""The URDF domain as the core sees it: `urdfsync.domain.Domain` describes its functions."""
+"""The URDF domain; `urdfsync.domain.Domain` describes its functions."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ WARNINGS = frozenset(
 
 
 class _Module:
-    """A module of this package that few builds need: it is loaded at its first use."""
+    """A module that few builds need. The first use loads it."""
 
     def __init__(self, name: str) -> None:
         self._name = f"urdfsync.urdf.{name}"
@@ -48,7 +48,7 @@ class _Module:
 
 
 class UrdfDomain(Domain):
-    """URDF files to Modelica packages of multibody models."""
+    """Turns URDF files into Modelica packages of multibody models."""
 
     name = "urdf"
     warnings = WARNINGS
@@ -68,8 +68,8 @@ class UrdfDomain(Domain):
     def read(self, content: bytes, file: str, options: Options) -> Reading:
         """Read a URDF.
 
-        If there are no errors, also warn of implausible values, and of robots that can't be simulated. Names in options
-        are checked against the robot.
+        A robot without errors is also checked for implausible values and for joints that no simulation can move. Names
+        in options are checked against the robot.
         """
         robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
         if robot is None:
@@ -92,7 +92,7 @@ class UrdfDomain(Domain):
         return Reading(None if is_wrong else robot.by_name(), diagnostics, lines, tuple(about_options))
 
     def names(self, snapshot: Robot, target: Target) -> Mapping[str, Mapping[str, str]]:
-        """Return the component names of links and joints, and of loops if there are any."""
+        """Return the component names of links, joints and loops."""
         elements = {"link": snapshot.links, "joint": snapshot.joints, "loop": snapshot.loops}
         names = identify([(kind, one.name) for kind, of_kind in elements.items() for one in of_kind], (target.name,))  # type: ignore[attr-defined]
         by_kind: dict[str, dict[str, str]] = {}
@@ -109,7 +109,7 @@ class UrdfDomain(Domain):
     def dependencies(
         self, snapshot: Robot, places: Lookup, options: Options, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
-        """Return the meshes of the shapes that the package uses."""
+        """Return the meshes that the shapes of the package need."""
         if options.meshes != "import":
             return ()
         has_collisions = options.collisions and ("package" in options.approach or options.base == "floating")
@@ -117,8 +117,8 @@ class UrdfDomain(Domain):
         return lookup.dependencies(snapshot.links, kinds, places, lines, touches=options.base == "floating")
 
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
-        """Return a mesh as STL or OBJ, split by its colours, with its bounds and its outermost points."""
-        from urdfsync.urdf.meshes.convert import convert  # 10 ms, and only new meshes need it
+        """Return a mesh as STL or OBJ, split by colours, with its bounds and its outermost points."""
+        from urdfsync.urdf.meshes.convert import convert  # a late import saves 10 ms if no mesh is new
 
         return convert(dependency, file, content, others)
 
@@ -139,7 +139,7 @@ class UrdfDomain(Domain):
     def record(
         self, reading: Reading, file: str, target: Target, options: Options
     ) -> tuple[Artifact, Sequence[Diagnostic]]:
-        """Return the record of the whole robot, and findings about joints that the generic robot can't move."""
+        """Return the record of the whole robot, and findings about parts that the generic robot lacks."""
         robot = reading.snapshot
         findings = out_of_scope(KinematicTree.of(robot))
         return package.record(robot, target, options), located(findings, file, reading.lines)

@@ -1,10 +1,10 @@
 """The joints that Run and Test drive.
 
 A joint can be driven if it has one axis and follows no other joint. Joints that the source only measures are passive.
-If the source drives any joint, a continuous joint with neither drive nor limit, such as a caster, is passive, too.
-Other joints without a drive are driven, since transmissions are often left out.
+If the source drives any joint, a continuous joint with neither drive nor limit, such as a caster, is also passive. All
+other joints are driven, since sources often leave transmissions out.
 
-Loops leave fewer freedoms than joints. At most one joint per freedom is driven: see `kinematics.loops.ClosedLoops`.
+In loops, at most one joint per degree of freedom is driven: see `kinematics.loops.ClosedLoops`.
 """
 
 from __future__ import annotations
@@ -16,11 +16,10 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 
 def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
-    """Return the names of the joints to drive: those of the option `driven` if it is set, else all but passive ones.
+    """Return the names of the joints to drive: those of the option `driven` if it is set, else all but passive joints.
 
-    A passive joint with a command in the options is driven, too. The numbers of a joint do not matter: a structure
-    without numbers has the same drives. Names in the option that no drivable joint has are left out: `check_options`
-    reports them.
+    A passive joint with a command in the options is also driven. `check_options` reports names in the option that no
+    drivable joint has; this function skips them.
     """
     joints = list(joints)
     can = frozenset(joint.name for joint in joints if can_be_driven(joint))
@@ -30,7 +29,7 @@ def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
 
 
 def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
-    """Return the names of the joints that can be driven, but that the source does not drive."""
+    """Return the names of passive joints: joints that could be driven, but are not."""
     joints = list(joints)
     has_drives = any(joint.actuated for joint in joints)
 
@@ -47,15 +46,15 @@ def has_motor(joint: Joint, options: Options) -> bool:
 
 
 def sharing_joint(joint: Joint, drives: str) -> str | None:
-    """Return the other joint that a joint's motor moves; None if it moves none, or has neither flange nor rotor."""
+    """Return the other joint that a joint's motor moves; None without such a joint, or without flange and rotor."""
     gear = joint.transmission
     return gear.joint if gear and (drives == "motor" or gear.rotor_inertia is not None) else None
 
 
 def friction_law(joint: Joint, options: Options) -> FrictionLaw | None:
-    """Return the law of the losses of a joint with one axis; None without losses.
+    """Return the friction law of a joint with one axis; None without losses.
 
-    A joint that follows another one has the smooth law: two stuck joints would hold the same motion twice.
+    A joint that follows another joint has the smooth law: if both stuck, they would hold one motion twice.
     """
     if joint.dynamics is None:
         return None
@@ -63,12 +62,12 @@ def friction_law(joint: Joint, options: Options) -> FrictionLaw | None:
 
 
 def chosen_law(joint: Joint, options: Options) -> FrictionLaw:
-    """Return the law of a joint by the option `friction`."""
+    """Return the friction law that the options choose for a joint."""
     return options.friction if isinstance(options.friction, str) else options.friction.get(joint.name, "smooth")
 
 
 def is_chosen(joint: Joint, names: str | tuple[str, ...]) -> bool:
-    """Return whether the option `elastic` or `saturated` selects a driven joint."""
+    """Return whether the names in the option `elastic` or `saturated` include a joint."""
     return names == "all" or (not isinstance(names, str) and joint.name in names)
 
 

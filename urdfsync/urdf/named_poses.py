@@ -1,4 +1,4 @@
-"""Reads the named poses of SRDF files, in which MoveIt keeps them beside a URDF."""
+"""Reads named poses from the SRDF files of MoveIt beside a URDF."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from urdfsync.urdf.parse.xml import ParseError, parse
 from urdfsync.urdf.robot import Robot
 
 _MOST_FILES, _LARGEST = 20, 1_000_000
-"""The most SRDF files beside a source, and the most bytes of one."""
+"""The most SRDF files beside a source, and the most bytes of one file."""
 
 
 def named_poses(source: Path, robot: Robot) -> tuple[dict[str, dict[str, float]], list[str]]:
-    """Return the poses of a robot by their names, and a line for each file that can't be used as it is.
+    """Return the poses of a robot by name, and a line for each faulty file.
 
-    A file counts if it has the source's name, or if it names the robot.
+    Only files with the name of the source or of the robot count.
     """
     poses, faults = dict[str, dict[str, float]](), list[str]()
     is_free = {joint.name: can_be_driven(joint) for joint in robot.joints}
@@ -48,7 +48,7 @@ def named_poses(source: Path, robot: Robot) -> tuple[dict[str, dict[str, float]]
 
 
 def _values(joints: Iterable[Element]) -> Iterator[tuple[str, float]]:
-    """Yield the joints of a pose that have one finite position."""
+    """Yield the joints of a pose with one finite position."""
     for joint in joints:
         try:
             name, value = joint.get("name", ""), float(joint.get("value", ""))

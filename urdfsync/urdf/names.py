@@ -1,7 +1,7 @@
-"""Turns URDF names into Modelica identifiers: an identifier depends only on its element's own name.
+"""Turns URDF names into Modelica identifiers: an identifier depends only on the name of its element.
 
-Twins are the exception: elements whose names differ at most in case and kind. Links and joints of a robot share one
-namespace, because both become components of the robot model. `docs/naming.md` states the rule for users.
+Twins are the exception: elements of equal names, or of names that differ only in case. Links and joints of a robot
+share one namespace, because both become components of the robot model. `docs/naming.md` states the rule for users.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ GENERATED = frozenset(
     "translationalrange translationalsupport tree turnaxes turning turninginertias turningjoints turninglimits "
     "turninglosses v_start visualizationsetup visuals w_start world".split()
 )
-"""Names, in lower case, that models and records of robots use besides those of links and joints."""
+"""Names, in lower case, that models and records of robots use for other things than links and joints."""
 
 LONGEST = 100
-"""A longer spelling is cut, since file systems allow 255 bytes."""
+"""Longer identifiers are cut, since file systems allow 255 bytes."""
 
 RESERVED_SUFFIXES = ("parameters", "run", "test")
-"""Endings, in lower case, that make class names from other class names."""
+"""Endings of generated class names, in lower case."""
 
 _PLAIN = re.compile(
     r"(?!.*_(?:link|joint|loop|sensor)_[0-9a-f]{6}(?:[0-9a-f]{58})?$)[A-Za-z](?:[_-]?[A-Za-z0-9])*[_-]?"
 )
-"""Unchanged names: without two underscores or hyphens in a row, and without the ending of twins."""
+"""Names that need no hash: without two underscores or hyphens in a row, and without the ending of twins."""
 _UNFIT = re.compile(r"[^A-Za-z0-9]+")
 _PARTS = re.compile(r"[0-9]+|[^0-9]+")
 _RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES
@@ -49,11 +49,11 @@ class Identifier(msgspec.Struct, frozen=True):
     """The Modelica spellings of one link or joint."""
 
     component: str
-    """The component in the robot model; begins with a small letter."""
+    """The component in the robot model, with a small first letter."""
 
     @property
     def type(self) -> str:
-        """The class, and the stem of its file; begins with a capital letter."""
+        """The class, and the stem of its file, with a capital first letter."""
         return self.component[0].upper() + self.component[1:]
 
     @property
@@ -63,13 +63,13 @@ class Identifier(msgspec.Struct, frozen=True):
 
 
 def is_reserved(spelling: str) -> bool:
-    """Return whether an identifier would collide with the language, a library or generated text."""
+    """Return whether an identifier would collide with a keyword, a library or a generated name."""
     folded = spelling.lower()
     return folded in _RESERVED or folded.endswith(RESERVED_SUFFIXES) or folded in GENERATED
 
 
 def spell(name: str, kind: str) -> str:
-    """Return the identifier of an element without a twin: its name, or the usable part of its name with a hash."""
+    """Return the identifier of an element without a twin: the name, or the usable part of the name with a hash."""
     plain = name.replace("-", "__")
     if _PLAIN.fullmatch(name) and len(plain) <= LONGEST and not is_reserved(plain):
         return plain[0].lower() + plain[1:]
@@ -78,7 +78,7 @@ def spell(name: str, kind: str) -> str:
 
 def _hashed(name: str, kind: str, mark: str = "", digits: int = _DIGITS) -> str:
     if not name.isascii():
-        from anyascii import anyascii  # 30 ms, which a build without such names does not need
+        from anyascii import anyascii  # a late import saves most builds 30 ms
 
         ascii_name = anyascii(name)
     else:
@@ -91,10 +91,7 @@ def _hashed(name: str, kind: str, mark: str = "", digits: int = _DIGITS) -> str:
 
 
 def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
-    """Return a sort key in which `link10` follows `link9`; distinct names have distinct keys.
-
-    Numbers go before words, by their value, and then by their leading zeros.
-    """
+    """Return a sort key in which `link10` follows `link9`; distinct names have distinct keys."""
     return tuple(
         (0, len(part.lstrip("0")), part.lstrip("0"), part) if "0" <= part[0] <= "9" else (1, 0, part, part)
         for part in _PARTS.findall(name)
@@ -102,15 +99,16 @@ def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
 
 
 def identify(names: Iterable[ElementKey], taken: Iterable[str] = ()) -> Mapping[ElementKey, Identifier]:
-    """Return identifiers of all links, joints and loops; no two are equal when case is folded, none is in `taken`.
+    """Return identifiers of all links, joints and loops.
 
-    Each element has three spellings; the last one is unique. It gets the first of them that no other element has. So
-    none of several twins gets its first spelling, and a new element never takes another one's former name.
+    All differ, ignoring case, and none is in `taken`. Each element has three possible spellings and gets the first one
+    that no other element has; the third is unique. So no twin gets its first spelling, and a new element never takes
+    the former name of another element.
     """
     spelled = {key: spell(key[1], key[0]) for key in names}
     folded, taken = {spelling.lower() for spelling in spelled.values()}, {name.lower() for name in taken}
     if len(folded) == len(spelled) and folded.isdisjoint(taken):
-        return {key: Identifier(spelling) for key, spelling in spelled.items()}  # nearly always: there are no twins
+        return {key: Identifier(spelling) for key, spelling in spelled.items()}  # nearly always: no twins
     spellings = {
         (kind, name): (first, *(_hashed(name, kind, f"_{kind}", digits) for digits in (_DIGITS, 64)))
         for (kind, name), first in spelled.items()

@@ -1,7 +1,7 @@
-"""Checks of the names in a robot's options: each is the name of a suitable link or joint.
+"""Checks that each name in a robot's options belongs to a suitable link or joint.
 
-With a wrong name in `driven` or `frames`, the robot lacks a drive or connector that the user expects. So an unknown
-name is an error. A repeated name is a warning: another one may have been meant.
+An unknown name is an error: the robot would lack a drive or a connector. A repeated name is a warning: the user may
+have meant another name.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _DRIVEN = f"{_DRIVABLE} that Run and Test drive"
 
 
 def check_options(assembly: Assembly) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield diagnostics about a robot's options, each with the name of its option, and without file and line.
+    """Yield diagnostics about a robot's options, with the name of the option, without file and line.
 
     The record approach ignores most options.
     """
@@ -66,11 +66,11 @@ def check_options(assembly: Assembly) -> Iterator[tuple[str, Diagnostic]]:
     for option, given, possible, kind, code in checks:
         for name, count in Counter(given).items():
             if count > 1:
-                message, hint = f"`{option}` names `{name}` more than once", "take one out, or correct its name"
+                message, hint = f"`{option}` names `{name}` more than once", "remove one, or correct the name"
                 yield option, Diagnostic(Severity.WARNING, "name-repeated", message, hint=hint)
             if name not in possible:
                 near = nearest(name, possible)
-                hint = f"did you mean `{near}`?" if near else "correct its name, or take it out"
+                hint = f"did you mean `{near}`?" if near else "correct the name, or remove it from the option"
                 message = f"`{option.partition('.')[0]}` names `{name}`, but the robot has no such {kind}"
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
     if "package" in options.approach:
@@ -82,7 +82,7 @@ def check_options(assembly: Assembly) -> Iterator[tuple[str, Diagnostic]]:
         yield "approach", Diagnostic(Severity.ERROR, "loops-not-in-record", message, hint=_NO_RECORD)
     for joint in (joint for joint in joints if joint.name in options.motors and joint.motor is None):
         message = f"the catalogue has no row `{options.motors[joint.name]}`, which `motors` names"
-        hint = f"add it to {options.catalogue}, or correct its name" if options.catalogue else "set `catalogue`"
+        hint = f"add the row to {options.catalogue}, or correct its name" if options.catalogue else "set `catalogue`"
         yield f"motors.{joint.name}", Diagnostic(Severity.ERROR, "no-row", message, hint=hint)
     for finding in validate.check_loops(configured_loops(options.loops), links):
         name = finding.path.removeprefix("loop ").partition(" #")[0]
@@ -90,16 +90,16 @@ def check_options(assembly: Assembly) -> Iterator[tuple[str, Diagnostic]]:
 
 
 def _find_passive(joints: Sequence[Joint], passive: Set[str]) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a note for each reason why joints are passive."""
+    """Yield a note on passive joints for each reason."""
     measured = {joint.name for joint in joints if joint.measured}
     for names, reason in (
         (passive - measured, "no transmission, no ros2_control and no limit"),
-        (passive & measured, "the source only measures them"),
+        (passive & measured, "the source only measures these joints"),
     ):
         if names:
             listed = ", ".join(f"`{name}`" for name in sorted(names, key=natural_key))
             message = f"Run and Test do not drive {listed}: {reason}"
-            hint = "if that is wrong, list all joints to drive in `driven`"
+            hint = "to drive other joints, list all driven joints in `driven`"
             yield "driven", Diagnostic(Severity.NOTE, "passive-joints", message, hint=hint)
 
 
@@ -112,7 +112,7 @@ def _named(friction: str | Mapping[str, str]) -> Iterable[str]:
 
 
 def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield an error for each joint whose chosen friction and drive exclude each other."""
+    """Yield an error for each joint whose friction law and drive exclude each other."""
     driven, named = wanted_joints(joints, options), _named(options.friction)
     for joint in filter(can_be_driven, joints):
         law, is_dry = chosen_law(joint, options), joint.dynamics is not None and joint.dynamics.friction > 0
@@ -120,17 +120,17 @@ def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str
         is_elastic = is_driven and is_chosen(joint, options.elastic)
         faults = []
         if law != "smooth" and not is_dry and (joint.dynamics or joint.name in named):
-            hint = "give its <dynamics> friction, or choose laws by joints"
+            hint = "give the joint's <dynamics> a friction, or choose laws by joints"
             faults.append(("friction", "has no dry friction", hint))
         elif law == "stiction" and is_driven and not is_elastic:
             faults.append(
-                ("friction", "sticks while Test prescribes its motion", 'name it in `elastic`, or choose "lugre"')
+                ("friction", "sticks while Test prescribes its motion", 'add the joint to `elastic`, or take "lugre"')
             )
         if is_elastic and by_effort and not reflected_inertia(joint):
-            hint = "give it an armature or a rotor, or take it out"
+            hint = "give the joint an armature or a rotor, or take the joint out of `elastic`"
             faults.append(("elastic", "is driven by an effort, but has no inertia before the spring", hint))
         if is_driven and is_chosen(joint, options.saturated) and not is_elastic and not by_effort:
-            hint = "name it in `elastic`, or give it the command `effort`"
+            hint = "name the joint in `elastic`, or give it the command `effort`"
             faults.append(("saturated", "has a drive that prescribes its motion at any effort", hint))
         for option, reason, hint in faults:
             place = f"friction.{joint.name}" if option == "friction" and joint.name in named else option

@@ -1,6 +1,6 @@
 """Finds legal but implausible parts of a URDF: no inertia, numbers in another unit, a shape far outside of its link.
 
-The bounds leave a wide margin, since a warning about a sound robot is worse than no warning.
+The bounds are wide, since a warning about a sound robot is worse than no warning.
 """
 
 from __future__ import annotations
@@ -27,32 +27,32 @@ from urdfsync.urdf.robot import (
 from urdfsync.urdf.validate import Finding
 
 _DENSEST = 10_000
-"""Density of a cube as large as the robot, in kg/m³; steel has 7,900."""
+"""In kg/m³: the greatest density of a cube as large as the robot; steel has 7,900."""
 _HEAVY = 500
-"""In kg: the density of a lighter robot is not checked, since its size is not fully known."""
+"""In kg: the density of a lighter robot is not checked, since its size is uncertain."""
 _GYRATION = 3
 """Greatest radius of gyration, relative to the distance of a body's farthest point.
 
-Real bodies have at most 1, but shapes may be simplified.
+A real body has at most 1, but its shapes may be simplified.
 """
 _MARKER = 0.002
-"""In m: a shape that reaches no farther only marks a place, and the size of its body is unknown."""
+"""In m: a smaller shape only marks a place, and the size of its body is unknown."""
 _UNKNOWN_GYRATION, _UNKNOWN_SIZE = 10, 0.5
-"""Greatest radius of gyration of a body of unknown size, in lengths of the robot, and the least such length in m."""
+"""Greatest radius of gyration of a body of unknown size, in lengths of the robot, and the least length in m."""
 _FAR, _FAR_AWAY = 10, 2
-"""A shape is far from its link if its distance exceeds both: the first in lengths of the robot, the second in m."""
+"""A shape is too far from its link if its distance exceeds ten lengths of the robot and two metres."""
 _LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
-"""Limits of a slide are implausible between the first (in m, and in lengths of the robot) and the second (in m).
+"""Limits of a slide are implausible above 20 m and 20 lengths of the robot, up to 5,000 m.
 
-The third is the greatest distance of a joint from its parent, in m.
+A joint is implausible at more than 50 m from its parent.
 """
 _FOUR_TURNS, _TWO_TURNS_IN_DEGREES = 8 * math.pi, 720
 _LIGHT = 0.05
-"""In kg: a lighter part may only mark a place, and its inertia may be rounded to 0."""
+"""In kg: a lighter part may only mark a place, and may have an inertia of 0 by rounding."""
 
 
 def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
-    """Yield a warning for each implausible part of a robot that passed all checks."""
+    """Yield a warning for each implausible part of a valid robot."""
     own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in tree.links}
     masses, length = dict(own_masses), find_length(tree)
     for joint in reversed(tree.joints):
@@ -69,7 +69,7 @@ def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
 
 
 def find_length(tree: KinematicTree) -> float:
-    """Return the length of the longest chain of a robot in m: the straight distances from joint to joint, added up."""
+    """Return the length of a robot's longest chain, in m: the sum of the distances from joint to joint."""
     distances = {tree.links[0].name: 0.0}
     for joint in tree.joints:
         distances[joint.child] = distances[joint.parent] + math.hypot(*joint.origin.xyz)
@@ -84,7 +84,7 @@ def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: floa
     total = max(masses.values())
     moving = [joint for joint in tree.joints if joint.type != "fixed"]
     if moving and not total:
-        yield Finding("no-inertia", "robot", "no link has a mass, so that motion takes no force")
+        yield Finding("no-inertia", "robot", "no link has a mass: motion takes no force")
         return
     for joint in moving:
         if not masses[joint.child] and masses[joint.parent]:
@@ -103,7 +103,7 @@ def _check_inertia(link: Link, inertial: Inertial, length: float) -> Iterator[Fi
     """Check that a body of the link's size can have its radius of gyration; the link has a mass."""
     gyration, radius, place = _gyration(inertial), _radius(link), f"link {link.name} / inertial"
     if gyration == 0 and radius and inertial.mass > _LIGHT:
-        message = f"{place}: a body of {inertial.mass:g} kg that has a shape has no inertia"
+        message = f"{place}: a body of {inertial.mass:g} kg with a shape has no inertia"
     elif _MARKER < radius < math.inf and gyration > _GYRATION * radius:
         message = (
             f"{place}: the radius of gyration is {gyration:.3g} m, but the link's shapes reach only {radius:.3g} m"
@@ -130,7 +130,7 @@ def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
 
 
 def _check_angles(path: str, origin: Origin) -> Iterator[Finding]:
-    """Check that an orientation is not in degrees: if it is, its angles are whole numbers, and one exceeds a turn."""
+    """Check that an orientation is not in degrees, as whole numbers of more than a turn in rad would show."""
     widest = max(map(abs, origin.rpy))
     if math.tau < widest <= _TWO_TURNS_IN_DEGREES and all(angle.is_integer() for angle in origin.rpy):
         shown = " ".join(f"{angle:g}" for angle in origin.rpy)
@@ -140,7 +140,8 @@ def _check_angles(path: str, origin: Origin) -> Iterator[Finding]:
 def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:
     """Check that place and limits of a joint are plausible in SI units.
 
-    `mass` is the child link's mass. A slide that carries a massless link may let a whole robot go anywhere.
+    `mass` is the mass of the child link. Slides with massless links may let a whole robot move anywhere, so any limit
+    will do.
     """
     path, away = f"joint {joint.name}", math.hypot(*joint.origin.xyz)
     if away > _LONG_JOINT:
@@ -168,14 +169,14 @@ def _gyration(inertial: Inertial) -> float:
 
 
 def _radius(link: Link) -> float:
-    """Return how far the shapes of a link reach from its centre of mass; infinite with a mesh, 0 without shapes."""
+    """Return the reach of a link's shapes from its centre of mass, in m; infinite with a mesh, 0 without shapes."""
     centre = link.inertial.origin.xyz if link.inertial else (0.0, 0.0, 0.0)
     shapes: Sequence[Visual | Collision] = (*link.visuals, *link.collisions)
     return max((math.dist(shape.origin.xyz, centre) + _extent(shape.geometry) for shape in shapes), default=0.0)
 
 
 def _extent(geometry: Geometry) -> float:
-    """Return how far a shape reaches from its own origin: infinite for a mesh, which is read later."""
+    """Return the reach of a shape from its own origin, in m. A mesh is not read yet and counts as infinite."""
     match geometry:
         case Box(size=size):
             return math.hypot(*size) / 2

@@ -1,11 +1,11 @@
-"""A robot as its URDF describes it: frozen values in SI units, source order kept.
+"""A robot as its URDF describes it: frozen values in SI units, in the order of the source.
 
 Lengths are in metres, angles in radians, masses in kilograms, inertias in kg·m². `rpy` are the fixed-axis roll, pitch
 and yaw angles of URDF. A missing value without a default in the specification is None; all other defaults are those of
-ROS's urdfdom. A new field defaults to None: otherwise each recorded robot would have changed.
+ROS's urdfdom. A new field defaults to None: another default would change each recorded robot.
 
-These values refer to each other in one direction only, so Python need not search them for reference cycles
-(`gc=False`): with 1,000 links that would take a third of the daemon's time for a changed mass.
+The values have no reference cycles, so Python need not search for cycles (`gc=False`). With 1,000 links the search
+would take a third of the daemon's time for a changed mass.
 """
 
 # no `from __future__ import annotations`: msgspec would compile each annotation, which takes 5 of 250 ms of a build
@@ -24,7 +24,7 @@ class Unit(NamedTuple):
 
     name: str
     sliding: str | None = None
-    """The unit for a sliding joint, if `name` is the one for a turning joint; other joints have none."""
+    """The unit for a sliding joint, if `name` is the unit for a turning joint. Other joints have no unit."""
 
 
 _NAME = operator.attrgetter("name")
@@ -44,13 +44,13 @@ class JointKind(msgspec.Struct, frozen=True):
     """The properties of a type of joint; `kinematics.poses.motion` has the motion itself."""
 
     does: str
-    """Its motion in words, for the documentation of generated models."""
+    """The motion in words, for the documentation of generated models."""
     motion: Motion | None = None
-    """Kind of motion of a joint with one degree of freedom: only such joints have flanges, mimic or are mimicked."""
+    """Kind of motion of a joint with one degree of freedom; other joints have no flanges and no `mimic`."""
     has_axis: bool = False
-    """Whether it has an axis: then damping and friction have an effect; on a ball joint, only damping has."""
+    """Whether the joint has an axis: then damping and friction act. On a ball joint, only damping acts."""
     has_limits: bool = False
-    """Whether its position has limits."""
+    """Whether the position of the joint has limits."""
 
 
 JOINT_KINDS: Mapping[JointType, JointKind] = {
@@ -66,11 +66,11 @@ MOTION_KINDS: Mapping[JointType, Motion] = {name: kind.motion for name, kind in 
 
 
 class Output(NamedTuple):
-    """A vector that a sensor shows."""
+    """A vector that a sensor measures."""
 
     name: str
     unit: str
-    """As Modelica writes it."""
+    """The unit as Modelica writes it."""
     quantity: str
     """In words."""
 
@@ -79,14 +79,14 @@ class SensorModel(msgspec.Struct, frozen=True):
     """The properties of a kind of sensor."""
 
     name: str
-    """Its class in the library's `Sensors`."""
+    """The class of such a sensor in the library's `Sensors`."""
     at: Literal["link", "joint"] = "link"
     outputs: tuple[Output, ...] = ()
     """The outputs of Run for such a sensor."""
     has_frame: bool = False
-    """Whether the robot model has a connector at the sensor's frame, for a model of what the sensor sees."""
+    """Whether the robot model has a connector at the sensor's frame. The user's model of a camera may connect there."""
     record: str = "Sensor"
-    """The class of its numbers in the library's `Records`."""
+    """The class in the library's `Records` with the sensor's numbers."""
 
 
 _GAIN, _TURN = Output("a", "m/s2", "acceleration minus gravity"), Output("w", "rad/s", "angular velocity")
@@ -134,7 +134,7 @@ class Sphere(msgspec.Struct, frozen=True, gc=False, tag="sphere", tag_field="kin
 
 
 class Mesh(msgspec.Struct, frozen=True, gc=False, tag="mesh", tag_field="kind"):
-    """A mesh file, by its URI as written."""
+    """A mesh file; `filename` is the URI as written."""
 
     filename: str
     scale: Vector = (1.0, 1.0, 1.0)
@@ -144,7 +144,7 @@ Geometry: TypeAlias = Box | Cylinder | Capsule | Sphere | Mesh
 
 
 class Material(msgspec.Struct, frozen=True, gc=False):
-    """A material, already looked up through the whole robot; `rgba` in 0 to 1."""
+    """A material, looked up in the whole robot; `rgba` is from 0 to 1."""
 
     name: str = ""
     rgba: tuple[float, float, float, float] | None = None
@@ -179,7 +179,7 @@ class Inertia(msgspec.Struct, frozen=True, gc=False):
 
 
 class Inertial(msgspec.Struct, frozen=True, gc=False):
-    """Mass properties; `origin` places the inertial frame, whose origin is the centre of mass."""
+    """Mass and inertia; `origin` places the inertial frame at the centre of mass."""
 
     mass: Annotated[float, Unit("kg")] = 0.0
     origin: Origin = Origin()
@@ -187,15 +187,15 @@ class Inertial(msgspec.Struct, frozen=True, gc=False):
 
 
 class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaults=True):
-    """Contact properties of a link's collisions at the ground; None: the ground's own values."""
+    """Contact properties of a link's collisions with the ground; None stands for the ground's value."""
 
     mu: float | None = None
     kp: Annotated[float | None, Unit("N/m")] = None
-    """Stiffness of a point."""
+    """Stiffness of a contact point."""
     kd: Annotated[float | None, Unit("N·s/m")] = None
-    """Damping of a point, in addition to the damping of the ground."""
+    """Damping of a contact point, added to the damping of the ground."""
     min_depth: Annotated[float | None, _LENGTH] = None
-    """Depth in the ground up to which a point has no force."""
+    """Up to this depth in the ground, a contact point has no force."""
 
 
 class Link(msgspec.Struct, frozen=True, gc=False):
@@ -209,7 +209,7 @@ class Link(msgspec.Struct, frozen=True, gc=False):
 
 
 class Limit(msgspec.Struct, frozen=True, gc=False):
-    """Limits of a joint. A missing position limit is 0, as in urdfdom; None is no limit."""
+    """Limits of a joint; None means no limit. A missing limit of position is 0, as in urdfdom."""
 
     lower: Annotated[float, _POSITION] = 0.0
     upper: Annotated[float, _POSITION] = 0.0
@@ -217,7 +217,7 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
     velocity: Annotated[float | None, Unit("rad/s", "m/s")] = None
     acceleration: Annotated[float | None, _ACCELERATION] = None
     deceleration: Annotated[float | None, _ACCELERATION] = None
-    """None if it equals `acceleration`."""
+    """None stands for the value of `acceleration`."""
     jerk: Annotated[float | None, Unit("rad/s³", "m/s³")] = None
 
 
@@ -227,7 +227,7 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
     damping: Annotated[float, _LOSS] = 0.0
     friction: Annotated[float, _LOAD] = 0.0
     armature: Annotated[float | None, Unit("kg·m²", "kg")] = None
-    """Inertia that the drive adds at the joint, as in MuJoCo."""
+    """Inertia that the drive adds at the joint, as in MuJoCo's `armature`."""
 
 
 class Transmission(msgspec.Struct, frozen=True, gc=False):
@@ -239,14 +239,14 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
     reduction: Annotated[float, Unit("", "rad/m")] = 1.0
     offset: Annotated[float, _POSITION] = 0.0
     rotor_inertia: Annotated[float | None, _INERTIA] = None
-    """Inertia of the motor, on its own side of the gear."""
+    """Inertia of the motor, on the motor's side of the gear."""
     joint: str | None = None
     """Another joint that the motor moves, as in a differential; None for the motor of one joint."""
     joint_reduction: float | None = None
 
 
 class Motor(msgspec.Struct, frozen=True, gc=False):
-    """The row of the catalogue that a joint has numbers from, and the names of these numbers."""
+    """A row of the catalogue with numbers for a joint, and the names of these numbers."""
 
     row: str
     numbers: tuple[str, ...]
@@ -291,20 +291,20 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     calibration: Calibration | None = None
     safety_controller: SafetyController | None = None
     actuated: bool | None = None
-    """Whether a `<transmission>`, `<ros2_control>` or plugin of the robot drives it."""
+    """Whether a `<transmission>`, `<ros2_control>` or plugin of the robot drives the joint."""
     measured: bool | None = None
-    """Whether such elements only measure it."""
+    """Whether such elements only measure the joint."""
     transmission: Transmission | None = None
-    """None if there is no gear: neither reduction nor offset nor rotor."""
+    """The gear; None without reduction, offset and rotor."""
     command: Command | None = None
     """Quantity by which the source commands the joint; None for the position."""
     start: Annotated[float | None, _POSITION] = None
-    """Position at which a simulation begins; None: by the limits, see `kinematics.poses.start_positions`."""
+    """Position at the start of a simulation; None leaves it to `kinematics.poses.start_positions`."""
     motor: Motor | None = None
 
 
 class Loop(msgspec.Struct, frozen=True, gc=False):
-    """A joint that closes a chain: it holds a frame of link `child` at a frame of link `parent`.
+    """A joint that closes a loop: it holds a frame of link `child` at a frame of link `parent`.
 
     Without loops, the links and joints of a robot form a tree. A loop has no drive, no limits and no losses.
     """
@@ -316,15 +316,15 @@ class Loop(msgspec.Struct, frozen=True, gc=False):
     origin: Origin = Origin()
     """Pose of the frame in the parent link."""
     child_origin: Origin = Origin()
-    """Pose of the frame in the child link; in a closed loop both frames have one origin."""
+    """Pose of the frame in the child link; in a closed loop both frames have the same origin."""
     axis: Vector = (0.0, 0.0, 1.0)
-    """Axis of a revolute joint, in both frames, as unit vector; the first axis of a universal one, in `origin`."""
+    """Unit vector: a revolute joint's axis in both frames, or a universal joint's first axis in the parent's frame."""
     child_axis: Vector = (1.0, 0.0, 0.0)
-    """The second axis of a universal one, in `child_origin`; the joint holds it perpendicular to the first."""
+    """The second axis of a universal joint, in the child's frame, at right angles to the first."""
 
 
 def reflected_inertia(joint: Joint) -> float | None:
-    """Return the inertia that the drive adds about or along the axis; None if the source has none."""
+    """Return the inertia of the drive about or along the axis; None if the source states no such inertia."""
     armature = joint.dynamics.armature if joint.dynamics else None
     rotor = joint.transmission.rotor_inertia if joint.transmission else None
     if joint.transmission is None or rotor is None:
@@ -333,7 +333,7 @@ def reflected_inertia(joint: Joint) -> float | None:
 
 
 def effective(joint: Joint) -> Joint:
-    """Return the joint without numbers that have no effect on its type. Records are made from this."""
+    """Return the joint without numbers that have no effect on its type, as records have it."""
     kind = JOINT_KINDS[joint.type]
     limit, dynamics = joint.limit if kind.motion else None, joint.dynamics if kind.has_axis else None
     if limit is not None and not kind.has_limits:
@@ -357,7 +357,7 @@ def effective(joint: Joint) -> Joint:
 
 
 def structure(joint: Joint) -> Joint:
-    """Return the data of a joint on which the robot model depends; `model.joint` has those of the joint's model."""
+    """Return the data of a joint that the robot model depends on; `model.joint` has the data for the joint's model."""
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
     start = None if joint.start is None else 0.0
     return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic, start=start)
@@ -370,7 +370,7 @@ def limits_acceleration(joint: Joint) -> bool:
 
 
 class Camera(msgspec.Struct, frozen=True, gc=False):
-    """Numbers of a camera; 0 for those that the source lacks."""
+    """Numbers of a camera; a missing number is 0."""
 
     width: float = 0.0
     height: float = 0.0
@@ -380,7 +380,7 @@ class Camera(msgspec.Struct, frozen=True, gc=False):
 
 
 class Lidar(msgspec.Struct, frozen=True, gc=False):
-    """Numbers of a laser scanner; 0 for those that the source lacks."""
+    """Numbers of a laser scanner; a missing number is 0."""
 
     samples: float = 0.0
     min_angle: Annotated[float, _ANGLE] = 0.0
@@ -393,23 +393,23 @@ class Lidar(msgspec.Struct, frozen=True, gc=False):
 
 
 class Sensor(msgspec.Struct, frozen=True, gc=False):
-    """A sensor on the link `at`, or a force-torque sensor in the joint of that name; `origin` is its place on the link.
+    """A sensor on the link `at`, or a force-torque sensor in the joint `at`.
 
-    The wrench is about the origin of the joint.
+    A force-torque sensor measures about the origin of the joint.
     """
 
     name: str
     kind: SensorKind
     at: str
     origin: Origin = Origin()
-    """Pose of the sensor; a force-torque sensor uses its axes alone."""
+    """Pose of the sensor in its link; for a force-torque sensor, only the axes count."""
     update_rate: Annotated[float, Unit("Hz")] = 0.0
     camera: Camera | None = None
     lidar: Lidar | None = None
     in_parent: bool = False
-    """Whether the wrench is in the axes of the parent link, not the child."""
+    """Whether force and torque are in the axes of the parent link instead of the child link."""
     on_child: bool = False
-    """Whether the wrench acts from the parent on the child, not the other way round."""
+    """Whether force and torque act from the parent on the child, instead of from the child on the parent."""
 
     @property
     def is_in_joint(self) -> bool:
@@ -424,11 +424,11 @@ class Robot(msgspec.Struct, frozen=True, gc=False):
     links: tuple[Link, ...] = ()
     joints: tuple[Joint, ...] = ()
     extensions: Mapping[str, Mapping[str, tuple[str, ...]]] = {}
-    """Elements that are not modelled, such as `gazebo`, in canonical XML: by place (empty for the robot) and tag."""
+    """Unmodelled elements, such as `gazebo`, as canonical XML, by place (empty for the robot) and tag."""
     sensors: tuple[Sensor, ...] = ()
     loops: tuple[Loop, ...] = ()
 
     def by_name(self) -> "Robot":
-        """Return the robot with its elements sorted by name, so that their order in the file makes no difference."""
+        """Return the robot with its elements sorted by name: their order in the file has no effect."""
         kinds = {kind: getattr(self, kind) for kind in ("links", "joints", "sensors", "loops")}
         return replace(self, **{kind: tuple(sorted(of_kind, key=_NAME)) for kind, of_kind in kinds.items()})

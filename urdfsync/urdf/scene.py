@@ -1,4 +1,4 @@
-"""A robot as a picture: the shapes, frames, masses and axes of its tree."""
+"""A robot as a picture: shapes, frames, masses and axes."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
 
 _NO_FACTS = {"bounds": (), "hull": ()}
-"""Facts of a mesh that is too large for the package: a picture needs none."""
+"""Stands for the missing facts of a mesh that is too large for the package. The picture needs no facts."""
 
 
 def scene(
     robot: Robot, imports: Mapping[str, Import], target: Target, options: Options
 ) -> tuple[Scene, Mapping[str, str]]:
-    """Return the picture of a robot, and the keys of its meshes. Shapes whose mesh is not imported are missing."""
+    """Return the picture of a robot, and the names of its mesh files. A shape whose mesh is not imported is missing."""
     imports = {
         key: file if file.facts else msgspec.structs.replace(file, facts=_NO_FACTS) for key, file in imports.items()
     }
@@ -47,7 +47,7 @@ def scene(
 
 
 def _mesh_name(key: str, file: Import, imports: Mapping[str, Import]) -> str:
-    """Return a name that depends only on the content of the source, and on which part of it this file is."""
+    """Return a name for a mesh file, from the hash of its source and the part of the source that it has."""
     whole = lookup.key(lookup.mesh(key))
     is_split = whole in imports and lookup.PARTS in imports[whole].facts
     return f"{file.source_hash}{key.removeprefix(whole)}{' part' if is_split else ''}"
@@ -140,7 +140,7 @@ def _matrix(pose: poses.Pose) -> Pose:
 
 
 def _facts(values: msgspec.Struct, joint: Joint | None = None, label: str = "") -> Iterator[tuple[str, str]]:
-    """Yield the properties of a link or joint with their units; for shapes, only their number."""
+    """Yield the properties of a link or joint with their units; of shapes, only the count."""
     for field in msgspec.structs.fields(values):
         value, name = getattr(values, field.name), f"{label}{field.name.replace('_', ' ')}"
         if isinstance(value, msgspec.Struct):

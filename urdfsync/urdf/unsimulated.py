@@ -18,7 +18,7 @@ _AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 def find_unsimulated(assembly: Assembly) -> Iterator[Finding]:
-    """Yield the joints that the chosen approaches can't simulate."""
+    """Yield a finding for each part that the chosen approaches can't simulate."""
     tree, closed, options = assembly.tree, assembly.closed, assembly.options
     if "record" in options.approach:
         yield from out_of_scope(tree)
@@ -28,7 +28,7 @@ def find_unsimulated(assembly: Assembly) -> Iterator[Finding]:
         if parts:
             yield Finding("not-in-record", "", f"the record approach has no {' and no '.join(parts)}")
         return
-    # Driven joints count as fixed. They move as prescribed, so that none can undo the motion of a passive joint.
+    # Driven joints count as fixed: they move as prescribed, and can't undo the motion of a passive joint.
     passive = {joint.name for joint in tree.joints if can_be_driven(joint)} - closed.driven - closed.dependent
     for name in find_massless_joints(tree, passive) if passive else ():
         if name in passive:
@@ -37,12 +37,12 @@ def find_unsimulated(assembly: Assembly) -> Iterator[Finding]:
     for joint in tree.joints:
         if joint.type == "ball" and _has_massless_axis(tree, joint):
             message = f"joint '{joint.name}' is a ball and turns no inertia about an axis, so nothing determines its "
-            hint = "give a link behind it an <inertial> with an inertia about each axis"
+            hint = "give a link behind the ball an <inertial> with an inertia about each axis"
             yield Finding("passive-moves-no-mass", f"joint {joint.name}", f"{message}motion in Run and Test", hint)
 
 
 def _has_massless_axis(tree: KinematicTree, ball: Joint) -> bool:
-    """Return whether a ball turns no inertia about an axis of its frame, or about one through its child's centre."""
+    """Return whether a ball turns no inertia about an axis of its frame or the line to its child's centre of mass."""
     inertial = next(link.inertial for link in tree.links if link.name == ball.child)
     for axis in (*_AXES, unit_vector(inertial.origin.xyz if inertial else _AXES[0])):
         hinge = replace(ball, type="continuous", axis=axis)
@@ -53,12 +53,12 @@ def _has_massless_axis(tree: KinematicTree, ball: Joint) -> bool:
 
 
 def out_of_scope(tree: KinematicTree) -> Iterator[Finding]:
-    """Yield loops, shared rotors and joints that the generic robot lacks; if it has all, joints that move no mass."""
+    """Yield findings about parts that the generic robot lacks; if it has all joints, about joints that move no mass."""
     if tree.loops:
-        message = "the generic robot has no loops, and is open in the record"
+        message = "the generic robot has no loops: the record leaves them open"
         yield Finding("loops-not-in-record", f"loop {tree.loops[0].name}", message)
     for name in (joint.name for joint in tree.joints if sharing_joint(joint, "joint")):
-        message = f"the motor of joint '{name}' moves another joint, too, but in the record its rotor does not"
+        message = f"the motor of joint '{name}' also moves another joint, but in the record the motor's rotor does not"
         yield Finding("shared-rotor-not-in-record", f"joint {name}", message)
     unfit = obstacles(tree.joints)
     for joint in unfit:
@@ -75,10 +75,10 @@ def out_of_scope(tree: KinematicTree) -> Iterator[Finding]:
         yield Finding("moves-no-mass", "robot", message, "give the links an <inertial>")
         return
     massless = set(find_massless_joints(tree))
-    behind = set[str]()  # links behind a joint with a warning: no further joint there gets one
+    behind = set[str]()  # links behind a joint with a warning: further joints there get no warning
     for joint in tree.joints:
         if joint.name in massless and joint.parent not in behind:
-            message = f"joint '{joint.name}' moves no inertia about its axis, or only one that is behind "
+            message = f"joint '{joint.name}' moves no inertia about its axis, or only inertia behind "
             message += "another joint on the same axis, so the generic robot can move it by position only"
             yield Finding("moves-no-mass", f"joint {joint.name}", message)
         if joint.name in massless or joint.parent in behind:

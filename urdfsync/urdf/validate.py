@@ -1,6 +1,7 @@
-"""The diagnostics about a URDF by their codes, and the checks of a robot from any source.
+"""The diagnostics about a URDF by their codes, and the checks of a robot.
 
-A finding is an error if no right model exists, and a warning otherwise. docs/findings.md explains the codes.
+A finding is an error if urdfsync can't make a right model, otherwise a warning. The page docs/findings.md explains the
+codes.
 """
 
 from __future__ import annotations
@@ -33,10 +34,10 @@ from urdfsync.urdf.robot import (
 )
 
 _EXACT = 1e-12
-# The greatest error of an axis's length if its components have five digits or more.
+# The greatest error of an axis's length, if the axis is written with five digits or more.
 _ROUNDING = 1e-5
 _INERTIA_TOLERANCE = 1e-6
-# Bodies with a smaller radius of gyration, in m, are points: their inertia is a rounding error.
+# In m: a body with a smaller radius of gyration is a point, and its inertia a rounding error.
 _POINT = 1e-6
 _COMPARED = 500
 _MAGNITUDES = (
@@ -45,7 +46,7 @@ _MAGNITUDES = (
     ("negative-inertia", "dynamics", ("armature",)),
     ("negative-inertia", "transmission", ("rotor_inertia",)),
 )
-"""Numbers of a joint that must not be negative: the finding's code, the block of the joint, and its fields."""
+"""Numbers of a joint that must not be negative: code of the finding, field of the joint, names of its numbers."""
 
 _Element = TypeVar("_Element", Link, Joint)
 
@@ -60,40 +61,40 @@ _ERRORS = {
     "xml-syntax": f"correct the XML (`&` is written `&amp;`, and `<` in quotes `&lt;`), or {_WAIT}",
     "xml-entity": "remove the <!DOCTYPE …>, and replace entities by their text",
     "not-urdf": "export URDF, and name that file",
-    "xacro-source": "call it FILE.xacro, or set `arguments`: then urdfsync expands it",
+    "xacro-source": "rename the file to FILE.xacro, or set `arguments`: then urdfsync expands the file",
     # elements and attributes
     "missing-element": "add it",
     "missing-attribute": "add it",
     "empty-attribute": "fill it in",
     "bad-number": "write decimal numbers such as -0.5 or 1e-3",
-    "bad-version": 'write version="1.2", or leave it out for 1.0',
-    "two-orientations": "remove one of them",
+    "bad-version": 'write version="1.2", or no version for 1.0',
+    "two-orientations": "remove one orientation",
     "unknown-joint-type": "use one of fixed, continuous, revolute, prismatic, planar, floating, ball",
     # loops
     "duplicate-loop": "rename or remove one loop",
     "loop-of-no-link": "correct the name of the link",
     "loop-one-link": "name two links",
-    "loop-axis": "give the axes directions; those of a universal joint are at right angles",
-    "loop-twice": "remove one of them",
+    "loop-axis": "give each axis a direction; the axes of a universal joint are at right angles",
+    "loop-twice": "remove one of the two loops",
     "loop-free-joint": "use joints with one axis in a loop",
     "loop-rigid": "remove the loop, or give it joints that move",
-    "loop-open": "correct its frames, or the start and limits of its joints",
-    "loop-redundant": "remove one of them",
-    "loop-limit": "remove some, and close them by hand: a robot may have up to 200 loops with 1,000 joints",
-    "loop-singular": "let its joints start elsewhere, by `start` in the configuration",
+    "loop-open": "correct the frames of the loop, or the start and limits of its joints",
+    "loop-redundant": "remove one of the loops",
+    "loop-limit": "remove loops, and close them by hand: a robot may have up to 200 loops with 1,000 joints",
+    "loop-singular": "let the loop's joints start elsewhere, by `start` in the configuration",
     # the tree
     "duplicate-link": "rename or remove one link",
     "duplicate-joint": "rename or remove one joint",
-    "no-link": "check that the export is complete, or name the xacro file that uses the macros of this one",
-    "several-roots": "connect them by joints, or remove what does not belong to the robot",
+    "no-link": "check that the export is complete, or name the xacro file that uses the macros of this file",
+    "several-roots": "connect these links by joints, or remove links of other robots",
     "unknown-parent": "add the link, or correct its name",
     "unknown-child": "add the link, or correct its name",
     "two-parents": "remove one of the joints: a link has one parent",
     "cycle": "remove a joint of the cycle: a URDF is a tree",
-    "loop-joint": 'write a ball, revolute, universal or fixed one, or leave it out by `allow = ["loop-joint"]`',
-    "stray-inertial": 'move it into a link, or leave it out by `allow = ["stray-inertial"]` in the configuration',
+    "loop-joint": 'write a ball, revolute, universal or fixed joint, or leave the loop out by `allow = ["loop-joint"]`',
+    "stray-inertial": 'move the element into a link, or leave the element out by `allow = ["stray-inertial"]`',
     # numbers and relations
-    "negative-mass": "correct the mass; a massless link has none, or 0",
+    "negative-mass": "correct the mass; a massless link has no mass, or 0",
     "negative-inertia": "correct its sign",
     "zero-axis": 'write for example xyz="0 0 1"',
     "limit-order": "exchange or correct the limits",
@@ -104,54 +105,54 @@ _ERRORS = {
 _WARNINGS = {
     # the file
     "xml-declaration": 'begin the file with <?xml version="1.0" encoding="UTF-8"?>',
-    "xacro-leftover": "expand the source with xacro, if this file is not the result of it",
+    "xacro-leftover": "expand this file with xacro, unless xacro wrote it",
     # elements and attributes
     "missing-name": 'write <robot name="…">',
     "duplicate-element": "remove the others",
-    "sdf-spelling": "write it as in URDF: other programs ignore this spelling",
-    "missing-value": "add one of them, or take the element out, which ROS's parser refuses",
-    "newer-version": "remove what is newer than URDF 1.2: urdfsync ignores it",
-    "newer-attribute": "name the version of URDF that has it",
-    "unknown-attribute": "correct its name, or remove it",
-    "unknown-element": "correct its name, or remove it",
+    "sdf-spelling": "use the spelling of URDF: other programs ignore this text",
+    "missing-value": "add a value, or remove the element: ROS's parser refuses the empty element",
+    "newer-version": "remove all elements that are newer than URDF 1.2: urdfsync ignores them",
+    "newer-attribute": "name the version of URDF that has the attribute",
+    "unknown-attribute": "correct the name, or remove the attribute",
+    "unknown-element": "correct the name, or remove the element",
     "missing-limit": "add <limit>, or make a revolute joint continuous",
-    "missing-limit-value": "add what is missing, or make a joint that turns freely continuous",
+    "missing-limit-value": "add the missing limits; if the joint turns freely, make it continuous",
     "missing-mass": "add the mass",
     "missing-inertia": "add all six components of the inertia",
     "missing-gain": "add k_velocity=…",
     "bad-contact": "write a decimal number",
     "unknown-geometry": "use one of box, cylinder, capsule, sphere, mesh",
-    "unknown-material": "define it in the robot or in a visual",
+    "unknown-material": "define the material in the robot or in a visual",
     "material-redefined": "give each material a name of its own",
     "bad-color": 'write for example rgba="1 0.5 0 1"',
     "color-range": "divide 0 to 255 by 255",
     # numbers and relations
     "axis-not-unit": "write a unit vector",
-    "negative-limit": "write it without sign: all limits but those of position are magnitudes",
+    "negative-limit": "write the limit without a sign: only limits of position have signs",
     "negative-dynamics": "correct its sign",
-    "dynamics-without-effect": "remove what has no effect, or change the type",
-    "limit-without-effect": "remove it; a contact or a spring in a model of your own can hold the joint",
+    "dynamics-without-effect": "remove these losses, or change the type of the joint",
+    "limit-without-effect": "remove the <limit>; a contact or a spring in a model of your own can hold the joint",
     "mimic-without-effect": "remove the mimic, or change the type",
-    "mimic-of-fixed": "make it fixed, or let it mimic a joint that moves",
-    "unknown-actuated-joint": "correct its name, or take it out",
+    "mimic-of-fixed": "make the joint fixed, or let it mimic a joint that moves",
+    "unknown-actuated-joint": "correct the name of the joint, or remove the element",
     "unknown-sensor-place": "correct the name of the link or joint",
-    "unknown-reference": "correct the name, or take it out; it has no effect",
-    "bad-sensor": "correct the number; it is taken as 0",
-    "bad-transmission": "write a number that is not 0; it is taken as 1, or an offset as 0",
-    "drive-contradiction": "correct one of them",
-    "unknown-interface": "correct its name, or take it out",
-    "bad-mimic": "write a decimal number; a multiplier is taken as 1, an offset as 0",
-    "ball-not-driven": "drive it in a model of your own, or write it as three continuous joints in one point",
+    "unknown-reference": "correct the name, or remove the element, which has no effect",
+    "bad-sensor": "correct the value",
+    "bad-transmission": "write another number; until then a reduction is taken as 1, an offset as 0",
+    "drive-contradiction": "correct one of the two elements",
+    "unknown-interface": "correct the name, or remove the interface",
+    "bad-mimic": "write a decimal number; until then a multiplier is taken as 1, an offset as 0",
+    "ball-not-driven": "drive the ball in a model of your own, or write three continuous joints in one point",
     "bad-start": "correct the position, or set another one by `start` in the configuration",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
     "gravity-off": "replace the link in a model of your own, or accept that the joints carry its weight",
-    "force-left-out": "add it in a model of your own, or expect another motion",
+    "force-left-out": "add the force in a model of your own, or expect another motion",
     "inertia-not-positive": "export the inertia again; until then, a simulation may not be physical",
     "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
-    "loop-contradiction": "correct one of them",
+    "loop-contradiction": "correct one of the two loops",
     "loop-one-end": "correct the name of the other link, or state the loop as `loops` in the configuration",
-    "loop-excess": "take them out of `driven`, or model their drives as efforts by hand",
+    "loop-excess": "take joints out of `driven`, or model their drives as efforts by hand",
     # valid, but probably a mistake
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "write masses in kg",
@@ -159,26 +160,26 @@ _WARNINGS = {
     "length-unit": "write lengths in m",
     "angle-unit": "write angles in rad",
     "zero-limits": "correct the limits, or make the joint fixed",
-    "shape-far": "correct its origin; write it in m",
+    "shape-far": "correct the origin; write it in m",
     # robots that no simulation can move
-    "passive-moves-no-mass": "give a link behind it an <inertial>, drive it (`driven`), or make it a fixed joint",
-    "moves-no-mass": "give the link right behind it an <inertial>, or make it a fixed joint",
-    "loops-not-in-record": "generate a package for it",
-    "shared-rotor-not-in-record": "generate a package for it",
-    "planar-not-generic": "write it as two prismatic joints and a continuous one, or use the package approach",
-    "ball-not-generic": "write it as three continuous joints, or use the package approach",
-    "floating-not-generic": "write it as three prismatic joints and three continuous ones, or use the package "
+    "passive-moves-no-mass": "give a link behind the joint an <inertial>, drive the joint (`driven`), or make it fixed",
+    "moves-no-mass": "give the child link of the joint an <inertial>, or make the joint fixed",
+    "loops-not-in-record": "generate a package for the robot",
+    "shared-rotor-not-in-record": "generate a package for the robot",
+    "planar-not-generic": "write two prismatic joints and a continuous one, or use the package approach",
+    "ball-not-generic": "write three continuous joints, or use the package approach",
+    "floating-not-generic": "write three prismatic joints and three continuous ones, or use the package "
     'approach; if the root link has no other joint, remove both and set `base = "floating"` in a project',
 }
 _NOTES = {
-    "loop-by-name": "state it as `loops` in the configuration if it is of another kind",
-    "loop-drives": "if that is wrong, list all joints to drive in `driven`",
-    "start-moved": "to choose which joints stay at their start, name only those in `start`",
+    "loop-by-name": "if the joint is of another kind, state the loop in `loops` of the configuration",
+    "loop-drives": "to drive other joints, list all driven joints in `driven`",
+    "start-moved": "to choose the joints that stay, name no other joints in `start`",
     "loop-closed": "nothing to do: the models begin in a pose that closes the loop",
-    "loop-ball": "nothing to do, unless the middle one of the three joints comes near a right angle",
+    "loop-ball": "nothing to do, unless the second of the three joints comes near a right angle",
     "loop-weaker": "nothing to do: the motion is the same",
-    "not-in-record": 'add "package" to `approach` for them',
-    "not-modelled": "list them with their lines by --verbose",
+    "not-in-record": 'to get these parts, add "package" to `approach`',
+    "not-modelled": "--verbose lists all of these with their lines",
 }
 
 ADVICE: Mapping[str, tuple[Severity, str]] = {
@@ -189,30 +190,31 @@ ADVICE: Mapping[str, tuple[Severity, str]] = {
 
 
 class Finding(NamedTuple):
-    """A finding about the element at `path`, which names it as a diff does: `link wheel`, `joint elbow / limit`.
+    """A finding about an element.
 
-    A second link of that name is `link wheel #2`.
+    `path` names the element as a diff does: `link wheel`, `joint elbow / limit`. A second link `wheel` is `link wheel
+    #2`.
     """
 
     code: str
     path: str
     message: str
     hint: str = ""
-    """A better hint than that of the table."""
+    """A hint that replaces the one in `ADVICE`."""
 
 
 def diagnostic(
     code: str, message: str, line: int, hint: str = "", column: int = 0, details: tuple[str, ...] = ()
 ) -> Diagnostic:
-    """Return a diagnostic with severity and advice of its code, without the name of the file."""
+    """Return a diagnostic with the severity and the advice of its code; the caller adds the file."""
     severity, advice = ADVICE[code]
     return Diagnostic(severity, code, message, "", line, column, hint or advice, details)
 
 
 def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
-    """Check a robot whose axes are as written, not yet unit vectors.
+    """Check a robot whose axes are not normalised yet.
 
-    `complete` is false if faulty joints or links were left out: then the number of roots has no meaning.
+    If faulty joints or links were left out, `complete` is false, and several roots are no fault.
     """
     links, joints = _with_paths("link", robot.links), _with_paths("joint", robot.joints)
     yield from _check_names("link", links)
@@ -226,7 +228,7 @@ def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
 
 
 def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Iterator[Finding]:
-    """Check that no two elements of one kind share a name; a link and a joint may."""
+    """Check that no two links, or no two joints, have one name."""
     seen = set[str]()
     for path, element in elements:
         if element.name in seen:
@@ -235,7 +237,7 @@ def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Ite
 
 
 def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Finding]:
-    """Check that loops have unique names, frames on two existing links, and axes. A loop gets one finding at most."""
+    """Check names, links and axes of loops. A loop gets one finding at most."""
     seen: dict[Loop, str] = {}
     for path, loop in zip(element_paths("loop", (loop.name for loop in loops)), loops, strict=True):
         same = msgspec.structs.replace(loop, name="")
@@ -256,16 +258,16 @@ def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Findi
 
 
 def perhaps(name: str, names: Collection[str], likeness: float = 0.7) -> str:
-    """Return a hint with the one of `names` that is most like `name`; empty if none is alike.
+    """Return a hint with the most similar of `names`; empty if no name is similar.
 
-    More than 500 names are not compared: that would take longer than the rest of the reading.
+    More than 500 names are not compared: the comparison would take longer than reading the file.
     """
     meant = spelling.nearest(name, names, likeness) if len(names) <= _COMPARED else ""
     return f"perhaps {meant!r} is meant" if meant else ""
 
 
 def element_paths(kind: str, names: Iterable[str]) -> list[str]:
-    """Return the path of each element: `joint elbow`, `joint elbow #2` for the second of that name."""
+    """Return the path of each element: `joint elbow`, and `joint elbow #2` for a second joint `elbow`."""
     seen, paths = dict[str, int](), list[str]()
     for number, name in enumerate(names, start=1):
         count = seen[name] = seen.get(name, 0) + 1
@@ -279,15 +281,15 @@ def _with_paths(kind: str, elements: Sequence[_Element]) -> list[tuple[str, _Ele
 
 
 def unit_vector(axis: Vector) -> Vector:
-    """Return the unit vector along `axis`, unchanged if its length is 1 up to 1e-12; x for a zero vector."""
+    """Return the unit vector along `axis`: x for a zero vector, `axis` itself if its length is 1 (up to 1e-12)."""
     largest = max(map(abs, axis))
     if largest == 0:
         return (1.0, 0.0, 0.0)
     if abs(math.hypot(*axis) - 1) < _EXACT:
         return axis
-    scaled = [value / largest for value in axis]  # else the square of a large number overflows
+    scaled = [value / largest for value in axis]  # without this, the square of a large number overflows
     length = math.hypot(*scaled)
-    # A tiny negative number becomes -0.0; adding 0.0 makes it 0.0, so that equal robots give the same text.
+    # Adding 0.0 makes 0.0 of -0.0: equal robots give equal texts.
     return (scaled[0] / length + 0.0, scaled[1] / length + 0.0, scaled[2] / length + 0.0)
 
 
@@ -321,7 +323,7 @@ def _check_tree(robot: Robot, joints: Iterable[tuple[str, Joint]], complete: boo
 
 
 def _as_loop(joint: Joint) -> str:
-    """Return a hint to write a joint as a loop, since its child has another parent; empty if no loop is of its type."""
+    """Return a hint to write a joint as a loop; empty if no loop has the type of the joint."""
     if joint.type not in ("revolute", "continuous", "fixed"):
         return ""
     vectors = joint.origin.xyz, joint.origin.rpy, joint.axis
@@ -329,11 +331,11 @@ def _as_loop(joint: Joint) -> str:
     ends = f'<link1 link="{joint.parent}" xyz="{xyz}" rpy="{rpy}"/><link2 link="{joint.child}"/>'
     turns = f'<axis xyz="{axis}"/>' * (joint.type != "fixed")
     element = f'<loop_joint name="{joint.name}" type="{joint.type}">{ends}{turns}</loop_joint>'
-    return f"if it closes a loop, write it as {element}, or state it as `loops` in the configuration; else remove it"
+    return f"if the joint closes a loop, write {element}, or use `loops` in the configuration; else remove the joint"
 
 
 def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list[str]]:
-    """Yield each cycle of the function `successor` once; linear in the number of names."""
+    """Yield each cycle of the mapping `successor` once, in linear time."""
     finished: set[str] = set()
     for start in names:
         walked: dict[str, None] = {}
@@ -348,7 +350,7 @@ def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list
 
 
 def _check_link(path: str, link: Link) -> Iterator[Finding]:
-    """Check that a body can have the link's mass properties, and that its shapes are not empty."""
+    """Check that a body can have the link's mass and inertia, and that no shape is empty."""
     if link.inertial is not None:
         mass, place = link.inertial.mass, f"{path} / inertial"
         if mass < 0:
@@ -360,24 +362,24 @@ def _check_link(path: str, link: Link) -> Iterator[Finding]:
             message = f"{place}: the inertia is not positive semi-definite: {moments}"
             yield Finding("inertia-not-positive", f"{place} / inertia", message)
         elif low + middle < high - tolerance:
-            message = f"{place}: no body has this inertia: {moments}, and one exceeds the sum of the others"
+            message = f"{place}: no body has this inertia: {moments}, and the greatest exceeds the sum of the others"
             yield Finding("inertia-triangle", f"{place} / inertia", message)
     shapes = {f"visual {number}": visual.geometry for number, visual in enumerate(link.visuals, start=1)}
     shapes |= {f"collision {number}": shape.geometry for number, shape in enumerate(link.collisions, start=1)}
     for name, geometry in shapes.items():
         if _is_empty(geometry):
             place = f"{path} / {name} / {geometry.__struct_config__.tag}"
-            yield Finding("shape-size", place, f"{place}: a size is zero or negative, so that the shape is empty")
+            yield Finding("shape-size", place, f"{place}: a size is zero or negative: the shape is empty")
 
 
 def principal_moments(inertia: Inertia) -> Vector:
     """Return the eigenvalues of the inertia tensor in ascending order, in kg·m².
 
-    Uses the trigonometric solution of the characteristic equation, to eight digits or more. The import of numpy would
-    take longer than a build of a small robot.
+    The trigonometric solution of the characteristic equation gives eight digits or more. The import of numpy would take
+    longer than a build of a small robot.
     """
     values = msgspec.structs.astuple(inertia)
-    scale = max(map(abs, values)) or 1.0  # else squares of large numbers overflow
+    scale = max(map(abs, values)) or 1.0  # without this, squares of large numbers overflow
     xx, xy, xz, yy, yz, zz = (value / scale for value in values)
     mean = (xx + yy + zz) / 3
     xx, yy, zz = xx - mean, yy - mean, zz - mean
@@ -391,7 +393,7 @@ def principal_moments(inertia: Inertia) -> Vector:
 
 
 def _is_empty(geometry: Geometry) -> bool:
-    """Return whether a size is not positive. A sphere may be a contact point, and a negative scale mirrors a mesh."""
+    """Return whether a shape is empty. A sphere may be a contact point; a negative scale mirrors a mesh."""
     match geometry:
         case Box(size=size):
             return min(size) <= 0
@@ -434,19 +436,19 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
 
 
 def _check_mimics(numbered: Sequence[tuple[str, Joint]]) -> Iterator[Finding]:
-    """Check that mimic relations are between joints of one degree of freedom; chains are legal, cycles are not."""
+    """Check that each mimic joint and its leader have one degree of freedom. Chains are legal, cycles are not."""
     joints: dict[str, Joint] = {}
     leaders: dict[str, str] = {}
     for _, joint in numbered:
         joints.setdefault(joint.name, joint)
     for path, joint in numbered:
-        if joint.mimic is None or not joint.mimic.joint:  # the reader has reported the missing name
+        if joint.mimic is None or not joint.mimic.joint:  # the reader reports a missing name
             continue
         target, place = joint.mimic.joint, f"{path} / mimic"
         leaders.setdefault(joint.name, target)
         leader, mimics = joints.get(target), f"joint {joint.name!r} mimics joint {target!r}"
         if joint.type == "fixed":
-            message = f"joint {joint.name!r} is fixed, so that its mimic has no effect"
+            message = f"joint {joint.name!r} is fixed: its mimic has no effect"
             yield Finding("mimic-without-effect", place, message)
         elif not JOINT_KINDS[joint.type].motion:
             message = f"joint {joint.name!r} is {joint.type}, and can't mimic a single position"
@@ -454,7 +456,7 @@ def _check_mimics(numbered: Sequence[tuple[str, Joint]]) -> Iterator[Finding]:
         elif leader is None:
             yield Finding("unknown-mimic", place, f"{mimics}, which does not exist", perhaps(target, joints))
         elif leader.type == "fixed":
-            yield Finding("mimic-of-fixed", place, f"{mimics}, which is fixed: it is held at its offset")
+            yield Finding("mimic-of-fixed", place, f"{mimics}, which is fixed: the offset gives the position")
         elif not JOINT_KINDS[leader.type].motion:
             yield Finding("mimic-type", place, f"{mimics}, which is {leader.type} and has no single position")
     for cycle in _cycles(leaders, leaders):

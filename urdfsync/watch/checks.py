@@ -21,15 +21,15 @@ _PATIENCE = 10.0
 
 
 class CheckJob(msgspec.Struct, frozen=True, eq=False):
-    """One check of a package; cancelled once it is no longer the newest of its robot."""
+    """One check of a package; a newer check of the same robot cancels this one."""
 
     robot: RobotConfig
     key: str | None
-    """The key of the check's inputs; None if one can't be read."""
+    """The key of the check's inputs; None if an input can't be read."""
 
 
 class CheckEnded(msgspec.Struct, frozen=True):
-    """A check has ended; `result` is None if it was cancelled."""
+    """A check has ended; `result` is None for a cancelled check."""
 
     job: CheckJob
     result: BuildCheck | None
@@ -40,7 +40,7 @@ class CancelledError(Exception):
 
 
 class CheckQueue:
-    """The newest check of each robot, in order. Leaving its context cancels all checks. Methods return events.
+    """The newest check of each robot, in order. The end of the `with` block cancels all checks. Methods return events.
 
     Only the check itself runs in a thread; its end comes through the daemon's queue, as `CheckEnded`.
     """
@@ -70,7 +70,7 @@ class CheckQueue:
         self._last.clear()
 
     def check(self, robot: RobotConfig) -> Sequence[events.Event]:
-        """Check the present package of a robot, unless a check of it runs or has found it right."""
+        """Check the present package of a robot, unless a check of these files runs or found no fault."""
         if robot.on_build != "check":
             return ()
         key, job = self._checker.key(robot), self._jobs.get(robot.name)
@@ -81,7 +81,7 @@ class CheckQueue:
         if earlier is None:
             self._jobs[robot.name] = CheckJob(robot, key)
             return self._start_next()
-        # right as before: nothing new to report
+        # still without faults: nothing new to report
         was_right = job is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
         event = self._note(robot, earlier)
         return () if was_right and earlier.checked is Checked.RIGHT else (event,)

@@ -38,7 +38,7 @@ from urdfsync.watch.paths import find_watched_folders
 from urdfsync.watch.robot import WatchedRobot, look_at
 
 _REST = 3.0
-"""The pause after a look, as a multiple of the duration of the look."""
+"""The pause after a look, as a multiple of its duration."""
 _PAUSE = 0.25
 """Seconds between two checks for the end of pre-commit."""
 
@@ -57,14 +57,14 @@ class WatchOptions(msgspec.Struct, frozen=True):
     give_up_after: float = 30.0
     """The time until an invalid source is an error."""
     rescan: float = 30.0
-    """The time between two reads of everything."""
+    """The time between two reads of all files."""
     command: str = ""
     """The command after a build that changed something; empty for none."""
     build: BuildOptions = msgspec.field(default_factory=BuildOptions)
 
 
 class Daemon:
-    """Keeps the packages of one configuration in step until it is told to stop."""
+    """Keeps the packages of one configuration in step until `stop` is called."""
 
     def __init__(self, options: WatchOptions, listener: events.Listener) -> None:
         self._options, self._listener = options, listener
@@ -88,7 +88,7 @@ class Daemon:
         self._next_look = math.inf
         """When to look at all files, after an event in a folder."""
         self._earliest_look = 0.0
-        """The earliest time of the next look: endless events must not keep the daemon looking."""
+        """The earliest time of the next look: endless events must leave pauses."""
         self._has_new_places = False
 
     def stop(self, signal: str) -> None:
@@ -105,8 +105,8 @@ class Daemon:
     def run(self) -> None:
         """Watch until `stop` is called.
 
-        Raises ConfigError for an invalid configuration at the start, LockedError if another daemon watches it,
-        OutputError if the lock can't be written.
+        Raises ConfigError for an invalid configuration at the start, LockedError if another daemon watches the
+        configuration, OutputError without a writable lock.
         """
         loaded = config.load(self._options.file)
         try:
@@ -147,12 +147,12 @@ class Daemon:
                 watched.due = time.monotonic() + _PAUSE
 
     def _acquire(self, lock: Lock) -> None:
-        """Take the daemon's lock; repeat it if its file was deleted, since another daemon would not see it."""
+        """Take the daemon's lock, again if its file was deleted, since another daemon would not see the lock."""
         try:
             lock.acquire()
         except LockedError:
             message = f"{lock.holder()} watches this configuration already"
-            hint = "use that one, or stop it first"
+            hint = "use that daemon, or stop it first"
             finding = Diagnostic(Severity.ERROR, "watched", message, shown(self._options.file.absolute()), hint=hint)
             raise LockedError(finding) from None
 
@@ -171,7 +171,7 @@ class Daemon:
     # The configuration
 
     def _use(self, loaded: Config, again: bool = False) -> None:
-        """Use a configuration from now on, and build all robots. Raises ConfigError if it lacks a chosen robot."""
+        """Use a configuration from now on, and build all robots. Raises ConfigError for a missing robot."""
         robots = loaded.select(self._options.robots)
         self._config = loaded
         self._checks.use(loaded)
@@ -202,7 +202,7 @@ class Daemon:
 
     def _receive(self) -> None:
         """Wait for a message, or until a look is due."""
-        with contextlib.suppress(Empty):  # the first `get` waits; the others empty the queue
+        with contextlib.suppress(Empty):  # the first `get` waits, further calls empty the queue
             message = self._queue.get(timeout=self._seconds_until_due())
             while True:
                 match message:
@@ -234,7 +234,7 @@ class Daemon:
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
         """Let changed robots settle, all from the same moment, so that they are built together.
 
-        Changes of names in folders alone are not reported: they rarely matter.
+        A change that only adds or removes names in a folder is not reported: it rarely matters.
         """
         due = time.monotonic() + self._options.settle
         for watched in robots:
@@ -262,7 +262,7 @@ class Daemon:
         self._look()
 
     def _find_settled(self, *, has_looked: bool) -> list[WatchedRobot]:
-        """Look at the robots whose time has come, unless `has_looked`; return those unchanged since the last look."""
+        """Look at the robots whose time has come, unless `has_looked`; return those that have not changed since."""
         now, settled = time.monotonic(), []
         for watched in self._robots.values():
             if watched.due > now:
@@ -270,7 +270,7 @@ class Daemon:
             if not has_looked:
                 watched.look()
             if not watched.is_told and watched.changed_file:
-                self._touch([watched])  # its event may come later
+                self._touch([watched])  # the event of this change may come later
             elif watched.seen == watched.sample or not self._options.sample:
                 settled.append(watched)
             else:
@@ -301,7 +301,7 @@ class Daemon:
         self._is_paused = stash is not None
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
-        """Build robots. A robot has to settle again if it wrote files, or if a file was saved meanwhile."""
+        """Build robots. A robot has to settle again if its build wrote files, or if a file was saved meanwhile."""
         self._building = [watched.name for watched in robots if watched.is_told]
         self._show_all(list(map(events.Building, self._building)))
         has_other_entries = False
@@ -320,7 +320,7 @@ class Daemon:
         for watched in robots:
             watched.look()
             if watched.changed_file:
-                # a file was saved meanwhile: report it, unless the robot was waiting for that
+                # a file was saved meanwhile: report this change, unless the robot was waiting for it
                 watched.is_told = watched.invalid_until > 0
                 self._touch([watched])
             elif watched.invalid_until:
@@ -331,7 +331,7 @@ class Daemon:
                 watched.settle(time.monotonic() + self._options.settle, is_told=False)
 
     def _rest(self, watched: WatchedRobot) -> None:
-        """Let a robot rest until a change, or for a while if it failed; else check its package."""
+        """Let a robot rest until a change, or for a while if its build failed; after a success check its package."""
         if watched.failure is None:
             watched.settle(math.inf, is_told=False)
             self._show_all(self._checks.check(watched.robot))

@@ -3,7 +3,7 @@
 Events of one robot come in this order: `Settling` when one of its files changed, `Building` when it has settled,
 `Waiting` if its source is invalid, then `Built` or `Failed`. If its files have their former content, only `Unchanged`
 follows `Settling`.
-Checks have their own events: `Checking`, and `CheckDone` for the last one of several.
+Checks have their own events: `Checking`, and `CheckDone` for the last of several checks.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ class Started(Event, frozen=True):
     config: Path
     robots: tuple[str, ...]
     again: bool = False
-    """Whether it was read before; then it has changed, or is valid again."""
+    """Whether the daemon read the configuration before: it has changed, or is valid again."""
 
 
 class Viewing(Event, frozen=True):
-    """Pages of the robots are at this address, until the daemon ends. This is the first event."""
+    """The daemon serves pages of the robots at this address. This is the first event."""
 
     address: str
 
@@ -89,7 +89,7 @@ class Failed(Event, frozen=True):
 
 
 class Checking(RobotEvent, frozen=True):
-    """The check of the robot's package begins; an unfinished earlier one is cancelled."""
+    """The check of the robot's package begins; an unfinished earlier check is cancelled."""
 
 
 class CheckDone(RobotEvent, frozen=True, tag="checked"):
@@ -103,7 +103,7 @@ class CheckDone(RobotEvent, frozen=True, tag="checked"):
 
 
 class Noted(Event, frozen=True):
-    """Findings that concern no robot. Each is reported once, and again if it ends and comes back."""
+    """Findings that concern no robot. Each finding is reported once, and again if it ends and comes back."""
 
     diagnostics: tuple[Diagnostic, ...]
 
@@ -126,7 +126,7 @@ class Ran(RobotEvent, frozen=True):
     """The command of `--exec` has ended after a build of the robot; if it failed, `Noted` follows."""
 
     code: int
-    """Its exit code; negative if a signal ended it."""
+    """The command's exit code; negative if a signal ended the command."""
 
 
 class Stopping(Event, frozen=True):

@@ -16,7 +16,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.watch import events
 
 _MAX_VARIABLE = 100_000
-"""Bytes of an environment variable: systems limit one to 128 KiB."""
+"""Bytes of an environment variable: systems limit a variable to 128 KiB."""
 _STDERR = 2
 _NOT_FOUND = 127
 """Exit code of a shell for a command that can't be started."""
@@ -60,7 +60,7 @@ class CommandRunner:
         yield events.Ran(ended.robot, ended.code)
         if ended.problem:
             message = f"robot `{ended.robot}`: the command of --exec {ended.problem}"
-            hint = "correct it: it runs again after the next build that changes something"
+            hint = "correct the command: it runs again after the next build that changes a file"
             yield events.Noted((Diagnostic(Severity.WARNING, "exec", message, hint=hint),))
         if waiting := self._waiting.pop(ended.robot, None):
             yield from self.run(*waiting)
@@ -77,7 +77,7 @@ class CommandRunner:
                 cwd=self._folder,
                 env={**os.environ, **names},
                 stdin=subprocess.DEVNULL,
-                stdout=_STDERR,  # its output would break the lines of --format json
+                stdout=_STDERR,  # the output of the command would break the lines of --format json
                 check=False,
             ).returncode
             problem = f"ended with exit code {code}" if code > 0 else f"was ended by signal {-code}" if code else ""

@@ -20,7 +20,7 @@ from urdfsync.watch.paths import WatchedFolders
 if TYPE_CHECKING:
     from watchdog.observers.api import BaseObserver, ObservedWatch
 
-# not opening or reading: the daemon must not wake itself
+# no events of opening or reading: the daemon's own reads would wake it
 _EVENTS: list[type[events.FileSystemEvent]] = [
     events.FileAttribEvent,
     events.FileClosedEvent,
@@ -39,9 +39,9 @@ _HINTS = {
 }
 
 
-# watchdog warns of lost events; the next rescan makes up for them
+# watchdog warns of lost events, but the next rescan finds all changes
 logging.getLogger("watchdog").addHandler(logging.NullHandler())
-# it also warns of a folder that was deleted and made again while it is watched: the new watch replaces the old one
+# watchdog also warns of a folder that was deleted and made again: the new watch replaces the old one
 warnings.filterwarnings("ignore", category=RuntimeWarning, module="watchdog")
 
 
@@ -53,13 +53,13 @@ class FileEvent(NamedTuple):
 
 
 class Observer(events.FileSystemEventHandler):
-    """Puts a message into a queue for each event in a watched folder, until it is closed."""
+    """Puts a message into a queue for each event in a watched folder, until `close` is called."""
 
     def __init__(self, queue: SimpleQueue[object]) -> None:
         self._queue = queue
         self._backend: BaseObserver | None = None
         self._watches: dict[tuple[str, bool, int, int], ObservedWatch] = {}
-        """Watches by folder, whether folders below are watched, too, device number and inode."""
+        """Watches by folder, by whether folders below are watched, by device number and by inode."""
 
     def dispatch(self, event: events.FileSystemEvent) -> None:
         """Put an event into the queue."""
@@ -91,12 +91,12 @@ class Observer(events.FileSystemEventHandler):
         for key in wanted - self._watches.keys():
             folder, deep, *_ = key
             try:
-                if not os.access(folder, os.R_OK):  # watchdog does not report it
+                if not os.access(folder, os.R_OK):  # watchdog does not report missing permissions
                     raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
                 self._watches[key] = self._backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
             except (OSError, RuntimeError) as error:
                 number = getattr(error, "errno", None)
-                if number not in (errno.ENOENT, errno.ENOTDIR):  # deleted meanwhile: its parent is watched
+                if number not in (errno.ENOENT, errno.ENOTDIR):  # the folder was deleted; its parent is watched
                     problems.setdefault(number, _not_watched(error, shown(Path(folder))))
         return tuple(problems.values())
 

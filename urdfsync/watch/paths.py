@@ -15,7 +15,7 @@ from urdfsync.config import Config
 _MAX_STEPS = 1000
 """The most folders and links on the way to a file: links may lead in a circle."""
 _FEW = 16
-"""The most folders that are watched one by one, since each takes threads; more are watched through their parents."""
+"""The most folders that are watched one by one, since each takes threads; of more folders, the parents are watched."""
 
 
 class WatchedFolders(msgspec.Struct, frozen=True):
@@ -30,7 +30,7 @@ class WatchedFolders(msgspec.Struct, frozen=True):
 def find_watched_folders(
     config: Config, entries: Iterable[Entry], package_paths: Sequence[Path] = ()
 ) -> WatchedFolders:
-    """Return the folders to watch for changes of entries, and of each folder and link on the way to one.
+    """Return the folders to watch for changes of entries, and of each folder and link on the way to an entry.
 
     A folder above the configuration's is watched only if it holds one of the files.
     """
@@ -63,7 +63,7 @@ def find_watched_folders(
 
 
 def _shows(place: str, above: set[str]) -> bool:
-    """Return whether to watch a place's folder: not the root of the disk, and not above a missing folder."""
+    """Return whether to watch the folder of a path: not the root of the disk, and not above a missing folder."""
     folder = os.path.dirname(place)  # noqa: PTH120
     return os.path.dirname(folder) != folder and (folder not in above or os.path.exists(place))  # noqa: PTH110, PTH120
 
@@ -83,7 +83,7 @@ def _way_to(path: str) -> list[str]:
     while parts and len(way) < _MAX_STEPS:
         folder, place = place, os.path.join(place, parts.pop())  # noqa: PTH118
         way.append(place)
-        with contextlib.suppress(OSError):  # no link, or missing
+        with contextlib.suppress(OSError):  # `place` is no link, or missing
             target = os.path.normpath(os.path.join(folder, os.readlink(place)))  # noqa: PTH115, PTH118
             *more, place = reversed(Path(target).parts)
             parts += more

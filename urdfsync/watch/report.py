@@ -1,7 +1,7 @@
 """The output of `urdfsync watch`: lines and a status for people, a line of JSON per event for programs.
 
-Lines scroll: one per build with its changes, errors and conflicts as `build` shows them. Conflicts, warnings and
-orphans of a robot's last build are not shown again by the next one.
+Lines scroll: each build has a line, with changes, errors and conflicts as `build` shows them. The next build of a robot
+does not repeat the conflicts, warnings and orphans of its last build.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from urdfsync.watch.terminal import StatusArea
 _NAME_WIDTH = 24
 """The most columns of the robots' names."""
 _FEW = 2
-"""The most changes of a model that are spelled out, and their most characters; more changes are counted."""
+"""The most changes of a model that are spelled out, and the most characters of the text; more are counted."""
 _MAX_LENGTH = 100
 _SPACED = 4
 """With fewer rows, a terminal has no empty row above the status."""
@@ -77,11 +77,11 @@ _STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
     events.Resumed: ("building again", None),
     events.Stopping: ("stopped by {0.signal}", None),
 }
-"""Events with one line, and the activity that they begin. Only the last one is shown without `--verbose`."""
+"""Events with one line, and the activity that begins with each; without `--verbose` only `Stopping` is shown."""
 
 
 class RobotStatus(NamedTuple):
-    """One robot at one moment."""
+    """The state of one robot at one moment."""
 
     activity: Activity
     text: str
@@ -89,7 +89,7 @@ class RobotStatus(NamedTuple):
 
 
 class LogLine(NamedTuple):
-    """One line, and whether it belongs on the error stream."""
+    """One line, and whether this line belongs on the error stream."""
 
     text: StyledLine
     error: bool = False
@@ -136,7 +136,7 @@ class Report:
         self._commands: set[str] = set()
         """Robots for which a command of `--exec` runs."""
         self._pause = ""
-        """Why builds pause; empty if they do not."""
+        """Why builds pause; empty while they run."""
 
     def __enter__(self) -> Self:
         return self
@@ -162,7 +162,7 @@ class Report:
             self._area.write([line.text.__rich__() for line in lines], [row.__rich__() for row in rows])
 
     def take(self, event: events.Event, clock: str) -> Iterator[LogLine]:
-        """Record an event at this time of day; yield its lines."""
+        """Record an event at this time of day; yield the lines about it."""
         match event:
             case events.Started(file, robots, again):
                 starting = RobotStatus(Activity.STARTING, Activity.STARTING)
@@ -216,7 +216,7 @@ class Report:
             yield from self._findings(diagnostics)
 
     def _built(self, event: events.Built, clock: str) -> Iterator[LogLine]:
-        """Yield a build's new findings, its line if it wrote or found anything, and its new conflicts."""
+        """Yield the new findings of a build, a line if it wrote or found anything, and the new conflicts."""
         result, robot, verbose = event.result, event.result.robot, self._console.verbose
         was_in_step = not (self._told.get((robot, "broken")) or self._told.get((robot, "conflicts")))
         errors = [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
@@ -272,7 +272,7 @@ class Report:
         return self._told[robot, topic] - before
 
     def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[LogLine]:
-        """Yield findings as all commands show them; with the time if no line of a build stands above."""
+        """Yield findings as all commands show them, with the time if they do not follow a line of a build."""
         for finding in findings(diagnostics, quiet=self._console.quiet, verbose=self._console.verbose):
             yield LogLine(StyledLine(((f"{clock}  " if clock else "", "dim"), *finding.parts)), error=True)
 
@@ -310,7 +310,7 @@ class Report:
         return rows
 
     def status_lines(self, room: int, *, marks: bool) -> Iterator[StyledLine]:
-        """Yield a line for each robot that has room, and one for all others.
+        """Yield lines for as many robots as the terminal has room for, and one line for all others.
 
         If there are too many robots, the most urgent ones are shown.
         """
@@ -322,7 +322,7 @@ class Report:
             yield line((self._pause, "yellow"))
             room -= 1
         by_rank = sorted(rows, key=lambda robot: _RANKS.index(rows[robot].activity))
-        number = len(rows) if len(rows) <= room else max(room - 1, 0)  # room for the line that counts the others
+        number = len(rows) if len(rows) <= room else max(room - 1, 0)  # a line that counts the other robots needs room
         width = min(max(map(len, by_rank[:number]), default=0), _NAME_WIDTH)
         for robot in (robot for robot in rows if robot in by_rank[:number]):
             activity, text = rows[robot]
@@ -336,12 +336,12 @@ class Report:
 
 
 def _key(finding: Diagnostic) -> Hashable:
-    """Return the identity of a finding: without its line, which changes with the lines above it."""
+    """Return the identity of a finding, without the line number, which edits above the place change."""
     return finding.code, finding.message, finding.file
 
 
 def _changes(result: Result) -> list[str]:
-    """Return the changes of the model: a few in words, else their number."""
+    """Return the changes of the model: a few changes in words, else the number of changes."""
     if result.effective_changes is None:
         return []
     changes = result.effective_changes

@@ -16,10 +16,10 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.package_files import note_state, unchanged_state
 
 _TOLD = (STAT, STAT_TYPE, LSTAT)
-"""Kinds of entries whose changes are reported, inputs first. Lists of folders and other robots' states are not."""
+"""Kinds of entries whose changes are reported, inputs first; not lists of folders, not other robots' states."""
 
 Looks: TypeAlias = dict[Entry, "str | tuple[int, ...]"]
-"""The state of each entry: for a file its content's hash, whatever its times; for all else its facts."""
+"""The state of each entry: the hash of a file's content, without its times, or the facts of any other entry."""
 
 
 def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[int, ...]:
@@ -37,7 +37,7 @@ def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[i
 
 
 def _recall(reads: Dependencies, entry: Entry, facts: tuple[int, ...]) -> str | tuple[int, ...]:
-    """Return the state of an entry during a build; for a changed file of unknown content, its facts."""
+    """Return the state of an entry as a build read it: the content's hash, or the facts if a file changed meanwhile."""
     known = unchanged_state(entry[1], facts)
     if sha256 := reads.hashes.get(entry) or (known and known.sha256):
         return sha256
@@ -56,23 +56,23 @@ class WatchedRobot(msgspec.Struct):
     due: float = math.inf
     """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
     is_told: bool = False
-    """Whether `Settling` was reported; it is not reported after the daemon's own writes."""
+    """Whether `Settling` was reported; the daemon's own writes cause no report."""
     sample: Looks | None = None
     """The state at the look before the last; None if an event came since. Two equal looks: the robot has settled."""
     invalid_until: float = 0.0
-    """The time until an invalid source becomes an error; 0 if it is valid, or an error already."""
+    """The time until an invalid source becomes an error; 0 for a valid source, and once it is an error."""
     is_confirmed: bool = False
     """Whether the last build had nothing to write, with the present configuration."""
     failure: tuple[Diagnostic, ...] | None = None
-    """Why the last build failed; None if it did not."""
+    """Why the last build failed; None after a success."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """Files that the last build left alone: misfits, and stale files that it did not write; each with the reason."""
+    """Files that the last build did not write, each with the reason: misfits, and stale files."""
     pending: tuple[Path, ...] = ()
-    """Files that were written while the package is broken: the command of `--exec` waits until it is repaired."""
+    """Files that were written while the package is broken: the command of `--exec` waits for its repair."""
 
     @property
     def name(self) -> str:
-        """Its name in the configuration."""
+        """The robot's name in the configuration."""
         return self.robot.name
 
     def settle(self, due: float, *, is_told: bool) -> None:
@@ -80,9 +80,9 @@ class WatchedRobot(msgspec.Struct):
         self.due, self.is_told, self.sample, self.invalid_until = due, is_told, None, 0.0
 
     def take(self, reads: Dependencies, config: Looks) -> bool:
-        """Take the entries and the configuration of a build; returns whether the entries differ from the last ones."""
+        """Take the entries and the configuration of a build; return whether the last build had other entries."""
         before, entries = self.built.keys(), reads.entries
-        if not entries:  # a bug ended the build: do not repeat it
+        if not entries:  # a bug ended the build: do not repeat the build
             self.built = {entry: look_at(entry) for entry in before} | config
             return False
         self.built = {
@@ -91,7 +91,7 @@ class WatchedRobot(msgspec.Struct):
         return before != self.built.keys()
 
     def look(self) -> bool:
-        """Look at all entries; returns whether one changed since the last look."""
+        """Look at all entries; return whether one of them changed since the last look."""
         before, self.seen = self.seen, {entry: look_at(entry) for entry in self.built}
         return self.seen != before
 
@@ -102,6 +102,6 @@ class WatchedRobot(msgspec.Struct):
 
     @property
     def changed_file(self) -> str:
-        """The changed file, an input before outputs; empty if no reported one has changed."""
+        """The changed file, an input before outputs; empty without a change to report."""
         changed = (entry for entry in self.built if entry[0] in _TOLD and self.seen[entry] != self.built[entry])
         return min(changed, key=lambda entry: (_TOLD.index(entry[0]), entry[1]), default=("", ""))[1]

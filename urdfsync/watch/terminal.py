@@ -29,7 +29,7 @@ class StatusArea:
 
     @property
     def room(self) -> int:
-        """The most rows of the status: a third of the terminal, but at least four if it has five."""
+        """The most rows of the status: a third of the terminal's rows, but at least four if the terminal has five."""
         height = self.console.height
         return max(min(4, height - 1), height // 3)
 

@@ -1,7 +1,7 @@
 """Serves the pages of watched robots to browsers on this machine; server-sent events update them.
 
-The server listens only on the loopback interface. It refuses requests from pages of other sites. Their `Origin`
-differs, or their `Host` does, if the other site's name resolves to this machine.
+The server listens only on the loopback interface. The server refuses requests from pages of other sites. Such a request
+has another `Origin`, or another `Host` if the site's name resolves to this machine.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from urdfsync.watch.daemon import WatchOptions
 _ALIVE = 10.0
 """Seconds between messages, by which the server notices closed browsers."""
 _MOST = 50
-"""The most connections at a time; each open page has one."""
+"""The most connections at a time; each open page has one connection."""
 _IDLE = 15.0
 """Seconds that a connection may take for its request, or for an answer."""
 _HEADERS = {"Cache-Control": "no-store", "X-Content-Type-Options": "nosniff", "X-Frame-Options": "DENY"}
 
 
 class _Robot(msgspec.Struct):
-    """One robot. `build` counts builds and checks, `page_build` is the number on the page."""
+    """One robot. `build` counts builds and checks; `page_build` is that number in the page."""
 
     build: int = 0
     problem: str = ""
@@ -45,7 +45,7 @@ class _Robot(msgspec.Struct):
     page: bytes = b""
     page_build: int = -1
     shown: tuple[Contents, ...] = ()
-    """The version that the page shows, then the one before."""
+    """The version that the page shows, then the version before."""
 
 
 class View:
@@ -60,7 +60,7 @@ class View:
             self._server = _Server(("127.0.0.1", port), functools.partial(_Handler, self))
         except (OSError, OverflowError) as error:
             message = f"port {port} can't be used for the view: {getattr(error, 'strerror', error)}"
-            raise OutputError.of("port-taken", message, hint="name another one with `--port`") from error
+            raise OutputError.of("port-taken", message, hint="name another port with `--port`") from error
         self.hosts = tuple(f"{name}:{self._server.server_port}" for name in ("127.0.0.1", "localhost"))
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
@@ -89,7 +89,7 @@ class View:
             self._news.notify_all()
 
     def page(self, name: str) -> bytes:
-        """Return the present page of a robot, else the last one; empty if there is none."""
+        """Return the present page of a robot, else the last one; empty without a page."""
         robot = self.robots[name]
         with self._making:
             if (build := robot.build) == robot.page_build:
@@ -102,7 +102,7 @@ class View:
                 robot.page, robot.page_build = page(content, check=check, build=build), build
                 if not robot.shown or robot.shown[0][0] != content.version[0]:
                     robot.shown = (content.version, *robot.shown[:1])
-            except Exception as error:  # noqa: BLE001 - builds go on, and the next one makes a new page
+            except Exception as error:  # noqa: BLE001 - builds go on, and the next build makes a new page
                 is_known = isinstance(error, UrdfsyncError | OSError)
                 robot.problem = robot.problem or str(error if is_known else internal_error(error))
         return robot.page

@@ -281,7 +281,7 @@ def test_a_loop_that_stays_open_is_told_without_the_others() -> None:
     bad = ((0.2, 0.5, 0.4, 0.6), ((-3.0, 3.0), (-3.0, 3.0), (2.9, 3.0)))
     (fault,) = assemble(hand((*FINGERS, bad)), frozenset(), frozenset()).faults
     assert (fault.code, fault.path) == ("loop-open", "loop pin3")
-    assert fault.hint == "it closes beyond the limits of 'rocker3': correct these, or its frames"
+    assert fault.hint == "the loop closes beyond the limits of 'rocker3': correct the limits, or its frames"
 
 
 def test_loops_that_close_only_alone_are_told_so() -> None:
@@ -293,7 +293,7 @@ def test_loops_that_close_only_alone_are_told_so() -> None:
     ]
     pins = [Loop(f"pin{x:g}", "ball", "base", link, Origin((x, 0, 0))) for x, link in ((0.6, "c"), (0.2, "b"))]
     found = assemble(tree(joints, *pins), frozenset(), frozenset()).faults
-    assert {(fault.code, "only without the other loops" in fault.hint) for fault in found} == {("loop-open", True)}
+    assert {(fault.code, "not with other loops" in fault.hint) for fault in found} == {("loop-open", True)}
 
 
 def test_test_moves_a_rocker_as_far_as_its_loop_allows() -> None:

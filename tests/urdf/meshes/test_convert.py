@@ -100,12 +100,12 @@ def test_normals_fit_the_corners_and_a_flat_triangle_has_none() -> None:
 
 
 @pytest.mark.parametrize(("uri", "content", "scale", "reason"), [
-    ("package://arm/box.stl", b"garbage", UNIT, "its end is missing"),
-    ("package://arm/box.obj", b"garbage", UNIT, "it has no triangles"),
-    ("package://arm/box.ply", b"ply\n", UNIT, "it is damaged or of another format "),
-    ("package://arm/box.step", b"ISO-10303-21;", UNIT, "its format isn't one of "),
-    ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "it has coordinates that aren't finite"),
-    ("package://arm/box.obj", b"v 0 0 1e39\nf 1 1 1", UNIT, "it has coordinates that aren't finite, or too large"),
+    ("package://arm/box.stl", b"garbage", UNIT, "the end of the file is missing"),
+    ("package://arm/box.obj", b"garbage", UNIT, "the file has no triangles"),
+    ("package://arm/box.ply", b"ply\n", UNIT, "the file is damaged or of another format "),
+    ("package://arm/box.step", b"ISO-10303-21;", UNIT, "the format isn't one of "),
+    ("package://arm/box.obj", CONTENTS[".obj"], (1e308, -1e308, 1e308), "the file has coordinates that are infinite"),
+    ("package://arm/box.obj", b"v 0 0 1e39\nf 1 1 1", UNIT, "the file has coordinates that are infinite, or too large"),
 ])  # fmt: skip
 def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vector, reason: str) -> None:
     with pytest.raises(SourceError) as caught:
@@ -115,7 +115,7 @@ def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vect
     assert diagnostic.code == "unreadable-mesh"
     assert diagnostic.file == f"/ws/arm/{Path(uri).name}"
     assert diagnostic.message.startswith(f"the mesh {uri} can't be read: {reason}")
-    assert diagnostic.hint == "export it again, best as STL or OBJ"
+    assert diagnostic.hint == "export the mesh again, best as STL or OBJ"
 
 
 def test_the_command_itself_loads_no_library_for_meshes() -> None:

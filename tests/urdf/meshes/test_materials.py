@@ -112,7 +112,7 @@ def test_a_texture_that_is_too_large_to_be_read_in_time_has_no_colour() -> None:
     assert found.facts[COLORLESS] == []
 
 
-NO_PART, RED_AND_WOOD = ["a part of it has none"], b"newmtl red paint\nKd 1 0 0\nnewmtl wood\nKd 0 0 1\n"
+NO_PART, RED_AND_WOOD = ["a part has no colour"], b"newmtl red paint\nKd 1 0 0\nnewmtl wood\nKd 0 0 1\n"
 MISSING = {
     "no library": (OBJ, {"paint.mtl": b""}, ["`paint.mtl` not found"]),
     "no material": (OBJ, {"paint.mtl": b"newmtl wood\nKd 1 1 1"}, NO_PART),
@@ -227,7 +227,7 @@ def test_a_change_of_another_file_is_a_change_of_the_mesh(painted: Path, execute
     for _ in range(2):
         said = execute("build", "--verbose").words
         assert "arm.urdf:1: warning: mesh `meshes/a.obj` lacks colours: " in said
-        assert "`textures/wood.png` not found; put what is missing beside the mesh" in said
+        assert "`textures/wood.png` not found; put the missing files beside the mesh" in said
     assert "color = {51, 51, 51}" in record()
 
 

@@ -55,14 +55,14 @@ def test_texts_are_read_in_the_process_for_meshes() -> None:
     obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
     assert np.ptp(read("a.stl", stl(2).encode())[1].vertices, axis=0).tolist() == [2, 2, 0]
     assert read("b.OBJ", obj)[0].faces == 1
-    assert triangles("c.obj", b"f 1 2 3\n", KEY, 9) == "it has no triangles"
+    assert triangles("c.obj", b"f 1 2 3\n", KEY, 9) == "the file has no triangles"
 
 
 def test_corners_that_are_no_numbers_are_left_out() -> None:
     content = bytearray(ball(1))
     content[96:100] = np.float32("nan").tobytes()
     assert read("a.stl", bytes(content))[0].faces == 79
-    assert triangles("a.stl", bytes(84), KEY, 9) == "it has no triangles"
+    assert triangles("a.stl", bytes(84), KEY, 9) == "the file has no triangles"
 
 
 def test_a_mesh_without_area_has_no_triangles() -> None:

@@ -77,7 +77,7 @@ def test_axes_that_are_none_are_told() -> None:
     """Such an element may stand in a URDF itself."""
     text = URDF.replace(b"</robot>", b'<joint_axes joint="e" axes="q"/></robot>')
     (finding,) = read_robot(text, "a.urdf").diagnostics
-    assert (finding.code, "no such axes as 'q'" in finding.message) == ("unknown-reference", True), finding
+    assert (finding.code, "its axes 'q' are unknown" in finding.message) == ("unknown-reference", True), finding
 
 
 def test_another_yaml_says_nothing() -> None:
@@ -87,22 +87,22 @@ def test_another_yaml_says_nothing() -> None:
 
 @pytest.mark.parametrize(("yaml", "line", "words"), [
     (b"a: 1\nclosed_loop: [[x, y]\ntype: ['6d']\n", 3, "expected"),
-    (b"a: 1\nclosed_loop: [[x, y]]\ntype: []\n", 2, "it has 1 loop and 0 types"),
+    (b"a: 1\nclosed_loop: [[x, y]]\ntype: []\n", 2, "the file has 1 loop and 0 types"),
     (b"closed_loop: [[x, y]]\ntype: ['5d']\n", 2, "the type '5d' is none of 3d, 6d"),
     (b"closed_loop: [[x]]\ntype: ['6d']\n", 1, "an item of `closed_loop` is no pair of frames"),
     (b"closed_loop: [[x, [y]]]\ntype: ['6d']\n", 1, "an item of `closed_loop` is no name"),
     (b"closed_loop: 5\ntype: ['6d']\n", 1, "`closed_loop` is no list"),
     (b"closed_loop: []\ntype: []\nclosed_loop: []\n", 3, "the key `closed_loop` stands twice"),
-    (b"a: 1\nclosed_loops: [[x, y]]\ntype: ['6d']\n", 2, "`closed_loops` is unknown, perhaps `closed_loop` is meant"),
+    (b"a: 1\nclosed_loops: [[x, y]]\ntype: ['6d']\n", 2, "`closed_loops` is unknown; perhaps `closed_loop` is meant"),
     (YAML.replace(b"['m']", b"m"), 3, "`name_mot` is no list"),
-    (YAML.replace(b"[SPHERICAL]", b"[]"), 1, "it has 1 joint and 0 joint types"),
+    (YAML.replace(b"[SPHERICAL]", b"[]"), 1, "the file has 1 joint and 0 joint types"),
     (YAML.replace(b"[SPHERICAL]", b"[[X]]"), 5, "an item of `joint_type` is no name"),
     (YAML.replace(b"[SPHERICAL]", b"[BALL]"), 5, "the joint type 'BALL' is none of FIXED, SPHERICAL"),
     (b"closed_loop: " + b"[" * 2_000, 1, "lists are nested 50 deep"),
     (b"closed_loop:\n " + b"- " * 2_000, 2, "lists are nested 50 deep"),
-    (b"closed_loop: [" + b"[x, y], " * 20_000 + b"]", 1, "it has more than 100,000 bytes"),
+    (b"closed_loop: [" + b"[x, y], " * 20_000 + b"]", 1, "the file has more than 100,000 bytes"),
     (b"closed_loop: [&a [%b, y]%b]\ntype: [&k 6d%b]" % (b"x" * 30_000, b", *a" * 7_000, b", *k" * 7_000), 1,
-     "its elements have more than 10,000,000 characters"),
+     "the elements for the URDF have more than 10,000,000 characters"),
     (b'closed_loop: [["\\UFFFFFFFF", y]]\ntype: [6d]', 1, "this is no list of loops"),
     (b'closed_loop: [["\\uD800", y]]\ntype: [6d]', 1, "this is no list of loops"),
 ])  # fmt: skip

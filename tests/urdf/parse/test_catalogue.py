@@ -132,7 +132,7 @@ def test_a_fault_of_a_row_is_one_diagnostic(old: str, new: str, message: str) ->
 
 
 @pytest.mark.parametrize(("csv", "line", "message"), [
-    (CSV.replace("410", "4,10"), 2, "the row `S` has 10 cells, and the header 9"),
+    (CSV.replace("410", "4,10"), 2, "the row `S` has 10 cells, but the header has 9"),
     (f"{CSV}S,1,,,,,,,\n", 5, "the row `S` stands in line 2, too"),
     (CSV.replace("torque", "tork"), 1, "there is no column `torque`"),
     ("", 0, "the table has no rows"),
@@ -147,9 +147,7 @@ def test_a_fault_of_the_table_has_its_line(csv: str, line: int, message: str) ->
 def test_a_joint_without_limits_of_position_keeps_its_freedom() -> None:
     urdf = URDF.replace('<limit lower="-3" upper="3" velocity="10" effort="1000"/>', "")
     found = [each for each in read_robot(joined(urdf=urdf), "a.urdf").diagnostics if each.code == "bad-row"]
-    assert [each.message for each in found] == [
-        "joint `elbow` has no <limit>, and the row `S` can't give it limits of position"
-    ]
+    assert [each.message for each in found] == ["joint `elbow` has no <limit>: the row `S` gives no limits of position"]
 
 
 def test_a_motor_of_two_joints_takes_no_reduction() -> None:
@@ -158,7 +156,7 @@ def test_a_motor_of_two_joints_takes_no_reduction() -> None:
     shared = f'<transmission name="t"><type>x/DifferentialTransmission</type>{parts}</transmission>'
     found = read_robot(joined(urdf=URDF.replace(GEAR, shared)), "a.urdf").diagnostics
     assert [each.message for each in found] == [
-        "the motor of joint `elbow` moves `wheel`, too: a row can't give its reduction"
+        "the motor of joint `elbow` also moves `wheel`: a row can't give its reduction"
     ]
     rows = CSV.replace(",353,", ",,")
     assert differences(joined(rows, URDF.replace(GEAR, shared)), approach=("package",), **OPTIONS) == []

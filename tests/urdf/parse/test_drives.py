@@ -236,8 +236,8 @@ def test_joints_that_are_coupled_in_another_way_are_driven_and_told(element: str
 def test_a_motor_moves_two_joints_that_turn_by_themselves(other: str) -> None:
     reading = read_robot(urdfs.robot(*BASE[:-1], other, WRIST).encode(), "own.urdf")
     assert [str(found) for found in reading.diagnostics] == [
-        "own.urdf:12: warning: transmission wrist couples elbow and roll, which do not both turn by themselves: "
-        f"they have no gears; {BY_HAND} [coupled-transmission]"
+        "own.urdf:12: warning: transmission wrist couples elbow and roll, but not both joints turn by themselves: "
+        f"neither has a gear; {BY_HAND} [coupled-transmission]"
     ]
     assert elbow(reading).transmission is None
 
@@ -355,11 +355,12 @@ def test_couplings_of_ros2_control_and_of_plugins(element: str, mimic: Mimic) ->
 
 @pytest.mark.parametrize(("element", "words"), [
     (plugin("drive wheel"), "warning: joint 'elbow' has two couplings that differ: that of joint elbow / mimic "
-     "counts, that of gazebo number 1 / joint elbow does not; correct one of them"),
+     "counts, that of gazebo number 1 / joint elbow does not; correct one of the two elements"),
     (followed(numbers='<param name="multiplier">2</param>'), "warning: joint 'elbow' has two couplings that "
-     "differ: that of joint elbow / mimic counts, that of ros2_control c / joint elbow does not; correct one of them"),
+     "differ: that of joint elbow / mimic counts, that of ros2_control c / joint elbow does not; correct one of the "
+     "two elements"),
     (control('<joint name="elbow" mimic="false"/>'), "warning: ros2_control c / joint elbow has mimic='false', but "
-     "joint 'elbow' follows another one, which counts; correct one of them"),
+     "joint 'elbow' follows another joint all the same; correct one of the two elements"),
 ])  # fmt: skip
 def test_a_coupling_that_contradicts_the_mimic_of_the_joint_is_told(element: str, words: str) -> None:
     mimicking = urdfs.joint("elbow", "continuous", "base", "arm", inside=[urdfs.mimic("roll")])
@@ -397,13 +398,13 @@ FOLLOWING = urdfs.joint("elbow", "continuous", "base", "arm", inside=[urdfs.mimi
 
 
 @pytest.mark.parametrize(("joint", "elements", "words"), [
-    (LIMITED, [begins("2.5")], "10: warning: joint 'elbow' begins at 2.5, outside of its limits -1 to 2, and is not "
-     "put there"),
-    (LIMITED, [begins("-1.5")], "10: warning: joint 'elbow' begins at -1.5, outside of its limits -1 to 2, and is not "
-     "put there"),
+    (LIMITED, [begins("2.5")], "10: warning: joint 'elbow' begins at 2.5, outside of its limits -1 to 2: the start "
+     "is ignored"),
+    (LIMITED, [begins("-1.5")], "10: warning: joint 'elbow' begins at -1.5, outside of its limits -1 to 2: the start "
+     "is ignored"),
     (LIMITED, [begins("half")], "10: warning: ros2_control c / joint elbow: <param> 'half' is not a decimal number"),
     (LIMITED, [begins("2", "velocity")], "10: warning: ros2_control c / joint elbow begins with velocity 2; in Run and "
-     "Test it begins at rest"),
+     "Test the joint begins at rest"),
     (LIMITED, [begins("1"), begins("2")], "11: warning: joint 'elbow' has two start positions that differ: that of "
      "ros2_control c / joint elbow counts, that of ros2_control c #2 / joint elbow does not"),
     (FOLLOWING, [begins("1", joint="roll"), begins("2")], "11: warning: joint 'elbow' can't begin at 2: the joint that "
@@ -437,7 +438,7 @@ def test_a_drive_of_a_joint_that_does_not_exist_is_told_with_its_line() -> None:
         "own.urdf:11: warning: transmission left drives joint 'drive weel', which does not exist; "
         "perhaps 'drive wheel' is meant [unknown-actuated-joint]",
         "own.urdf:13: warning: ros2_control all drives joint 'zzz', which does not exist; "
-        "correct its name, or take it out [unknown-actuated-joint]",
+        "correct the name of the joint, or remove the element [unknown-actuated-joint]",
     ]
     assert actuated(reading) == []
 
@@ -450,4 +451,4 @@ def test_what_a_joint_with_an_error_leaves_out_is_no_second_finding() -> None:
 def test_a_drive_of_a_ball_is_told() -> None:
     content = urdfs.robot(*BASE, '<transmission name="t"><joint name="elbow"/></transmission>')
     (warning,) = read_robot(content.replace("continuous", "ball", 1).encode(), "own.urdf").diagnostics
-    assert str(warning).startswith("own.urdf:7: warning: joint 'elbow' is a ball: its drive has no effect; drive it in")
+    assert str(warning).startswith("own.urdf:7: warning: joint 'elbow' is a ball: its drive has no effect; drive the")

@@ -61,7 +61,7 @@ def test_the_first_number_counts_and_all_else_is_kept() -> None:
     )
     found, diagnostics, *_ = read_robot(robot('<link name="foot"/>', *elements).encode(), "a.urdf")
     assert [(one.code, one.message) for one in diagnostics] == [
-        ("duplicate-element", "link foot: kp 2 contradicts the first one, 1, which counts"),
+        ("duplicate-element", "link foot: kp 2 contradicts 1, the first value, which counts"),
         ("unknown-reference", "<gazebo> refers to 'x', which is no link or joint"),
     ]
     assert found is not None

@@ -82,7 +82,7 @@ def test_a_ball_of_drake_is_a_point_on_each_body() -> None:
 
 def test_limits_of_a_loop_are_told() -> None:
     (finding,) = read(ENDS.replace("</loop", '<limit lower="-1" upper="1"/></loop')).diagnostics
-    assert (finding.code, finding.hint) == ("unknown-element", "correct its name, or remove it")
+    assert (finding.code, finding.hint) == ("unknown-element", "correct the name, or remove the element")
 
 
 def test_a_joint_of_sdf_is_closed_where_all_joints_are_at_zero() -> None:
@@ -172,20 +172,20 @@ def test_two_configured_loops_of_one_name_are_one_error() -> None:
     (LOOP_JOINT.replace("rocker", "rockr"), "loop-of-no-link", "perhaps 'rocker' is meant"),
     (LOOP_JOINT.replace("rocker", "rod"), "loop-one-link", "name two links"),
     (LOOP_JOINT.replace('link="rocker"', ""), "missing-attribute", "add it"),
-    (LOOP_JOINT.replace("0 0 2", "0 0 0"), "loop-axis", "give the axes directions"),
+    (LOOP_JOINT.replace("0 0 2", "0 0 0"), "loop-axis", "give each axis a direction"),
     (LOOP_JOINT.replace("revolute", "prismatic"), "loop-joint", "ball, revolute, universal or fixed"),
     (LOOP_JOINT.replace("0.4 0.2 0", "0.4 0.2"), "bad-number", "decimal numbers"),
     (LOOP_JOINT.replace("<link2", "<child"), "missing-element", "add it"),
-    (ENDS.replace('"parent"', '"root"'), "loop-joint", 'write it in that of the parent, frame="parent"'),
+    (ENDS.replace('"parent"', '"root"'), "loop-joint", 'write the axis in the frame of the parent: frame="parent"'),
     (ENDS.replace('"rocker"', '"rockr"'), "loop-of-no-link", "perhaps 'rocker' is meant"),
     (ENDS.replace("0.2 0.3 0", "0.2 x 0"), "bad-number", "decimal numbers"),
     (DRAKE.replace("body_B", "body_C"), "missing-element", "add it"),
     (GAZEBO.replace("<parent>rod</parent>", ""), "missing-element", "add it"),
     (GAZEBO.replace("<child>rocker</child>", "<child>rockr</child>"), "loop-of-no-link", "perhaps 'rocker' is meant"),
-    (GAZEBO.replace("<pose>", "<pose relative_to='rod'>"), "loop-joint", "write it in the frame of link 'rocker'"),
-    (GAZEBO.replace("<xyz>", "<xyz expressed_in='__model__'>"), "loop-joint", "in the frame of link 'rocker'"),
+    (GAZEBO.replace("<pose>", "<pose relative_to='rod'>"), "loop-joint", "use the frame of link 'rocker'"),
+    (GAZEBO.replace("<xyz>", "<xyz expressed_in='__model__'>"), "loop-joint", "use the frame of link 'rocker'"),
     (LOOP_JOINT + LOOP_JOINT, "duplicate-loop", "rename or remove one loop"),
-    (LOOP_JOINT + LOOP_JOINT.replace("closing", "again"), "loop-twice", "remove one of them"),
+    (LOOP_JOINT + LOOP_JOINT.replace("closing", "again"), "loop-twice", "remove one of the two loops"),
 ])  # fmt: skip
 def test_each_fault_is_one_error_with_its_line(element: str, code: str, words: str) -> None:
     (error,) = (found for found in read(element).diagnostics if found.severity is Severity.ERROR)

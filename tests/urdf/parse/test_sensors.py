@@ -113,8 +113,9 @@ def test_forms(element: str, expected: list[Sensor]) -> None:
 
 
 @pytest.mark.parametrize(("element", "message"), [
-    (gazebo("gone", "imu", "imu"), "sensor imu is at link 'gone', which does not exist: it is left out"),
-    (gazebo("base", "ft", "force_torque"), "sensor ft is at joint 'base', which does not exist: it is left out"),
+    (gazebo("gone", "imu", "imu"), "sensor imu is at link 'gone', which does not exist: the sensor is left out"),
+    (gazebo("base", "ft", "force_torque"), "sensor ft is at joint 'base', which does not exist: the sensor is left "
+     "out"),
 ])  # fmt: skip
 def test_a_sensor_at_nothing_is_left_out_with_a_warning(element: str, message: str) -> None:
     reading = read(element)

@@ -64,9 +64,7 @@ TREE = robot(
 def test_massless_links_that_weigh_on_no_joint_stay_massless() -> None:
     """The sensor does not move against the base, the carrier moves the load."""
     content, notes = with_inertias(TREE, KinematicTree.of(robot_of(TREE)))
-    assert notes == (
-        "inertias were made up for 2 links of the generated package only, because they move without any mass",
-    )
+    assert notes == ("inertias were made up for 2 links of the generated package only, since moving links need a mass",)
     before, after = masses(TREE), masses(content)
     assert {name for name in before if before[name] != after[name]} == {"gripper", "tip"}
 

@@ -69,7 +69,7 @@ def test_a_heavy_base_hides_no_lost_damping() -> None:
 def test_what_is_made_up_is_said_and_read_by_both_sides() -> None:
     one = experiment(BARE)
     assert one.notes == (
-        "inertias were made up for 2 links of the generated package only, because they move without any mass",
+        "inertias were made up for 2 links of the generated package only, since moving links need a mass",
     )
     reading = DOMAIN.read(one.content, "robot.urdf", Options())
     assert reading.snapshot is not None
@@ -108,10 +108,10 @@ def test_a_ball_turns_as_prescribed_and_freely_and_its_whole_torque_is_compared(
     assert [len(each.values) for each in torques] == [3, 3]
     spins = [each for each in free.compared if each.element == "joint elbow"]
     assert [(each.quantity, len(each.values)) for each in spins] == [(Quantity.ACCELERATION, 3)]
-    assert "the record: it has no tables for robots with ball joints" in one.unchecked
+    assert "the record, which has no tables for robots with ball joints" in one.unchecked
     load = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo></robot>'
     sensed = experiment(ball.replace("</robot>", load))
-    assert "sensor load, in a ball: what prescribes the ball acts beside it" in sensed.unchecked
+    assert "sensor load, in a ball: the drive of the ball bypasses the sensor" in sensed.unchecked
     assert Part.SENSORS not in {each.part for each in sensed.trials[0].compared}
     options = Options(approach=("record",))
     assert DOMAIN.checks.experiment(Sample(ball.encode(), "robot.urdf", BOT, options, {})) == (
@@ -160,7 +160,7 @@ def test_a_robot_with_loops_is_moved_by_its_states_and_its_loops_are_compared(ba
     assert [max(map(abs, motion.expected[name][:5])) > 1 for name in force.values] == [True, True, False]
     assert {each.element for each in free.compared if each.quantity is Quantity.ACCELERATION} >= {"joint crank_pivot"}
     assert "crank_pivot(w_start" in free.probe.source, "it begins where the loop is closed"
-    assert "the limits of joints in loops beyond where crank_pivot moves them" in one.unchecked
+    assert "the limits of joints in loops beyond the motion of crank_pivot" in one.unchecked
     assert "the record, which has no loops" in one.unchecked
 
 

@@ -15,7 +15,7 @@ import trimesh
 from msgspec.structs import replace
 from support import corpus
 from support.cases import sampled
-from support.numbers import BOT, compare, of_package
+from support.numbers import BOT, compare, differences, of_package
 from support.packages import Package, generate, generate_robot, proposed_base, read
 from support.urdfs import dynamics, joint, limit, link, mimic
 from support.urdfs import robot as urdf
@@ -45,6 +45,11 @@ def test_shipped_examples_agree(example: Any) -> None:
     left = sum(int(sentence.rpartition("(")[2].split()[0]) for sentence in numbers.uncompared)
     assert numbers.right == numbers.total - left
     assert numbers.right > 400
+
+
+def test_the_menagerie_agrees() -> None:
+    """It gets one sensor of each new kind: this fails if the second reading does not know the kind."""
+    assert differences(corpus.REPOSITORY / "tests/golden/menagerie.urdf") == []
 
 
 @pytest.mark.parametrize("file", sampled(corpus.robots(), 4))
@@ -101,7 +106,7 @@ def test_a_sound_package_agrees(sound: Package) -> None:
     assert uncompared(numbers.uncompared) == {f"visual.{path}" for path in ("lower", "upper", "color", "opacity")}
 
 
-def of(kind: str, name: str, **parts: Any) -> Callable[[Robot], Robot]:
+def of(kind: str, name: str, /, **parts: Any) -> Callable[[Robot], Robot]:
     """Return what reads parts of an element otherwise; a function makes a part from the element."""
 
     def wrong(each: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Modelica compilers. Each job runs in its own process: a compiler may crash, and keeps gigabytes for large robots."""
+"""Modelica compilers. Each job runs in its own process: a compiler may crash, and never frees its gigabytes."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ _BOTH = ("rumoca", "omc")
 
 
 def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
-    """Return the one or two compilers that `--tool` chooses; if `name` is None, those that the configuration chooses.
+    """Return the one or two compilers that `--tool` chooses; if `name` is None, the configuration chooses them.
 
-    `trusted` says whether the user trusts the configuration: it may choose a compiler that lets models start programs,
-    or name the compiler's program. `--tool omc` is the user's own choice.
+    `trusted` says whether the user trusts the configuration: it may choose a program, or a compiler that lets models
+    start programs. `--tool omc` needs no trust: the user chose it.
     """
     chosen = name or config.check.tool
     if chosen not in {*COMPILERS, BOTH}:
@@ -55,7 +55,7 @@ def _tool(config: Config, name: str, *, is_trusted: bool) -> Tool:
 
 
 def find_missing(tool: Tool) -> Diagnostic | None:
-    """Return why a compiler can't be started, with a hint; None if it can."""
+    """Return why a compiler can't be started, with a hint; None if the compiler can be started."""
     compiler = COMPILERS[tool.name]
     for module in compiler.MODULES:
         if importlib.util.find_spec(module) is None:
@@ -82,8 +82,8 @@ def run_job(
 ) -> list[CompileResult]:
     """Do the tasks of a job in a process; returns a result for each, in order. `progress` is as in `process.run`.
 
-    A model that does not compile is a result. Raises CompilerError if the compiler is missing or breaks down, and
-    LimitError.
+    A model that does not compile raises no error: its result has the problem. Raises CompilerError if the compiler is
+    missing or breaks down, and LimitError.
     """
     compiler = COMPILERS[tool.name]
     if missing := find_missing(tool):
@@ -99,7 +99,7 @@ def run_job(
             task = job.tasks[min(len(error.results), len(job.tasks) - 1)].title
             message = f"{compiler.TITLE} crashed at {task}: {error}"
             killed = "probably the system was out of memory: check fewer robots at a time (--jobs)"
-            hint = killed if error.was_killed else f"report it to the authors of {compiler.TITLE}"
+            hint = killed if error.was_killed else f"report the crash to the authors of {compiler.TITLE}"
             raise CompilerError.of("compiler-crashed", message, hint=hint) from error
 
 

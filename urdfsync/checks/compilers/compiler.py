@@ -18,26 +18,27 @@ class Tool(msgspec.Struct, frozen=True):
     """A compiler that the user chose."""
 
     name: str = "rumoca"
-    """One of `compilers.COMPILERS`."""
+    """A name in `compilers.COMPILERS`."""
     program: str = ""
-    """The program to start, as a path or a name on the PATH; empty to look for it."""
+    """The program to start, as a path or a name on the PATH; empty to search for the program."""
     problem: Diagnostic | None = None
-    """Why the program may not be started; empty if it may."""
+    """Why the program may not be started; empty if this is allowed."""
 
 
 class Simulation(msgspec.Struct, frozen=True):
     """One run from 0 to `stop` s with results every `step` s.
 
-    `parameters` get other values than in the text. Only tests set them, to compile a model once for several runs.
+    `parameters` has new values for parameters of the text. Only tests set `parameters`, to compile a model once for
+    several runs.
     """
 
     stop: float
     step: float
     parameters: Mapping[str, float] = {}
     tolerance: float | None = None
-    """Relative and absolute tolerance of the integration; None leaves it to the compiler."""
+    """Relative and absolute tolerance of the integration; None leaves the choice to the compiler."""
     method: str = ""
-    """One of `Compiler.METHODS`; empty leaves it to the compiler."""
+    """A method in `Compiler.METHODS`; empty leaves the choice to the compiler."""
 
 
 class Export(msgspec.Struct, frozen=True):
@@ -50,7 +51,7 @@ class Export(msgspec.Struct, frozen=True):
 
 
 class CompileTask(msgspec.Struct, frozen=True):
-    """A model to compile, which is in the text `source`; then to simulate, if there are `runs`.
+    """A model in the text `source`, to compile and then to simulate for each of `runs`.
 
     If a compiler can't do a task, the problem of the result, or of each run, says so.
     """
@@ -63,7 +64,7 @@ class CompileTask(msgspec.Struct, frozen=True):
     pattern: str = ""
     """A regular expression for whole names: matching variables and parameters are returned as well."""
     parameters: tuple[str, ...] = ()
-    """Parameters that the text sets. The task fails if the model lacks one, or if nothing depends on it."""
+    """Parameters that the text sets. The task fails if the model lacks one of them, or if nothing depends on it."""
     title: str = ""
     """The name of the model in messages."""
     export: Export | None = None
@@ -76,7 +77,7 @@ class SimulationResult(msgspec.Struct, frozen=True):
     values: Mapping[str, tuple[float, ...]] = {}
     problem: str = ""
     termination: str = ""
-    """Why the model ended the simulation itself, in its words."""
+    """The model's message, if the model itself ended the simulation."""
     parameters: Mapping[str, float] = {}
     """The known values of parameters that `CompileTask.pattern` matches."""
 
@@ -85,15 +86,15 @@ class CompileResult(msgspec.Struct, frozen=True):
     """The answer to a task. A model that is not balanced does not compile."""
 
     problem: str = ""
-    """Why the model does not compile, in the compiler's words; empty if it does."""
+    """Why the model does not compile, in the compiler's words; empty if the model compiles."""
     unknowns: int = 0
-    """Number of scalar unknowns of the compiled model; it has as many equations."""
+    """Number of scalar unknowns of the compiled model, which equals the number of equations."""
     warnings: str = ""
     """Findings about a model that compiles, in the compiler's words."""
     runs: tuple[SimulationResult, ...] = ()
     """A result for each run of the task, in order, unless there is a `problem`."""
     parameters: tuple[str, ...] = ()
-    """All parameters of the model, if it lacks one that the task sets."""
+    """All parameters of the model, if it lacks a parameter that the task sets."""
     without_effect: tuple[str, ...] = ()
     """Parameters that the task sets and on which nothing in the compiled model depends."""
     version: str = ""
@@ -107,7 +108,7 @@ class CompileJob(msgspec.Struct, frozen=True):
     """Tasks for one process, one after the other."""
 
     roots: tuple[str, ...]
-    """Files and folders of packages, and folders that hold packages: libraries, and the robot's."""
+    """Files and folders of packages, and folders that hold packages: those of libraries and of the robot."""
     tasks: tuple[CompileTask, ...]
     program: str = ""
     """See `Tool.program`."""
@@ -118,7 +119,7 @@ class Complaint(msgspec.Struct, frozen=True):
 
     message: str
     file: str = ""
-    """The file as the compiler names it; empty if it names none."""
+    """The file as the compiler names it; empty without a file."""
     line: int = 0
     column: int = 0
     code: str = "does-not-compile"
@@ -126,11 +127,11 @@ class Complaint(msgspec.Struct, frozen=True):
 
 
 class CompilerError(UrdfsyncError):
-    """A compiler is missing or broke down; the code of the one diagnostic says which."""
+    """A compiler is missing or broke down; the code of the only diagnostic tells which of the two."""
 
 
 class Compiler(Protocol):
-    """A module of this package that drives one compiler. `config.settings.Compiler` lists its name."""
+    """A module of this package that drives one compiler. `config.settings.Compiler` lists the module's name."""
 
     TITLE: str
     """The name of the compiler in messages."""
@@ -143,24 +144,25 @@ class Compiler(Protocol):
     HAS_STANDARD_LIBRARY: bool
     """Whether the compiler finds the Modelica Standard Library itself."""
     STARTS_PROGRAMS: bool
-    """Whether it lets models start programs. Then the user has to trust the configuration that chooses it."""
+    """Whether the compiler lets models start programs. If so, the user has to trust a configuration that chooses it."""
 
     def program(self, named: str) -> str | None:
-        """Return the path of the program to start, empty if it needs none; None if it is missing.
+        """Return the path of the program to start; empty for a compiler without a program, None if it is missing.
 
         `named` is `Tool.program`.
         """
         ...
 
     def state(self, named: str) -> tuple[str, list[Path]]:
-        """Return the compiler's stated version, its files and folders, and the libraries that it finds itself.
+        """Return the stated version, and the compiler's files and folders with the libraries that it finds itself.
 
-        Keys of results contain them. The compiler is installed. Raises OSError if it does not answer.
+        The keys of results contain all of these. Requires an installed compiler. Raises OSError if the compiler does
+        not answer.
         """
         ...
 
     def environment(self, cache: str, folder: str) -> dict[str, str]:
-        """Return variables for its process: `cache` is a folder of the user's that stays, `folder` a temporary one."""
+        """Return environment variables for the compiler; the folder `cache` stays, `folder` is temporary."""
         ...
 
     def work(self, job: CompileJob) -> Iterator[CompileResult]:
@@ -168,7 +170,7 @@ class Compiler(Protocol):
         ...
 
     def complaints(self, problem: str) -> list[Complaint]:
-        """Return the complaints in the text of `CompileResult.problem`, in its order."""
+        """Return the complaints in the text of `CompileResult.problem`, in their order."""
         ...
 
 
@@ -180,7 +182,7 @@ def one_line(text: str) -> str:
 def compile_task(model: str, libraries: Sequence[str] = ("Modelica", "UrdfSync")) -> CompileTask:
     """Compile a model of one of the roots, by its full name; `libraries` are the top-level packages that it needs.
 
-    The text has to name each root in an import, or rumoca does not load it.
+    The text has to import each root, or rumoca does not load that root.
     """
     names = dict.fromkeys((*libraries, model.partition(".")[0]))
     imports = "".join(f"  import {name};\n" for name in names)

@@ -1,4 +1,4 @@
-"""OpenModelica: `omc SCRIPT.mos` runs each job; its output has the answers, files have the results.
+"""OpenModelica: `omc SCRIPT.mos` runs each job; the output of `omc` has the answers, files have the results.
 
 Written for the answers that OpenModelica 1.27 gave, see docs/openmodelica.md.
 """
@@ -39,10 +39,9 @@ STARTS_PROGRAMS = True
 
 _TOLERANCE = 1e-8
 _PATIENCE = 30.0
-"""Seconds in which OpenModelica has to tell its version."""
+"""Seconds after which OpenModelica must have told its version."""
 _MATCHING = "--matchingAlgorithm=PFPlus"
-"""The default, PFPlusExt, gives the same result. For robots with many joints in loops it takes five times as long: it
-looks at all equations again for each state that index reduction adds."""
+"""The default, PFPlusExt, takes five times as long for many joints in loops, and gives the same result."""
 _NOBODY = "http://127.0.0.1:9"
 _VALUE = re.compile(
     r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
@@ -82,7 +81,7 @@ class _Answer(NamedTuple):
 
 
 def program(named: str) -> str | None:
-    """See `Compiler`: the named program, else the one below OPENMODELICAHOME, else the one on the PATH."""
+    """See `Compiler`: the named program, else `omc` below OPENMODELICAHOME, else `omc` on the PATH."""
     if named:
         return shutil.which(named)
     home = os.environ.get("OPENMODELICAHOME")
@@ -92,7 +91,7 @@ def program(named: str) -> str | None:
 def state(named: str) -> tuple[str, list[Path]]:
     """See `Compiler`: the program, its shared libraries, and the Modelica Standard Library that comes with it.
 
-    The program may be a script that starts another one, so its version is asked for as well.
+    The program may be a script that starts another program, so urdfsync also asks for the version.
     """
     file = Path(program(named) or "omc").resolve()
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
@@ -105,7 +104,7 @@ def state(named: str) -> tuple[str, list[Path]]:
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
-    """See `Compiler`: the temporary folder is for scripts and whatever it writes."""
+    """See `Compiler`: the temporary folder is for scripts and all that OpenModelica writes."""
     # omc downloads an index of libraries if there is none on disk: an unreachable proxy prevents that.
     proxies = dict.fromkeys(("http_proxy", "https_proxy"), _NOBODY) | dict.fromkeys(("no_proxy", "NO_PROXY"), "")
     return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder) | proxies
@@ -115,7 +114,7 @@ def complaints(problem: str) -> list[Complaint]:
     """See `Compiler`.
 
     A message ends where the next one begins; notifications are no complaints. If an error in a library has two places,
-    the first place counts; a notification names it.
+    the first place counts, which a notification names.
     """
     result, origin = list[Complaint](), Complaint("")
     messages = list(_MESSAGE.finditer(problem))
@@ -141,12 +140,12 @@ def complaints(problem: str) -> list[Complaint]:
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
-    """See `Compiler`: all in one script. A file that can't be loaded is the problem of each task."""
+    """See `Compiler`: one script does all tasks. If a file can't be loaded, each task has that problem."""
     folder = Path(tempfile.mkdtemp())
     version = _ask(job, folder, ["getVersion()"])[0].value
-    is_webassembly = version.endswith("-rust")  # it needs no C compiler, and has no other target
+    is_webassembly = version.endswith("-rust")  # OpenModelica in Rust has only this target, without a C compiler
     flags = _MATCHING + " --simCodeTarget=wasm-jit" * is_webassembly
-    if any(task.export for task in job.tasks):  # else co-simulation uses Euler's method
+    if any(task.export for task in job.tasks):  # without a solver, co-simulation uses Euler's method
         flags += f" --fmiFlags=s:{'dassl' if is_webassembly else 'cvode'}"
     files = [f"loadFile({quoted(path.as_posix())})" for path in _package_files(job)]
     loads = [f"setCommandLineOptions({quoted(flags)})", "loadModel(Modelica)", *files]
@@ -163,7 +162,7 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
 
 
 def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
-    """Return the calls for a task: its text is loaded, then checked or simulated."""
+    """Return the calls for a task: load the task's text, then check or simulate the model."""
     file = folder / f"task{number}.mo"
     file.write_text(task.source, encoding="utf-8")
     calls = [f"loadFile({quoted(file.as_posix())})"]
@@ -188,9 +187,9 @@ def _settings(run: Simulation) -> str:
 
 
 def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | None = None) -> list[_Answer]:
-    """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not answer them.
+    """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not answer all calls.
 
-    Raises TimeoutExpired after `seconds`; None means no limit here, since the process already has one.
+    Raises TimeoutExpired after `seconds`; None sets no limit, since the process already has a limit.
     """
     script = folder / "script.mos"
     script.write_text("".join(f"{call}; getErrorString();\n" for call in calls), encoding="utf-8")
@@ -211,7 +210,7 @@ def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | N
         if len(calls) == 1:
             raise ImportError(": ".join(filter(None, (exit_cause(done.returncode), *last_words))))
         message = f"OpenModelica ended at `{calls[len(answers)]}` ({exit_cause(done.returncode)})"
-        hint = f"{job.tasks[0].title}: report it to the authors of {TITLE}"
+        hint = f"{job.tasks[0].title}: report this to the authors of {TITLE}"
         raise CompilerError.of("compiler-crashed", ": ".join((message, *last_words)), hint=hint)
     return answers
 
@@ -226,7 +225,7 @@ def read_answers(printed: str) -> tuple[list[_Answer], str]:
 
 
 def _problem(answer: _Answer) -> str:
-    """Return why a file or library could not be loaded; empty if it could."""
+    """Return why a file or library could not be loaded; empty if it was loaded."""
     if answer.value == "true":
         return ""
     return answer.messages.strip() or "OpenModelica can't load it and gives no reason"
@@ -254,7 +253,7 @@ def _result(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> Comp
 
 
 def _without_parameters(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> CompileResult:
-    """Name all parameters of a model if it lacks one that the task sets."""
+    """Return a result with all parameters of a model, if it lacks a parameter that the task sets."""
     everything = msgspec.structs.replace(task, runs=(Simulation(1.0, 1.0),), values=(), pattern=".*")
     result = _simulated(everything, answers, folder)
     names = tuple(result.runs[0].parameters) if result.runs else ()
@@ -290,12 +289,12 @@ def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> C
 
 
 def _read_results(file: Path, task: CompileTask) -> SimulationResult:
-    """Read a trajectory in MATLAB's format 4. It has parameters as well; CSV lacks them.
+    """Read a trajectory in MATLAB's format 4. This format has parameters; CSV lacks parameters.
 
     Two tables have the numbers: `data_1` the constants at the beginning and at the end, `data_2` a column for each
     instant. `dataInfo` has the table and the row of each name, from 1 on; a negative row means negated numbers.
     """
-    import numpy as np  # scipy brings it along
+    import numpy as np  # scipy depends on it
     from scipy.io import loadmat
     from scipy.io.matlab import MatReadError
 
@@ -325,10 +324,7 @@ def _read_results(file: Path, task: CompileTask) -> SimulationResult:
 
 
 def _package_files(job: CompileJob) -> list[Path]:
-    """Return the files that load all roots: packages, or folders of packages.
-
-    The standard library is OpenModelica's own.
-    """
+    """Return the files that load all packages of the roots; OpenModelica loads its own standard library."""
     files: list[Path] = []
     for root in map(Path, job.roots):
         whole = root if root.is_file() else root / "package.mo"
@@ -346,5 +342,5 @@ def quoted(text: str) -> str:
 
 
 def _text(literal: str) -> str:
-    """Return the text of a literal of Modelica, given without its quotes."""
+    """Return the text of a literal of Modelica, which is given without quotes."""
     return _ESCAPED.sub(lambda match: _ESCAPES.get(match[1], match[1]), literal)

@@ -1,6 +1,6 @@
-"""rumoca, the embedded compiler: jobs done with it, and its messages.
+"""rumoca, the embedded compiler: does jobs, and reads the compiler's messages.
 
-rumoca puts all complaints into one text: in lines or after semicolons, with a place in brackets, or with a frame around
+rumoca puts all complaints into one text, in lines or after semicolons. Each has a place in brackets, or a frame around
 the source.
 """
 
@@ -44,11 +44,11 @@ _STUCK = (
     "rumoca finds no state of joints with the friction law stiction that slide together, {}: "
     'choose `friction = "lugre"`, or OpenModelica with `--tool`'
 )
-"""Replaces the message of rumoca 0.10.2 about two such joints."""
+"""The message about two joints with stiction; rumoca's own message does not name the cause."""
 _SPAN = re.compile(r" @ Span \{.*?\) \}")
 
 _SHADOW = "variability violation: "
-"""If a model has another error, rumoca 0.10.2 also reports this about sound models of the Modelica Standard Library."""
+"""If a model has any error, rumoca 0.10.2 also reports this error about models of the Modelica Standard Library."""
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 _FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
 _PIECES = re.compile(r"\n|; (?=\S)")
@@ -59,23 +59,23 @@ _PLACE = re.compile(r" \[(?P<file>[^\[\]]*):(?P<line>\d+):(?P<column>\d+)\]$")
 
 
 def program(named: str) -> str:  # noqa: ARG001 - see `Compiler`
-    """See `Compiler`: all of it is in the module."""
+    """See `Compiler`: rumoca is a module of Python and has no program."""
     return ""
 
 
 def state(named: str) -> tuple[str, list[Path]]:  # noqa: ARG001 - see `Compiler`
-    """See `Compiler`: the folder of the module; its version is part of that."""
+    """See `Compiler`: the folder of the module, whose contents include the version."""
     spec = importlib.util.find_spec("rumoca")
     return "", [Path(spec.origin).parent] if spec and spec.origin else []
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
     """See `Compiler`. rumoca would look for missing classes on MODELICAPATH, so the variable is removed."""
-    return {"XDG_CACHE_HOME": str(Path(cache).parent), "MODELICAPATH": ""}  # it adds its own name to the first
+    return {"XDG_CACHE_HOME": str(Path(cache).parent), "MODELICAPATH": ""}  # rumoca adds its name to XDG_CACHE_HOME
 
 
 def complaints(problem: str) -> list[Complaint]:
-    """See `Compiler`. A complaint that only follows from another one is left out."""
+    """See `Compiler`. A complaint that only follows from another complaint is left out."""
     text = _COLOURS.sub("", problem).strip()
     result = [_placed(match["words"].replace("│", " "), match) for match in _FRAMED.finditer(text)]
     for piece in () if result else _PIECES.split(text):
@@ -154,7 +154,7 @@ class _Equations(msgspec.Struct):
 
 
 def _unknowns(model: rumoca.Model) -> int:
-    """Count the scalar unknowns as the compiler does when it finds a model unbalanced."""
+    """Count the scalar unknowns as the compiler does for its message about an unbalanced model."""
     storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
     sizes = [math.prod(value_type.dimensions) for value_type in storage.value_types]
     return sum(sizes[variable.value_type] for variable in storage.variables if variable.role in _UNKNOWN)
@@ -163,7 +163,8 @@ def _unknowns(model: rumoca.Model) -> int:
 def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the parameters among `names` that no equation uses, neither directly nor through a binding.
 
-    If a record is passed on as a whole, rumoca 0.10.2 accepts a modifier of one of its parts, and ignores it.
+    If a model passes on a whole record, rumoca 0.10.2 accepts a modifier of a part of this record, but ignores the
+    modifier.
     """
     if not names:
         return ()
@@ -178,7 +179,7 @@ def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, .
     structural = {parameter.name for parameter in model.parameters if parameter.kind == "structural"}
 
     def is_used(number: int, above: frozenset[int] = frozenset()) -> bool:
-        # structural parameters are evaluated and then missing; sizes are not even marked as structural
+        # rumoca evaluates structural parameters, so no equation names them; it does not mark sizes as structural
         variable = storage.variables[number]
         if variable.name in structural or storage.value_types[variable.value_type].scalar != "real":
             return True
@@ -203,7 +204,7 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
         series = {name: tuple(result[name].tolist()) for name in dict.fromkeys((*task.values, *others))}
     except (rumoca.RumocaError, LookupError, ValueError) as error:
         return SimulationResult(problem=_words(error))
-    values = {"time": tuple(result.time.tolist()), **series}  # all finite, else rumoca reports an error
+    values = {"time": tuple(result.time.tolist()), **series}  # rumoca reports an error for numbers that are not finite
     parameters = {
         parameter.name: parameter.value
         for parameter in model.parameters

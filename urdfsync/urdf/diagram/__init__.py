@@ -1,1 +1,1 @@
-"""The diagram of the robot model: its layout, the routing of its lines, and its drawing as SVG."""
+"""The diagram of the robot model: layout, lines, and drawing as SVG."""

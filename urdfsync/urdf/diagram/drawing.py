@@ -1,4 +1,4 @@
-"""Draws the robot model's diagram as SVG: the text refers to no other file, and is the same everywhere."""
+"""Draws the robot model's diagram as SVG. The SVG refers to no other file, and is equal on all machines."""
 
 from __future__ import annotations
 
@@ -18,17 +18,16 @@ from urdfsync.urdf.robot import MOTION_KINDS, JointType, Robot
 
 Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "ball", "coupling", "sensor", "loop"]
 _Entry: TypeAlias = tuple[Kind, str, float, int, float]
-"""Entry of the legend: the kind of its icon, its text, its place (x, y), and its width."""
+"""Entry of the legend: kind of icon, text, place (x, y), and width."""
 
-# Pixels of one unit of the diagram: at 100 %, the smallest text is 10 pixels high. So the picture grows with the robot,
-# and a viewer scrolls over a wide one.
+# Pixels of one unit of the diagram: at 100 %, the smallest text is 10 pixels high. So the picture grows with the robot.
 _PIXELS = 4
 _MARGIN = 10
-_HEADER = 24  # room for the title and the names of the connectors at the top
-_FOOTER, _LEGEND = 8, 10  # space above the legend, and height of each of its rows
+_HEADER = 24  # Room for the title and the names of the connectors at the top.
+_FOOTER, _LEGEND = 8, 10  # Space above the legend, and height of each row of the legend.
 _FONT, _SMALLEST = 3.6, 2.5
-_ADVANCE = 0.56  # mean width of a character, by font size
-_BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike crossing it
+_ADVANCE = 0.56  # Mean width of a character, by font size.
+_BEND = 2.0  # Radius of the bends of flange lines: they show that a line joins another line and does not cross it.
 
 _LEGENDS: Mapping[Kind, str] = {
     "link": "link, mass",
@@ -49,7 +48,7 @@ class _Part(NamedTuple):
 
     kind: Kind
     text: str = ""
-    """Inside the icon: mass or ratio."""
+    """Text in the icon: mass or ratio."""
     is_driven: bool = False
 
 
@@ -112,12 +111,12 @@ def _parts(assembly: Assembly) -> Iterator[tuple[str, _Part]]:
 
 
 def _rounded(value: float) -> str:
-    """Return three digits; from a thousand on with zeros, not with an exponent."""
+    """Return a number with three digits, without an exponent up to 999,999."""
     return f"{float(f'{value:.3g}'):g}"
 
 
 def _lines(diagram: Diagram) -> Mapping[str, list[str]]:
-    """Return the paths of all lines by their style: one path for each style, so that a shared trunk is painted once."""
+    """Return one path for all lines of a style, so that a shared trunk is painted once."""
     styles = defaultdict[str, list[str]](list)
     for (start, _), (kind, points) in diagram.lines.items():
         style = kind + (" support" if start.endswith(".support") else "")
@@ -126,10 +125,10 @@ def _lines(diagram: Diagram) -> Mapping[str, list[str]]:
 
 
 def _curved(points: Path, radius: float) -> str:
-    """Return path data of a polyline. Each bend is rounded, at most up to the middle of its shorter side."""
+    """Return path data of a polyline. Each bend is rounded, up to the middle of its shorter side."""
     data = [f"M{points[0][0]} {-points[0][1]}"]
     for before, (x, y), after in zip(points, points[1:], points[2:], strict=False):
-        # One of the two terms of each length is zero, since segments are axis-parallel.
+        # Segments are axis-parallel, so one of the two terms of each length is zero.
         sides = [(a - x, b - y, abs(a - x) + abs(b - y)) for a, b in (before, after)]
         reach = min(radius, *(length / 2 for *_, length in sides))
         (x1, y1), (x2, y2) = ((x + reach * (dx // length), y + reach * (dy // length)) for dx, dy, length in sides)
@@ -139,7 +138,7 @@ def _curved(points: Path, radius: float) -> str:
 
 
 def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
-    """Return the points where three or more segments of a net meet. The lines of a net share their kind and one end."""
+    """Return the points where three or more segments of a net meet. A net has lines of one kind with one common end."""
     uses = Counter(end for ends in diagram.lines for end in ends)
     nets = defaultdict[tuple[LineKind, str], list[Path]](list)
     for ends, (kind, points) in diagram.lines.items():
@@ -153,7 +152,7 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
             else:
                 upright[x1].add((y1, y2))
         for x, y in {point for path in paths for point in path}:
-            # Coordinates are even, so the place one step beside a point is inside a segment or outside of all.
+            # Coordinates are even, so no segment ends one step beside a point.
             sides = [(across[y], x - 1), (across[y], x + 1), (upright[x], y - 1), (upright[x], y + 1)]
             ways = [any(start < step < end for start, end in segments) for segments, step in sides]
             if sum(ways) > 2:
@@ -162,7 +161,7 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
 
 
 def _legend(kinds: Collection[Kind], start: Point, right: float) -> tuple[list[_Entry], int]:
-    """Return the entries of the legend, in as many rows as needed, and its lower end."""
+    """Return the entries of the legend, in as many rows as needed, and the lower end of the legend."""
     entries: list[_Entry] = []
     x, y = float(start[0]), start[1]
     for kind, text in _LEGENDS.items():

@@ -1,8 +1,9 @@
-"""Layout of the robot model's diagram: places of links, joints and couplings, and paths of the lines between them.
+"""Layout of the robot model's diagram: places of links, joints and couplings, and paths of lines.
 
 A chain runs from left to right and ends at the connector of its last link. One child joint of a link continues the
-link's chain: the first whose branch has more than two links and more than half as many as the largest one, else the
-first. Every other child joint starts a chain of its own in a row below, from the link's column on:
+link's chain. It is the first joint with a branch of more than two links, and more than half the links of the largest
+branch. Without such a branch, it is the first joint. Each other child joint starts a new chain in a row below, from the
+link's column on:
 
     frame_a ──┬── joint ──┬── joint ──┬── joint ──┬── handFrame
               ├ link      ├ link      ├ link      └ link
@@ -12,18 +13,18 @@ first. Every other child joint starts a chain of its own in a row below, from th
               └── joint ──┬── tailFrame
                           └ link
 
-Places stay, so that a new leaf changes few lines of the model. All rows are of one height, all columns of one width.
-The row of a chain follows from a hash of its joint's name, and from the rows that are free. Large chains choose before
-small ones, then those further left before others. So a new leaf displaces only other leaves. The price is empty cells
-and crossings: a chain may run between another chain and the link where that one starts.
+A new leaf should change few lines of the model. So rows have one height, and columns one width. The row of a chain
+follows from a hash of its joint's name, and from the free rows. Large chains choose first, and of equally large chains
+the ones further left. So a new leaf displaces only other leaves. The price is empty cells and crossings: a chain may
+cross the lines that lead from a link to another chain.
 
-A link hangs on a short trunk at the left of its column. The lines to chains and sensors below it run down in the gap
-between two columns, on a track that no other line has there. The connectors of axis and support stand above a joint
-that can be driven. A mimic coupling stands above its follower; the line from its leader runs on such a track, too. The
-gear of a motor that moves two joints stands above the first, with such a line to the second. A joint that closes a loop
-stands below all rows, in the column of its parent; the lines from its links run down to it on tracks.
+A link hangs on a short trunk at the left of its column. Lines to chains and sensors below the link run down in the gap
+between two columns, each on its own track. The connectors of axis and support stand above a joint that can be driven. A
+mimic coupling stands above its follower; the line from the leader runs on a track. If a motor moves two joints, its
+gear stands above the first joint. The line to the second joint runs on a track. A joint that closes a loop stands below
+all rows, in the column of its parent. The lines from its links run down on tracks.
 
-Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
+Lines consist of axis-parallel segments. All coordinates are even; y points upwards.
 """
 
 from __future__ import annotations
@@ -44,9 +45,9 @@ Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
 _Cell: TypeAlias = tuple[int, int]
 _End: TypeAlias = tuple[str, str]
-"""A loop and one of its frames, or a link and `below`: its joints and sensors in other rows."""
+"""One end of lines: a loop with one of its frames, or a link with `below` for its joints and sensors in other rows."""
 _Spans: TypeAlias = dict[str | _End, list[int]]
-"""Rows or columns by leader or end; its lines run from the first to the last of them."""
+"""Rows or columns of a leading joint or an `_End`. Its lines run from the first row or column to the last."""
 
 PORTS: Mapping[str, Point] = {
     "frame_a": (-100, 0),
@@ -60,26 +61,26 @@ PORTS: Mapping[str, Point] = {
     "flange_b": (100, 0),
     "flange_c": (-100, 0),
 }
-"""Connectors of components, in the coordinates of their icons, -100 to 100 both ways."""
+"""Places of connectors on the icons of components, from -100 to 100 in both directions."""
 
 FRAME_A: Point = (-100, 0)
 """Middle of the connector `frame_a` in every robot's diagram."""
 
-_SIZE = 20  # width and height of a component, and of the frame connectors at the ends of rows
-_CONNECTOR = 12  # width and height of a connector that stands beside a component
-_FRAME = 32  # size of the connector of the root frame, as in the Modelica Standard Library
-_COLUMN = 40  # from a column's trunk to the gap between it and the next one
-_GAP = 4  # tracks in a gap; a gap with more tracks is two or three times as wide
-_TRACK = 4  # distance of neighbouring lines
-_NAME = 8  # room for a name above a component
-_LINK_X = 14  # from a column's trunk to the middle of its links and couplings
-_JOINT_X = 30  # from a column's trunk to the middle of its joints
-_LINK_Y = 26  # from a row's spine down to the middle of its links
-_BELOW = 44  # from a row's spine down to its end: link, its name, a gap; a sensor is nearer
-_ABOVE = 20  # from a row's spine up to the connectors of its joints
-_TRUNK = 8  # from the connector of the root frame to the first trunk
-_MARGIN = 64  # from the last trunk to the right edge: a connector and its name
-_ASIDE = 8  # from an axis to the support's connector, and to the line that passes the axis's connector
+_SIZE = 20  # Width and height of components, and of frame connectors at the ends of rows.
+_CONNECTOR = 12  # Width and height of a connector that stands beside a component.
+_FRAME = 32  # Size of the connector of the root frame, as in the Modelica Standard Library.
+_COLUMN = 40  # From a column's trunk to the gap before the next column.
+_GAP = 4  # Tracks in a gap; a gap with more tracks is a multiple as wide.
+_TRACK = 4  # Distance of neighbouring lines.
+_NAME = 8  # Room for a name above a component.
+_LINK_X = 14  # From a column's trunk to the middle of its links and couplings.
+_JOINT_X = 30  # From a column's trunk to the middle of its joints.
+_LINK_Y = 26  # From a row's spine down to the middle of its links.
+_BELOW = 44  # From a row's spine down to the row's end: link, name, gap; a sensor is nearer.
+_ABOVE = 20  # From a row's spine up to the connectors of the joints.
+_TRUNK = 8  # From the connector of the root frame to the first trunk.
+_MARGIN = 64  # From the last trunk to the right edge: a connector and its name.
+_ASIDE = 8  # From an axis to the support's connector, and to a line around the axis's connector.
 
 
 class Placement(NamedTuple):
@@ -102,7 +103,7 @@ class Placement(NamedTuple):
         return (self.x1 + self.x2) // 2, (self.y1 + self.y2) // 2
 
     def port(self, connector: str) -> Point:
-        """Return the place in the diagram of a component's connector."""
+        """Return the place of a component's connector in the diagram."""
         x, y = PORTS[connector]
         return self.x1 + (self.x2 - self.x1) * (x + 100) // 200, self.y1 + (self.y2 - self.y1) * (y + 100) // 200
 
@@ -110,8 +111,8 @@ class Placement(NamedTuple):
 class Diagram(NamedTuple):
     """A finished layout, by component names; all coordinates are even.
 
-    `extent` (x1, y1, x2, y2) holds everything. A line leads from the first of its two ends, as they stand in the
-    connect equation, to the second; lines at one of the model's own connectors end in its middle.
+    `extent` is (x1, y1, x2, y2). The key of a line has its two ends, in the order of the connect equation. A line to a
+    connector of the model ends in the middle of the connector.
     """
 
     extent: tuple[int, int, int, int]
@@ -123,28 +124,28 @@ class _Grid(NamedTuple):
     """Points of the diagram by URDF names, and its edges."""
 
     links: Mapping[str, Point]
-    """Points at which the trunk of a link meets the spine of its row."""
+    """Points where the trunk of a link meets the spine of its row."""
     joints: Mapping[str, Point]
-    """Points at which the trunk of a joint's parent meets the spine of the joint's row."""
+    """Points where the trunk of a joint's parent meets the spine of the joint's row."""
     sensors: Mapping[str, Point]
-    """Points at which the trunk of a sensor's link meets the row of the sensor."""
+    """Points where the trunk of a sensor's link meets the row of the sensor."""
     couplings: Mapping[str, Point]
     """Middles of the couplings, by follower, and of gears, by joint."""
     detours: Mapping[str, Point]
-    """Points, by follower, at which the line to its leader leaves the gap between columns for the leader's row."""
+    """Points, by follower, where the line to the leader leaves the gap between columns for the leader's row."""
     loops: Mapping[str, Point]
     """Middles of the joints that close a loop."""
     descents: Mapping[_End, int]
-    """The x at which the lines of an end run down in the gap between columns."""
+    """The x of an end's lines on their way down in the gap between columns."""
     top: int
     right: int
     bottom: int
 
 
 def layout(tree: KinematicTree, names: Connectors) -> Diagram:
-    """Place every component and route every connection of the robot model, in linear time.
+    """Place all components and route all connections of the robot model, in linear time.
 
-    No two components overlap and no line crosses a component.
+    Components do not overlap, and no line crosses a component.
     """
     grid = _grid(tree, names)
     placements = _placements(tree, names, grid)
@@ -153,10 +154,10 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
 
 
 def find_rows(starts: Mapping[str, tuple[int, range]], taken: set[_Cell]) -> dict[str, int]:
-    """Return a row for each name, at or below its first one, in which its columns are free; their cells become `taken`.
+    """Return a row for each name, from its first row downwards, where its columns are free; the cells become `taken`.
 
     A hash of the name chooses among one row, then two, three and ever more. First all names try their first choice,
-    then those without a row try their second. So a new name displaces few others, and these hardly any more.
+    then names without a row try their second choice. So a new name displaces few other names.
     """
     rows: dict[str, int] = {}
     waiting = [
@@ -257,10 +258,10 @@ class _Cells(NamedTuple):
 
     links: Mapping[str, _Cell]
     joints: Mapping[str, _Cell]
-    """A joint stands in its parent's column and in its child's row."""
+    """A joint stands in the column of its parent link and in the row of its child link."""
     sensors: Mapping[str, _Cell]
     below: list[tuple[str, int]]
-    """Links with joints or sensors in rows below, each with such a row."""
+    """Pairs of a link and a lower row with a joint or sensor of the link."""
 
 
 def _cells(tree: KinematicTree) -> _Cells:
@@ -270,14 +271,14 @@ def _cells(tree: KinematicTree) -> _Cells:
         columns[joint.child] = columns[joint.parent] + 1
     for joint in reversed(tree.joints):
         sizes[joint.parent] += sizes[joint.child]
-    # A new leaf changes this for few links: it makes a chain of two at most.
+    # A new leaf makes few chains large.
     is_large = {joint.name: sizes[joint.child] > 2 for joint in tree.joints}
     following = dict[str, Joint]()
     for link, starting in children.items():
         half = max(sizes[joint.child] for joint in starting) / 2
         large = (joint for joint in starting if is_large[joint.name] and sizes[joint.child] > half)
         following[link] = next(large, starting[0])
-    ends = dict(columns)  # the last column of the row that goes on from a link
+    ends = dict(columns)  # the last column of the chain that continues from a link
     for joint in reversed(tree.joints):
         if joint is following[joint.parent]:
             ends[joint.parent] = ends[joint.child]
@@ -292,7 +293,7 @@ def _cells(tree: KinematicTree) -> _Cells:
             links[link] = row, columns[link]
 
     def rank(joint: Joint) -> tuple[bool, int]:
-        """Rank a chain after the one that it starts at: that one is large if this one is, and begins further left."""
+        """Rank large chains first, then chains further left: so the chain of the parent link always comes first."""
         return not is_large[joint.name], columns[joint.parent]
 
     start(0, root)
@@ -318,13 +319,13 @@ def _cells(tree: KinematicTree) -> _Cells:
 
 
 def _carriers(tree: KinematicTree) -> dict[str, str]:
-    """Return the link above each sensor; a force-torque sensor stands below the joint's child."""
+    """Return the link above each sensor. A force-torque sensor stands below the child of its joint."""
     children = {joint.name: joint.child for joint in tree.joints}
     return {sensor.name: children[sensor.at] if sensor.is_in_joint else sensor.at for sensor in tree.sensors}
 
 
 def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str, Placement]:
-    """Return the places of all components, in the order in which they are drawn."""
+    """Return the places of all components, in the order of drawing."""
     links = {name: Placement.around((x + _LINK_X, y - _LINK_Y)) for name, (x, y) in grid.links.items()}
     joints = {name: Placement.around((x + _JOINT_X, y)) for name, (x, y) in grid.joints.items()}
     placements = {"frame_a": Placement.around(FRAME_A, _FRAME)}
@@ -401,7 +402,7 @@ def _lines(
         route_frames(parent, f"{component}.frame_a", grid.descents[loop.name, "frame_a"])
         start, down = f"{component}.frame_b", grid.descents[loop.name, "frame_b"]
         x, y = place(start)
-        # a link that is further left is reached below the joint
+        # the line to a link further left passes below the joint
         height = y if down > x + _TRACK else placements[component].y1 - _TRACK
         bends = [(x + _TRACK, y), (x + _TRACK, height), (down, height), (down, place(end)[1])]
         route("frame", start, end, *bends)
@@ -412,15 +413,15 @@ def _lines(
         route(drive.motion, support, drive.support, (x, y + 2), (place(drive.support)[0], y + 2))
         if drive.motor and drive.gear:
             route("rotational", f"{drive.gear}.flange_a", drive.motor)
-        elif drive.motor:  # the motor's connector stands above the axis's, which the line passes
+        elif drive.motor:  # the line passes the axis's connector on its way to the motor's connector above
             route("rotational", motor, drive.motor, (place(motor)[0], place(drive.motor)[1]))
 
     def route_axis(start: str, joint: str, *bends: Point) -> None:
-        """Lead a line to the axis of a joint, down from the height of its last bend or its start."""
+        """Route a line to the axis of a joint, down from the line's last bend or from its start."""
         axis, y = f"{tree.joint(joint).component}.axis", (place(start), *bends)[-1][1]
         x, end_y = place(axis)
         down: list[Point] = [(x, y)]
-        if joint in names.drives:  # pass the connector above the axis, and the line of the motor
+        if joint in names.drives:  # the line passes the axis's connector and the line of the motor
             aside = x + _ASIDE + (_TRACK if names.drives[joint].motor else 0)
             down = [(aside, y), (aside, end_y + 2), (x, end_y + 2)]
         route(motions[joint], start, axis, *bends, *down)
@@ -437,14 +438,14 @@ def _lines(
 
 
 def _has_starts(tree: KinematicTree) -> bool:
-    """Return whether the robot model has a record of start positions: joints in loops begin where these are closed."""
+    """Return whether the robot model has a record of start positions. A robot with loops always has such a record."""
     return bool(tree.starts() or tree.loops)
 
 
 def _tracks(spans: _Spans) -> dict[str | _End, int]:
     """Number the tracks of a channel, from 0: each span gets the first track on which it touches no earlier span."""
     assigned: dict[str | _End, int] = {}
-    tracks: list[list[tuple[int, int]]] = []  # the spans on each, in order
+    tracks: list[list[tuple[int, int]]] = []  # the spans of each track, in order
     for key, places in spans.items():
         span = min(places), max(places)
         for number in itertools.count():
@@ -465,7 +466,7 @@ def _count(tracks: Mapping[str | _End, int]) -> int:
 
 
 def _path(points: Iterable[Point]) -> Path:
-    """Return the polyline without repeated points and without points inside a straight run."""
+    """Return the polyline without repeated points, and without points inside a straight line."""
     corners: list[Point] = []
     for point in points:
         if corners and point == corners[-1]:

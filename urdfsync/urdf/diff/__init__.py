@@ -1,1 +1,1 @@
-"""The differences of two robots in the words of URDF, and their effects on the whole robot."""
+"""The differences between two robots in the words of URDF, and the effects on the whole robot."""

@@ -1,4 +1,4 @@
-"""Effects of a change on a whole robot: its mass, the connectors of its model, and the variables of its Run."""
+"""Effects of a change on a whole robot: mass, connectors of the robot model, and variables of Run."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Motion, Vector
 
 _JUMP = 9.99
-"""Ratio of two masses that is likely a mistake: a factor of 10, less rounding."""
+"""A greater ratio of two masses is probably a mistake: a factor of 10, with room for rounding."""
 _DRIVE = {
     "axis": "axis",
     "support": "support",
@@ -28,19 +28,19 @@ _DRIVE = {
     "velocity": "velocity in Run",
     "effort": "effort in Run",
 }
-"""Fields of `Drive`, and their words in a report."""
+"""Fields of `Drive`, with their words in a report."""
 _INPUT = "input of Run"
 _LOADS: Mapping[Motion, tuple[str, str]] = {
     "rotational": ("gravity torque", "N·m"),
     "translational": ("gravity force", "N"),
 }
-"""The greatest load of each kind of motion in words, and its unit."""
+"""Words for the greatest load of each kind of motion, and the unit."""
 
 
 def effects(old: Version, new: Version) -> Sequence[Effect]:
     """Return mass, centre of mass and reach of both versions.
 
-    The centre is in metres, in the frame of the root link, with all joints at zero; None without mass.
+    The centre of mass is in metres, in the frame of the root link, with all joints at zero; None without a mass.
     """
     before, after = (KinematicTree.of(version.snapshot) for version in (old, new))
     (old_mass, old_centre), (new_mass, new_centre) = _mass(before), _mass(after)
@@ -52,7 +52,7 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
 
 
 def loads(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
-    """Return the greatest gravity torque or force of each joint of the new version, beside its limit of effort."""
+    """Return the greatest gravity torque or force of each joint of the new version, with its limit of effort."""
     trees = [KinematicTree.of(version.snapshot) for version in (old, new)]
     before, after = (_extremes(tree)[1] for tree in trees)
     earlier, changes = {new_name: name for (kind, name), new_name in renames.items() if kind == "joint"}, list[Effect]()
@@ -60,24 +60,24 @@ def loads(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequ
         if joint.name in after:
             words, unit = _LOADS[MOTION_KINDS[joint.type]]
             effort = joint.limit.effort if joint.limit else None
-            limit = effort if effort and effort < math.inf else None  # zero: the source has none
-            # a new joint may have the former name of a renamed one
+            limit = effort if effort and effort < math.inf else None  # zero stands for no limit
+            # a new joint may have the former name of a renamed joint
             name = earlier.get(joint.name, "" if ("joint", joint.name) in renames else joint.name)
             load = before.get(name)
             changes.append(Effect((f"joint {joint.name}", words), load, after[joint.name], unit, limit=limit))
     return changes
 
 
-@functools.lru_cache(maxsize=2)  # both versions are asked for their reach, then for their loads: 0.1 s for a large one
+@functools.lru_cache(maxsize=2)  # one call serves reach and loads: 0.1 s for a large robot
 def _extremes(tree: KinematicTree) -> tuple[float | None, Mapping[str, float]]:
     with machine.single_thread():
-        from urdfsync.urdf.kinematics.loads import find_extremes  # 60 ms for numpy, needed by no build
+        from urdfsync.urdf.kinematics.loads import find_extremes  # a late import saves builds 60 ms
 
     return find_extremes(tree)
 
 
 def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
-    """Return total mass and centre of mass; the exact sum does not depend on names and order."""
+    """Return total mass and centre of mass. The exact sum does not depend on names and order."""
     poses = link_poses(tree, {})
     masses, moments = [], []
     for link in tree.links:
@@ -93,7 +93,7 @@ def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
 
 
 def find_doubtful(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield one warning, at the first link, if links have at least ten times their old mass, or at most a tenth."""
+    """Yield one warning, at the first link, if masses of links grow or shrink by a factor of 10 or more."""
     before = {renames.get(("link", link.name), link.name): link.inertial for link in old.snapshot.links}
     jumps = []
     for link in new.snapshot.links:
@@ -112,8 +112,8 @@ def interface(
 ) -> Sequence[Effect]:
     """Return removed and renamed connectors and variables of Run, then new ones.
 
-    If Run has its inputs in one vector, their order is an effect, too. `options` belong to the new version, and to the
-    old one unless it has its own.
+    If Run has its inputs in one vector, a changed order is also an effect. `options` belong to the new version, and to
+    an old version without options.
     """
     earlier = old.options if isinstance(old.options, Options) else options
     if "package" not in earlier.approach:
@@ -136,7 +136,7 @@ def interface(
                 brings_back(lines.get(full_name, ""), full_name if full_name != old_name else "") if full_name else ""
             )
             changes.append(Effect((_label(kind, element), part), old_name, new_name, hint=hint))
-        elif part == "axis":  # a flange of the same name may have another type
+        elif part == "axis":  # a flange may keep its name but change its type
             old_motion, motion = old_connectors.drives[old_element].motion, connectors.drives[element].motion
             if old_motion != motion:
                 changes.append(Effect((_label(kind, element), "motion"), old_motion, motion))
@@ -146,11 +146,11 @@ def interface(
         path = "robot", f"order of {input_vector(connectors)}"
         changes.append(Effect(path, ", ".join(inputs), ", ".join(new_inputs)))
     added = [Effect((_label(kind, name), part), None, new_name) for (kind, name, part), new_name in new_names.items()]
-    return [*changes, *added]  # first the names that users may have connected
+    return [*changes, *added]  # names that users may have connected come first
 
 
 def _names(connectors: Connectors, options: Options) -> dict[tuple[str, str, str], str]:
-    """Return the names of connectors and variables, by kind and name of the element, and by its part."""
+    """Return the names of connectors and variables, by kind, name and part of the element."""
     names = {("link", link, "frame"): frame for link, frame in connectors.frames.items()}
     for joint, drive in connectors.drives.items():
         names |= {("joint", joint, part): name for field, part in _DRIVE.items() if (name := getattr(drive, field))}

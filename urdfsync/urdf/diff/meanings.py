@@ -1,7 +1,8 @@
-"""Classifies the differences of two robots, and names them in the words of URDF.
+"""Classifies the differences between two robots, and names them in the words of URDF.
 
-To classify a difference, only its value is exchanged in the data of templates. The difference is structural if the data
-of models change, a parameter if only the data of records do, and else unmodelled.
+To classify a difference, only its value is exchanged in the data of templates. A difference that changes the data of
+models is structural. A difference that changes only the data of records is a parameter. Any other difference is
+unmodelled.
 """
 
 from __future__ import annotations
@@ -28,13 +29,13 @@ _Fields: TypeAlias = Sequence[str | int]
 
 _SHAPES = ("visuals", "collisions")
 _STRUCTURE = ("kind", "at", "in_parent", "on_child", "parent", "child")
-"""Fields of sensors and loops on which models depend."""
+"""Fields of sensors and loops that models depend on."""
 _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
 
 class _Side(NamedTuple):
-    """One version of the robot; its elements have their names in the new version."""
+    """One version of the robot, with names of the new version."""
 
     links: Mapping[str, Link]
     joints: Mapping[str, Joint]
@@ -42,7 +43,7 @@ class _Side(NamedTuple):
 
 
 def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options) -> Iterator[Change]:
-    """Yield the changes of a robot, except those that other changes explain."""
+    """Yield the changes of a robot, except consequences of other changes."""
     sides = [
         _Side({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
         for robot, imports in ((renamed(old.snapshot, renames), old.imports), (new.snapshot, new.imports))
@@ -66,7 +67,7 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
                 _path(words), _reach(old.links[name], new.links[name], difference, old, new, options), _unit(fields)
             )
         case ("joints", str(name), "drive"):
-            # An added or removed drive follows from a changed type or mimic, which is reported itself. With the option
+            # A changed type or mimic may add or remove a drive: that change is reported instead. With the option
             # `driven`, the source does not decide on drives.
             by_source = options.driven is None and "package" in options.approach
             is_change = by_source and difference.kind is ChangeKind.CHANGED
@@ -76,7 +77,7 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
             reach = ChangeClass.STRUCTURAL if any(driven) else ChangeClass.UNMODELLED
             return difference.change((f"joint {name}", "command"), reach)
         case ("joints", _, "motor", *_):
-            return None  # the option is reported, and its numbers are changes of their own
+            return None  # the change of the option and of each number is reported instead
         case ("joints", str(name), *fields):
             units = [
                 _joint_unit(name, side.joints, fields)
@@ -101,7 +102,7 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
 
 
 def _path(words: _Fields) -> tuple[str, ...]:
-    """Return a path for people: an index stands behind its list."""
+    """Return a path to show, with each index behind its list."""
     path: list[str] = []
     for word in words:
         if isinstance(word, int):
@@ -113,9 +114,9 @@ def _path(words: _Fields) -> tuple[str, ...]:
 
 @functools.cache
 def _unit_of(field: str) -> Unit | None:
-    """Return the unit of a field: all structs have the same unit for a field of one name."""
+    """Return the unit of a field. Fields of one name have the same unit in all structs."""
     structs = (one for one in vars(robot).values() if isinstance(one, type) and issubclass(one, msgspec.Struct))
-    # only structs with this field: the types of all structs take 4 of 220 ms of a build
+    # the types of all structs would take 4 of 220 ms of a build
     asked = (
         one for struct in structs if field in struct.__struct_encode_fields__ for one in msgspec.structs.fields(struct)
     )
@@ -125,7 +126,7 @@ def _unit_of(field: str) -> Unit | None:
 
 
 def _unit(fields: _Fields, motion: str | None = None) -> str:
-    """Return the unit of a number; `motion` is the kind of motion of its joint."""
+    """Return the unit of a number; `motion` is the joint's kind of motion."""
     unit = next((_unit_of(field) for field in reversed(fields) if isinstance(field, str)), None)
     if unit is None or (unit.sliding is not None and motion is None):
         return ""
@@ -133,9 +134,10 @@ def _unit(fields: _Fields, motion: str | None = None) -> str:
 
 
 def _joint_unit(name: str, joints: Mapping[str, Joint], fields: _Fields) -> str:
-    """Return the unit of a number of a joint; `joints` are all of its version: a multiplier needs its leader.
+    """Return the unit of a number of a joint.
 
-    Losses of a planar joint have no unit: one number stands for sliding and turning.
+    `joints` has all joints of its version, since a multiplier needs the leader. Losses of a planar joint have no unit:
+    one number stands for sliding and turning.
     """
     motion, mimic = MOTION_KINDS.get(joints[name].type), joints[name].mimic
     if mimic is None or fields[-1] != "multiplier":
@@ -149,9 +151,9 @@ def _joint_unit(name: str, joints: Mapping[str, Joint], fields: _Fields) -> str:
 def _reach(
     before: Link | Joint, after: Link | Joint, difference: Difference, old: _Side, new: _Side, options: Options
 ) -> ChangeClass:
-    """Return how far a change inside of a link or joint reaches, by exchanging this value alone."""
+    """Return the class of a change inside of a link or joint, by exchanging only the changed value."""
     fields = list(difference.path[2:])
-    if fields[0] == "contact":  # as a whole: its keys differ from the fields of `Contact`
+    if fields[0] == "contact":  # the whole contact, since its keys differ from the fields of `Contact`
         fields = ["contact"]
     imports = None
     if isinstance(before, Link) and old.imports is not None and new.imports is not None:
@@ -166,7 +168,7 @@ def _reach(
 
 
 def _exchanged(value: Any, other: Any, fields: _Fields) -> Any:
-    """Return `value` with one part taken from `other`: the smallest part around the place `fields` that both have."""
+    """Return `value` with one part from `other`: the smallest part at the path `fields` that both values have."""
     if not fields or type(value) is not type(other):
         return other
     field, *inside = fields
@@ -179,7 +181,7 @@ def _exchanged(value: Any, other: Any, fields: _Fields) -> Any:
 
 
 def _data(element: Link | Joint, imports: Mapping[str, Import] | None, options: Options) -> tuple[Any, Any]:
-    """Return the data of an element's model and of its record; without `imports` all meshes count as found."""
+    """Return the data of an element's model and of its record. Without `imports`, all meshes count as found."""
     if isinstance(element, Joint):
         joint = effective(element)
         return (structure(joint), joint_model(joint, options, can_be_driven(joint))), joint
@@ -202,7 +204,7 @@ def _mesh_keys(link: Link) -> set[str]:
 def _of_import(difference: Difference, key: str, old: _Side, new: _Side, options: Options) -> Change | None:
     """Return the change of a mesh's content; None if no link has the mesh in both versions.
 
-    The further files of a mesh count with its first one.
+    A change of a mesh's further files counts as a change of its first file.
     """
     imports = {name: file for name, file in (old.imports or {}).items() if not name.startswith(key)}
     imports |= {name: file for name, file in (new.imports or {}).items() if name.startswith(key)}

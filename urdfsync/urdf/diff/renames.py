@@ -1,4 +1,4 @@
-"""Finds the features by which renamed links, joints and loops are recognised, and renames them in a robot."""
+"""Finds the features that identify renamed links, joints and loops, and renames elements of a robot."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from urdfsync.urdf.robot import SENSOR_KINDS, Collision, Mesh, Robot, Visual
 _NAMES = frozenset(
     {"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start", "motor"}
 )
-"""Entries of joints and loops that are names, or follow from names elsewhere, such as those of the configuration."""
+"""Fields of joints and loops that are names, or depend on names in other places, such as the configuration."""
 _Said: TypeAlias = tuple[Any, Mapping[str, str]]
-"""An element, and further facts about it."""
+"""An element and further facts about the element."""
 _KINDS = ("links", "joints", "sensors", "loops")
 _ENDS = {"parent": "link", "child": "link", "joint": "joint"}
-"""Fields that name another element, and its kind."""
+"""Fields that name another element, with the kind of this element."""
 _MENTIONING = ("mimic", "transmission")
 _LEFT_OUT = frozenset({"name", "actuated", "measured"})
 _PLACE = frozenset({"type", "kind", "origin", "child_origin", "axis", "child_axis"})
@@ -31,7 +31,7 @@ _PLACE = frozenset({"type", "kind", "origin", "child_origin", "axis", "child_axi
 def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
     """Return contents and neighbours of links, joints and loops.
 
-    In a model that git has merged, a joint may name a link that is gone.
+    In a model that git has merged, a joint may name a missing link.
     """
     features = dict[ElementKey, Features]()
     leading = {joint.child: joint.name for joint in snapshot.joints}
@@ -62,7 +62,7 @@ def _without_names(value: Any) -> Any:
 
 
 def renamed(robot: Robot, renames: Mapping[ElementKey, str]) -> Robot:
-    """Return the robot with its links, joints and loops renamed, and without `displaced` ones."""
+    """Return the robot with renamed links, joints and loops, and without `displaced` elements."""
     gone = displaced(renames)
 
     def new(kind: str, name: str) -> str:
@@ -98,17 +98,17 @@ def renamed(robot: Robot, renames: Mapping[ElementKey, str]) -> Robot:
 def comparable(
     old: Robot, new: Robot, renames: Mapping[ElementKey, str]
 ) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    """Return the elements in which two robots differ, as plain data by kind and name; extensions have keys.
+    """Return the elements that differ between two robots, as plain data by kind and name; extensions have keys.
 
-    Each joint that can be driven has an entry `drive` in place of `actuated` and `measured`: `driven` or `passive`, by
-    the source. A transmission can change it for joints that the transmission does not name.
+    Each joint that can be driven has an entry `drive` instead of `actuated` and `measured`: `driven` or `passive`, as
+    the source says. A transmission can change this entry even of joints that it does not name.
     """
     before, after = _elements(old, renames), _elements(new, {})
     return {"name": old.name, **_differing(before, after)}, {"name": new.name, **_differing(after, before)}
 
 
 def _elements(robot: Robot, renames: Mapping[ElementKey, str]) -> dict[tuple[str, str], _Said]:
-    """Return each element of a robot, with further facts about it, by kind and new name."""
+    """Return the elements of a robot with further facts, by kind and new name."""
     passive, new = passive_joints(robot.joints), renamed(robot, renames) if renames else robot
     drives = {
         renames.get(("joint", joint.name), joint.name): {"drive": "passive" if joint.name in passive else "driven"}
@@ -131,12 +131,12 @@ def _differing(elements: Mapping[tuple[str, str], Any], others: Mapping[tuple[st
 
 
 def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, Any]:
-    """Return texts of extensions by `tag name`; repeated keys are numbered from 2."""
+    """Return texts of extensions by `tag name`. Repeated keys are numbered from 2."""
     result: dict[str, str] = {}
     counts: Counter[str] = Counter()
     for tag, texts in tags.items():
         for text in texts:
-            # the name in the first tag; in canonical XML the value of an attribute has no quotes
+            # the name in the first tag; in canonical XML no attribute contains a quote
             subject = re.match(r'<[^>]*?\sname="([^"]*)"', text)
             label = f"{tag} {subject[1]}" if subject else tag
             counts[label] += 1

@@ -1,1 +1,1 @@
-"""A robot as a tree: its canonical order, poses of links, closed loops, loads, and joints that move no mass."""
+"""A robot as a tree: canonical order, poses of links, closed loops, loads, and joints that move no mass."""

@@ -1,9 +1,9 @@
-"""Closes the loops of a robot: finds its start pose, its freedoms, and the equations and states of its model.
+"""Closes the loops of a robot: finds the start pose, the degrees of freedom, and the equations and states of the model.
 
-Generic poses are closed poses near the start, reached by small motions of all joints. There the constraints have the
-rank of the mechanism; at the start it may be lower. Numbers are compared without units: lengths of a loop are divided
-by its size. All machines give the same result: choices have a fixed order and one tolerance, and the start is refined
-in decimals.
+Generic poses are closed poses near the start, reached by small motions of all joints. At generic poses, the constraints
+have the full rank of the mechanism; at the start, the rank may be lower. Numbers are compared without units: lengths of
+a loop are divided by the size of the loop. All machines give the same result: choices have a fixed order and one
+tolerance, and the start is refined in decimals.
 """
 
 from __future__ import annotations
@@ -35,29 +35,29 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop, Vector
 from urdfsync.urdf.validate import Finding
 
 _PARALLEL = 1e-4
-"""Greatest angle between axes that are meant to be parallel, in rad: exporters write 1.5708 for π/2."""
+"""In rad: the greatest angle between axes that count as parallel. Exporters write 1.5708 for π/2."""
 _INDEPENDENT = 1e-3
-"""A row or column, without units, is independent if others leave a part of it that is longer than this.
+"""A vector without units is independent of others if its part at right angles to the others is longer.
 
-Axes that are meant to be parallel leave a shorter part.
+Axes that count as parallel leave a shorter part.
 """
 _CLOSED = 1e-4
 """Greatest gap of a closed loop, in m."""
 _CLOSED_ANGLE = 1e-3
 _AMPLITUDES = (0.4, 0.2, 0.1, 0.05)
-"""Sizes of the motions to generic poses, in rad, tried in this order."""
+"""In rad: sizes of the motions to generic poses, in the order of trial."""
 _POSES = 3
 _STEPS = 16
-"""Steps of the way along which Test moves the driven joints."""
+"""Number of steps that check the motion of Test."""
 _PASSIVE = re.compile("passive|unactuated|undriven", re.IGNORECASE)
 _MOTOR = re.compile("motor|actuat|servo|drive(?!n)", re.IGNORECASE)
 _MOST_LOOPS, _MOST_JOINTS = 200, 1000
 _MOST_WORK = 6 * 10**10
-"""The most multiplications to close all loops: ten seconds. 110 four-bars take 10¹⁰."""
+"""The most multiplications to close all loops, which take ten seconds. For comparison: 110 four-bars take 10¹⁰."""
 
 
 class _Problem(Mechanism):
-    """A mechanism with open loops, without units: lengths of a loop are divided by its size."""
+    """A mechanism whose loops are to be closed. Numbers have no units: lengths of a loop are divided by its size."""
 
     def __init__(self, tree: KinematicTree) -> None:
         super().__init__(tree)
@@ -70,10 +70,10 @@ class _Problem(Mechanism):
         levers = np.linalg.norm(poses[None, 1:, :3, 3] - self.frames(poses)[1][:, None, :3, 3], axis=2)
         sizes = (levers * (self.signs != 0) * self.turns.T).max(axis=1)
         self.sizes = np.where(sizes > 0, sizes, 1.0)
-        """For each loop, the distance from its frames to the farthest axis; 1 without axes."""
+        """Size of each loop: the distance from its frames to the farthest axis; 1 without axes."""
         self.units = np.ones(len(limits))
         for k, joint in enumerate(self.independent):
-            if joint.type == "prismatic":  # its unit is the size of its first loop
+            if joint.type == "prismatic":  # the unit of a slide is the size of its first loop
                 self.units[k] = self.sizes[np.argmax(self.moves[:, k])]
         self.work = 0
 
@@ -84,14 +84,14 @@ class _Problem(Mechanism):
         return gaps / scales, jacobian * self.units / scales[:, None]
 
     def jacobian(self, q: Array, rows: Rows) -> Array:
-        """Return the derivatives alone."""
+        """Return the derivatives of the equations, without units."""
         return self.scaled(q, rows)[1]
 
     def close(self, start: Array, rows: Rows, free: Array | None = None, *, bounded: bool = True) -> Array:
         """Return the pose near a start with the least residuals, by Levenberg's method; only the free joints move.
 
-        The `whole` equations depend on each other. Joints do not move along directions that hardly change these:
-        inexact numbers leave residuals there.
+        The `whole` equations depend on each other, and inexact numbers leave residuals. So joints do not move in
+        directions that hardly change these equations.
         """
         least = _INDEPENDENT**2 if rows is self.whole else 1e-12  # chosen rows are independent
         q, caution, lower, upper = start, 1.0, self.lower, self.upper
@@ -101,7 +101,7 @@ class _Problem(Mechanism):
         gaps, jacobian = self.scaled(q, rows)
         for _ in range(60):
             movable = np.ones(len(q), bool) if free is None else free.copy()
-            while True:  # repeat without the joints that would leave their limits
+            while True:  # repeated without the joints that would leave their limits
                 self.work += work
                 if self.work > _MOST_WORK:
                     raise _UnclosableError
@@ -129,7 +129,7 @@ class _Problem(Mechanism):
         return float(np.abs(self.scaled(q, self.whole)[0]).max())
 
     def parts(self, held: Array) -> Iterator[tuple[_Problem, Array]]:
-        """Yield each group of loops that share joints which are not held: a problem, with the columns of its joints."""
+        """Yield each group of loops that share movable joints: a problem, with the columns of its joints."""
         labels, names = np.arange(len(self.loops)), [joint.name for joint in self.independent]
         for shared in self.moves[:, ~held].T:
             labels[np.isin(labels, labels[shared])] = labels[shared].min(initial=len(labels))
@@ -143,7 +143,7 @@ class _Problem(Mechanism):
             self.work = part.work
 
     def start_poses(self) -> Iterator[Array]:
-        """Yield poses within limits: the start, some around it, the middle of the limits, and some anywhere."""
+        """Yield poses within limits: the start, poses around it, the middle of the limits, and poses anywhere."""
         motions = _motions(len(self.start), 12)
         lower = np.maximum(self.lower, self.start - math.pi * self.units)
         upper = np.minimum(self.upper, self.start + math.pi * self.units)
@@ -154,22 +154,23 @@ class _Problem(Mechanism):
 
 
 class _UnclosableError(Exception):
-    """Stops an assembly; if there are no faults, the assembly would take too long."""
+    """Stops an assembly. Without `faults`, the assembly would take too long."""
 
     def __init__(self, *faults: Finding) -> None:
         self.faults = faults
 
 
-# A build calls this five times, for two versions, and a call takes 40 ms.
+# A build calls `assemble` five times, for two versions of the robot, and a call takes 40 ms.
 @functools.lru_cache(maxsize=2)
 def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> ClosedLoops:
-    """Close all loops of a robot near its start, or report why that is impossible.
+    """Close all loops of a robot near its start, or report the reason why they stay open.
 
-    `wanted` joints shall be driven; the source or the options name the `named` joints as drives. If no named joint is
-    in a loop, independent wanted ones are driven: first those with names of motors, then those with a limit of effort.
+    The options ask for drives of the `wanted` joints. Source or options name drives of the `named` joints. If no named
+    joint is in a loop, independent wanted joints are driven. Joints with names of motors come first, then joints with a
+    limit of effort.
     """
     try:
-        with np.errstate(all="ignore"):  # huge numbers overflow, and NaN counts as not closed
+        with np.errstate(all="ignore"):  # huge numbers overflow, and a loop with NaN counts as open
             try:
                 return _assemble(tree, wanted, named)
             except _UnclosableError as error:
@@ -196,13 +197,13 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
     candidates = Rows.of(map(_equations, tree.loops, normals))
     rows = candidates.take(_independent([problem.jacobian(q, candidates) for q in generic]))
     if idle := [loop.name for k, loop in enumerate(tree.loops) if k not in rows.loops]:
-        reason = "is redundant: other loops and joints hold the same"
+        reason = "is redundant: other loops and joints already hold its links"
         raise _UnclosableError(*(Finding("loop-redundant", f"loop {name}", f"loop {name!r} {reason}") for name in idle))
     closures = {loop.name: _closure(loop, candidates, rows, k, normals[k]) for k, loop in enumerate(tree.loops)}
     at_start = problem.jacobian(closed, rows)
     for k, row in enumerate([*_independent([at_start]), -1][: len(rows.loops)]):
         if row != k:
-            raise _singular(tree.loops[rows.loops[k]], "its equations depend on each other, though not elsewhere")
+            raise _singular(tree.loops[rows.loops[k]], "its equations depend on each other only there")
     freedom = _null_space(at_start)
     if drives:
         spaces = [_null_space(problem.jacobian(q, rows)) for q in generic]
@@ -215,7 +216,7 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
         if k not in driven:
             raise _singular(tree.loops[np.argmax(problem.moves[:, k])], f"joint {names[k]!r} is at a dead point")
     states = _with_others(freedom, driven)
-    kept += driven  # the driven joints, too, keep starts of few digits
+    kept += driven  # driven joints also keep their starts, which have few digits
     exact = _with_others(freedom, [kept[k] for k in _independent([freedom[kept]])])
     free = np.array([k not in exact for k in range(len(names))])
     q = np.where(np.abs(closed - problem.start) > 1e-9, np.round(closed, 9), problem.start)
@@ -247,21 +248,22 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
 
 
 def _given_limits(limits: tuple[float, float]) -> tuple[float, float]:
-    """Return the limits; infinite ones if both are equal, since some exporters write zero for both."""
+    """Return the limits; no limits if both are equal, since some exporters write zero twice."""
     return (-math.inf, math.inf) if limits[0] == limits[1] else limits
 
 
 def _spectrum(matrix: Array) -> tuple[Array, Array]:
-    """Return the squares of the singular values, smallest first, and their right singular vectors as columns.
+    """Return the squares of the singular values, smallest first, and the right singular vectors as columns.
 
-    For 40 joints on a busy machine, this takes half a millisecond; `numpy.linalg.svd` takes 50 ms, due to its threads.
+    For 40 joints on a busy machine, `eigh` takes half a millisecond; `numpy.linalg.svd` takes 50 ms, due to its
+    threads.
     """
     squares, directions = np.linalg.eigh(matrix.T @ matrix)
     return squares, directions
 
 
 def _independent(matrices: Sequence[Array]) -> list[int]:
-    """Return the rows that are independent of those before them in most of the matrices."""
+    """Return the numbers of the rows that, in most matrices, are independent of the rows before."""
     bases = [np.zeros((0, matrix.shape[1])) for matrix in matrices]
     chosen = []
     for k in range(len(matrices[0])):
@@ -275,18 +277,18 @@ def _independent(matrices: Sequence[Array]) -> list[int]:
 
 
 def _rest(row: Array, basis: Array) -> Array:
-    for _ in range(2):  # the second time removes rounding errors
+    for _ in range(2):  # the second round removes rounding errors
         row = row - basis.T @ (basis @ row)
     return row
 
 
 def _null_space(matrix: Array) -> Array:
-    """Return the directions that independent equations leave free, as columns."""
+    """Return the free directions of independent equations, as columns."""
     return _spectrum(matrix)[1][:, : matrix.shape[1] - len(matrix)]
 
 
 def _with_others(space: Array, states: Sequence[int]) -> list[int]:
-    """Return the states, and add joints until no other one can move; each added one moves nearly as freely as any."""
+    """Return the states, plus joints until no further joint can move; each new joint moves nearly as freely as any."""
     states = list(states)
     while len(states) < space.shape[1]:
         held = space[states]
@@ -296,7 +298,7 @@ def _with_others(space: Array, states: Sequence[int]) -> list[int]:
 
 
 def _normal(mechanism: Mechanism, loop: int) -> Vector | None:
-    """Return the normal of the plane in which a loop moves, in the frame of its parent; None if it is spatial."""
+    """Return the normal of a loop's plane of motion, in the frame of its parent; None for a spatial loop."""
     poses = mechanism.poses(mechanism.start)
     turns, moves = mechanism.twists(poses)
     in_loop = mechanism.signs[loop] != 0
@@ -312,7 +314,7 @@ def _normal(mechanism: Mechanism, loop: int) -> Vector | None:
 
 
 def _equations(loop: Loop, normal: Vector | None) -> list[Equation]:
-    """Return the equations of a loop's kind; those of its plane come first."""
+    """Return the equations of a loop's kind; equations in its plane come first."""
     x, y, z = (*across(normal), normal) if normal else AXES
     pairs: Sequence[tuple[Vector, Vector]] = ()
     if loop.kind == "revolute":
@@ -343,7 +345,7 @@ _REASONS = ("by its name", "by its limit of effort", "the first free one")
 
 
 def _rank(joint: Joint) -> int:
-    """Return the number of the reason to drive a joint; a greater one if its name says that nothing drives it."""
+    """Return the number of the reason to drive a joint; a greater number if its name says that it is passive."""
     if _PASSIVE.search(joint.name):
         return len(_REASONS)
     if _MOTOR.search(joint.name):
@@ -352,14 +354,14 @@ def _rank(joint: Joint) -> int:
 
 
 def _reason(ranks: Mapping[int, int], k: int) -> str:
-    """Return the reason to drive a joint; a reason that holds for all joints does not count."""
+    """Return the reason to drive a joint. If all joints have one reason, this reason does not count."""
     return _REASONS[ranks[k] if ranks[k] < max(ranks.values()) else -1]
 
 
 def _find_regular_start(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> dict[str, float]:
-    """Return positions of joints near the start at which no loop is singular.
+    """Return positions of joints near the start, such that no loop is singular.
 
-    Only joints of loops that are singular at the start move. Empty if none of the few tried poses is regular.
+    Only joints of singular loops move. The result is empty if none of the few tried poses will do.
     """
     problem, start = _Problem(tree), dict[str, float]()
     names = [joint.name for joint in problem.independent]
@@ -370,7 +372,7 @@ def _find_regular_start(tree: KinematicTree, wanted: frozenset[str], named: froz
         except _UnclosableError as error:
             near = np.clip(np.round(problem.start + motion * problem.units, 3), problem.lower, problem.upper)
             paths = {fault.path for fault in error.faults}
-            if not paths:  # it takes too long
+            if not paths:  # the assembly takes too long
                 break
             for part, columns in problem.parts(np.zeros(len(names), bool)):
                 if any(f"loop {loop.name}" in paths for loop in part.loops):
@@ -383,16 +385,16 @@ def _find_regular_start(tree: KinematicTree, wanted: frozenset[str], named: froz
 
 
 def _motions(count: int, number: int = 4) -> list[Array]:
-    """Return some motions of all joints, between -1 and 1, without pattern and the same on every machine."""
+    """Return motions of all joints, between -1 and 1: irregular, but equal on all machines."""
     index = np.arange(1, count + 1)
     return [2 * ((index * 0.6180339887498949 + k * index * 0.4142135623730951) % 1) - 1 for k in range(1, number + 1)]
 
 
 def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[int]]:
-    """Return a closed pose near the start, and the joints that stay at the start exactly.
+    """Return a closed pose near the start, and the joints that stay exactly at their starts.
 
-    All joints with a given start stay if that is possible, else as many as possible. Other drives stay if the loops can
-    be closed nearby. Raises an error with the loops that cannot be closed.
+    As many joints as possible keep their given starts. Other driven joints stay if the loops can be closed nearby.
+    Raises an error for loops that cannot be closed.
     """
     q, kept, faults = problem.start.copy(), list[int](), list[Finding]()
     for part, columns in problem.parts(np.zeros(len(q), bool)):
@@ -401,7 +403,7 @@ def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[
         given = tuple(sorted(given, key=lambda at: at not in driven))
         both = tuple(dict.fromkeys((*given, *driven)))
         opened = dict[Sequence[int], list[tuple[_Problem, Array]]]()
-        # a far pose is worse than moved drives, and better than no pose
+        # moved drives are better than a far pose, a far pose is better than none
         for held, most in dict.fromkeys(((both, 1), (given, None), (driven, 1), ((), None), (driven, None))):
             closed, opened[held] = _search(part, held, most)
             if not opened[held]:
@@ -416,7 +418,7 @@ def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[
 
 
 def _keep(part: _Problem, held: Sequence[int], given: Sequence[int], closed: Array) -> tuple[list[int], Array]:
-    """Hold as many more of the given joints as possible, one by one; return all held joints and the closed pose."""
+    """Hold more `given` joints, one by one, while the loops close; return the held joints and the closed pose."""
     kept = [*held]
     for k in given if not set(given).issubset(held) else []:
         squares, directions = _spectrum(part.jacobian(closed, part.whole))
@@ -433,9 +435,9 @@ def _keep(part: _Problem, held: Sequence[int], given: Sequence[int], closed: Arr
 def _search(
     problem: _Problem, held: Sequence[int], most: int | None = None
 ) -> tuple[Array, list[tuple[_Problem, Array]]]:
-    """Return a closed pose within limits, the `held` joints at the start; also the open loops, in their best poses.
+    """Return a closed pose within limits, with the `held` joints at the start; also the open loops in their best poses.
 
-    Loops that share no other joint are closed one by one, each from `most` poses at most.
+    Loops that share no movable joint are closed separately, each from up to `most` poses.
     """
     q, open_parts = problem.start.copy(), list[tuple[_Problem, Array]]()
     is_held = np.zeros(len(q), bool)
@@ -453,7 +455,7 @@ def _search(
 
 
 def _generic_poses(problem: _Problem, closed: Array) -> list[Array]:
-    """Return closed poses around the closed pose, without regard to limits; only this pose if none is found."""
+    """Return closed poses around `closed`, without regard to limits; `closed` itself if no other is found."""
     motions = [size * motion * problem.units for size in _AMPLITUDES for motion in _motions(len(closed))]
     poses = (problem.close(closed + motion, problem.whole, bounded=False) for motion in motions)
     near = (q for q in poses if problem.openness(q) < 3 * _CLOSED_ANGLE)
@@ -461,20 +463,20 @@ def _generic_poses(problem: _Problem, closed: Array) -> list[Array]:
 
 
 def _refine(tree: KinematicTree, problem: _Problem, q: Array, rows: Rows, free: Array) -> Array:
-    """Return the positions with twelve digits that do not depend on a machine's rounding."""
+    """Return the positions with twelve digits, independent of the machine's rounding."""
     exact, at = Mechanism(tree, object), array_of(q, object)
     exact_rows = rows.take(range(len(rows.loops)), object)
     inverse = np.linalg.inv(problem.evaluate(q, rows)[1][:, free])
-    for _ in range(3):  # each step gains at least half of a float's digits
+    for _ in range(3):  # each step adds at least half of a float's digits
         at[free] = at[free] - array_of(inverse @ exact.left(at, exact_rows).astype(float), object)
     return np.where(free, [float(round(value, 12)) + 0.0 for value in at], q)
 
 
 def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free: Array) -> Mapping[str, float]:
-    """Return how far Test can move each driven joint when all of them move at once."""
+    """Return the distance that Test can move each driven joint if all move at once."""
     joints = problem.independent
     reach = {k: SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
-    while True:  # ends: each joint changes its side once at most
+    while True:  # this loop ends: each joint changes its side at most once
         ways = {k: _way(joints[k], float(q[k]), reach[k]) for k in driven}
         done = _follow(problem, q, rows, ways, free)
         if done < _STEPS:
@@ -488,7 +490,7 @@ def _way(joint: Joint, start: float, reach: float) -> float:
 
 
 def _follow(problem: _Problem, q: Array, rows: Rows, ways: Mapping[int, float], free: Array) -> int:
-    """Return the number of steps along the ways before a loop opens or is singular, or a joint leaves its limits."""
+    """Return the number of steps until a loop opens or is singular, or a joint leaves its limits."""
     way, start, at = np.zeros(len(q)), q, q
     for k, value in ways.items():
         way[k] = value
@@ -503,7 +505,7 @@ def _follow(problem: _Problem, q: Array, rows: Rows, ways: Mapping[int, float], 
 
 
 def _least(matrix: Array) -> float:
-    """Return the smallest singular value; infinite without any."""
+    """Return the smallest singular value; infinite for an empty matrix."""
     return math.sqrt(max(0.0, float(_spectrum(matrix)[0].min(initial=math.inf))))
 
 
@@ -530,7 +532,7 @@ def _open_loops(problem: _Problem, q: Array) -> Iterator[tuple[Loop, Gap]]:
 
 
 def _find_open(problem: _Problem, q: Array) -> Iterator[Finding]:
-    """Yield why loops stay open. If some of several loops cannot even be closed alone, only these are reported."""
+    """Yield a finding for each open loop. If some loops cannot be closed even alone, report only these loops."""
     singles = [_Problem(replace(problem.tree, loops=(loop,))) for loop in problem.loops if len(problem.loops) > 1]
     if alone := [found for single in singles for found in _search(single, [])[1]]:
         for part, best in alone:
@@ -545,9 +547,9 @@ def _find_open(problem: _Problem, q: Array) -> Iterator[Finding]:
             f"{gap} apart ({starts[k]} at the start)"
         )
         names = [repr(problem.independent[j].name) for j in np.flatnonzero(is_outside & problem.moves[k])]
-        hint = "it closes only without the other loops of its joints: correct its frames, or these" if singles else ""
+        hint = "the loop closes alone, but not with other loops: correct the frames of one loop" if singles else ""
         if names:
-            hint = f"it closes beyond the limits of {', '.join(names)}: correct these, or its frames"
+            hint = f"the loop closes beyond the limits of {', '.join(names)}: correct the limits, or its frames"
         yield Finding("loop-open", f"loop {loop.name}", message, hint)
 
 

@@ -1,9 +1,9 @@
-"""The reach of a robot and the greatest load of gravity in each joint, over a fixed grid of poses of each branch.
+"""Finds the reach of a robot, and the greatest load of gravity in each joint, over fixed poses of each branch.
 
-A branch leads from the root to one leaf. Its grid has all combinations of a few positions of its joints; all other
-joints stay at their starts. A branch with too many joints has two grids: one of the joints next to the root, one of
-those next to the leaf. A joint that follows another one moves with it. A load acts along the joint's own axis: a leader
-does not carry its followers. The gravity is that of `World`, along -z of the root.
+A branch leads from the root to one leaf. The grid of a branch has all combinations of a few positions of its joints;
+other joints stay at their starts. A branch with too many joints has two grids: one for joints near the root, one for
+joints near the leaf. Mimic joints move with their leaders. A load acts along the joint's own axis: a leader does not
+carry its followers. Gravity acts along -z of the root, as in `World`.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ _Moment = tuple[float, Array]
 
 GRAVITY = 9.80665  # of the Modelica Standard Library's World
 _MOST = 2000
-"""The most poses of a grid; they take 10 ms with seven joints."""
+"""The most poses of a grid. So many poses take 10 ms with seven joints."""
 _QUARTER = math.pi / 2
 
 
 @np.errstate(all="ignore")
 def find_extremes(tree: KinematicTree) -> tuple[float | None, Mapping[str, float]]:
-    """Return the distance of the farthest link frame from the root's, and the greatest load of each joint with an axis.
+    """Return the greatest distance of a link from the root, and the greatest load of each joint with an axis.
 
-    A robot with loops, which close in few of the poses, gives None and no loads.
+    A robot with loops gives None and no loads: few poses close the loops.
     """
     if tree.loops:
         return None, {}
     starts, reach, loads, children = start_positions(tree), 0.0, dict[str, float](), tree.children()
     links = {link.name: link for link in tree.links}
-    folded = dict[str, _Moment]()  # what each joint carries at the start, in the frame of its parent
+    folded = dict[str, _Moment]()  # the load of each joint at the start, in the frame of its parent
     for joint in reversed(tree.joints):
         at = compose(pose(joint.origin), motion(joint, starts[joint.name]))
         below = [folded[other.name] for other in children.get(joint.child, ())]
@@ -71,13 +71,13 @@ def find_extremes(tree: KinematicTree) -> tuple[float | None, Mapping[str, float
             # the last bits differ between machines
             greatest = round(GRAVITY * float(np.abs(load).max()), 9)
             loads[joint.name] = max(greatest, loads.get(joint.name, 0.0))
-    # the numbers of a source may be too large for squares and products
+    # squares and products of large numbers may overflow
     finite = {name: load for name, load in loads.items() if math.isfinite(load)}
     return round(reach, 9) if math.isfinite(reach) else None, finite
 
 
 def positions(joint: Joint, lower: float, upper: float, start: float) -> list[float]:
-    """Return the positions of a joint in a grid: the ends of its range, and all quarters of a turn between them."""
+    """Return the positions of a joint in a grid: the ends of the range, and the quarter turns between the ends."""
     if MOTION_KINDS.get(joint.type) == "rotational" and upper - lower >= 4 * _QUARTER:
         return [k * _QUARTER for k in range(4)]
     if MOTION_KINDS.get(joint.type) is None or not 0 <= upper - lower < math.inf:
@@ -87,7 +87,7 @@ def positions(joint: Joint, lower: float, upper: float, start: float) -> list[fl
 
 
 def find_grids(tree: KinematicTree) -> Iterator[tuple[Sequence[Joint], Sequence[Array]]]:
-    """Yield the joints of each branch, and their positions in all poses of a grid, or one if they stand still."""
+    """Yield the joints of each branch, each with its positions in all poses of a grid, or its only position."""
     towards = {joint.child: joint for joint in tree.joints}
     starts, ranges = start_positions(tree), position_ranges(tree)
     for leaf in tree.leaves():
@@ -140,6 +140,6 @@ def _sum(moments: Sequence[_Moment]) -> _Moment:
 
 
 def _placed(at: Pose, moment: _Moment) -> _Moment:
-    """Return a moment, given in the frame at a pose, in the frame in which the pose is given."""
+    """Return `moment`, which is in the frame at the pose `at`, in the reference frame of this pose."""
     rotation, place = map(np.array, at)
     return moment[0], rotation @ moment[1] + moment[0] * place

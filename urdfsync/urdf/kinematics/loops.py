@@ -1,4 +1,4 @@
-"""The closed loops of a robot: its start pose, its freedoms, and the equations and states of its model."""
+"""The closed loops of a robot: start pose, degrees of freedom, and the equations and states of the model."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.validate import Finding
 
 NOTABLE = 1e-5
-"""Smaller gaps at the source's start and smaller motions of joints are not reported, in m and rad: exports round."""
+"""In m and rad: smaller gaps at the source's start, and smaller motions of joints, are rounding errors of exporters."""
 
 
 class Gap(msgspec.Struct, frozen=True):
     """The gap of a loop in a pose."""
 
     distance: float
-    """Between the origins of both frames, in m."""
+    """The distance between the origins of both frames, in m."""
     angle: float
-    """Between the axes that the loop's kind holds together, in rad."""
+    """The angle between the axes of both frames that a closed loop aligns, in rad."""
 
     def __str__(self) -> str:
         """Return the gap in words."""
@@ -31,58 +31,59 @@ class Gap(msgspec.Struct, frozen=True):
 
 
 class Closure(msgspec.Struct, frozen=True):
-    """The equations by which a model closes a loop: independent of each other, and of all other loops' equations."""
+    """The equations that close a loop in a model. They are independent of each other and of other loops' equations."""
 
     translations: tuple[Vector, ...]
-    """Unit vectors in the frame of the parent, along which the origins of both frames coincide."""
+    """Unit vectors in the frame of the parent: along each, the distance of both origins is zero."""
     rotations: tuple[tuple[Vector, Vector], ...]
-    """Pairs of unit vectors u in the frame of the parent and v in that of the child: u·R·v = 0."""
+    """Pairs of unit vectors, u in the frame of the parent and v in the frame of the child: u·R·v = 0."""
     planar: Vector | None = None
-    """Normal of the plane in the frame of the parent, if there are two translations in a plane and no rotations."""
+    """Normal of the loop's plane, in the frame of the parent, if two translations in the plane close the loop."""
     weaker: str | None = None
-    """The reason for fewer equations than the kind has; None also for a planar loop."""
+    """The reason why the loop has fewer equations than its kind; also None for a planar loop."""
 
 
 class ClosedLoops(msgspec.Struct, frozen=True, kw_only=True):
-    """The closed loops of a robot, or their faults, and its driven joints; a robot without loops has only drives."""
+    """The closed loops of a robot, or the faults of its loops. Without loops, only `tree` and `driven` are set."""
 
     tree: KinematicTree
-    """The robot; joints that move a loop begin in a closed pose: at the start of the source, if that is closed."""
+    """The robot. Joints of loops begin in a closed pose: the start pose of the source, if that pose is closed."""
     driven: frozenset[str]
-    """All joints of the robot that are driven."""
+    """All driven joints of the robot."""
     joints: tuple[str, ...] = ()
-    """Joints whose motion the loops restrict, with the leaders of followers, in canonical order."""
+    """Joints that loops restrict, and the leaders of such joints, in canonical order."""
     states: tuple[str, ...] = ()
-    """Of `joints`, one for each freedom: driven ones, then others. All other joints follow from these.
+    """One of `joints` for each degree of freedom: driven joints, then others.
 
-    They are as many as the joints that follow no other joint, less the rank of the constraints at generic poses.
+    The states determine all other joints. The number of states is the number of independent joints minus the rank of
+    the constraints at generic poses.
     """
     excess: tuple[str, ...] = ()
-    """Joints that are named as drives but not driven, since others move the loops already."""
+    """Joints that are named as drives but not driven, since other drives already move the loops."""
     reach: Mapping[str, float] = {}
-    """How far Test moves each driven one of `joints` at most: the loops stay closed when all move at once."""
+    """The greatest motion of each driven joint in Test: the loops stay closed if all move at once."""
     closures: Mapping[str, Closure] = {}
     gaps: Mapping[str, Gap] = {}
     """The gap of each loop at the start of the source."""
     moved: Mapping[str, str] = {}
-    """Joints that do not begin at their given start, each with the distance in words."""
+    """Joints that do not begin at their given start, with the distance in words."""
     choices: Mapping[str, str] = {}
-    """The driven ones of `joints` with the reason for each, if neither source nor options name any."""
+    """Driven joints of loops with the reason for each choice, if neither source nor options name such joints."""
     faults: tuple[Finding, ...] = ()
-    """Why the loops can't be closed. If they can't, the tree is unchanged, and only `driven` and `proposed` are set."""
+    """The reasons why loops stay open: then only `tree` (unchanged), `driven` and `proposed` are set."""
     proposed: Mapping[str, float] = {}
-    """If loops are singular at the start: nearby positions of joints at which no loop is; empty if none are found."""
+    """If loops are singular at the start: nearby positions of joints without singular loops. May be empty."""
 
     @property
     def dependent(self) -> frozenset[str]:
-        """Joints whose positions follow from those of other joints through loops."""
+        """Joints whose positions loops determine from the positions of other joints."""
         return frozenset(self.joints).difference(self.states)
 
 
 def find_loop_findings(closed: ClosedLoops) -> Iterator[Finding]:
-    """Yield why loops have no model, or else how their model differs from the source."""
+    """Yield the faults of loops, or the differences between their models and the source."""
     start = ", ".join(f"{json.dumps(name)} = {value:g}" for name, value in closed.proposed.items())
-    hint = f"let its joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""
+    hint = f"let joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""
     yield from (fault._replace(hint=fault.hint or hint) for fault in closed.faults)
     for name, gap in closed.gaps.items():
         if max(gap.distance, gap.angle) > NOTABLE:

@@ -1,4 +1,4 @@
-"""Finds joints that move no mass at the start: nothing defines their motion in a simulation."""
+"""Finds joints that move no mass at the start: nothing determines the motion of such a joint in a simulation."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from urdfsync.urdf.kinematics.poses import Pose, compose, dot, link_poses, pose,
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Motion, Vector, reflected_inertia
 
-_ROUNDING = 1e-6  # of angles, and of lengths relative to their distance
+_ROUNDING = 1e-6  # of angles in rad, and of lengths relative to the distance from the root
 
 
 class _Axis(msgspec.Struct, frozen=True):
@@ -23,7 +23,7 @@ class _Axis(msgspec.Struct, frozen=True):
     direction: Vector
 
     def is_same(self, other: _Axis) -> bool:
-        """Return whether two joints move alike: about one line, or in one direction."""
+        """Return whether two joints have the same motion: about one line, or in one direction."""
         if self.motion != other.motion or math.hypot(*_cross(self.direction, other.direction)) > _ROUNDING:
             return False
         return self.motion == "translational" or not self._is_off(other.point)
@@ -38,7 +38,7 @@ class _Axis(msgspec.Struct, frozen=True):
         rotation, centre = compose(at, pose(inertial.origin))
         x, y, z = (dot(column, self.direction) for column in zip(*rotation, strict=True))
         i = inertial.inertia
-        # about an axis that is off by a small angle, the moment of a rod is this angle squared times its other moment
+        # if the axis deviates from a rod by a small angle, the moment is the square of the angle times the rod's moment
         moment = i.ixx * x * x + i.iyy * y * y + i.izz * z * z + 2 * (i.ixy * x * y + i.ixz * x * z + i.iyz * y * z)
         return moment > _ROUNDING**2 * (i.ixx + i.iyy + i.izz) or (inertial.mass > 0 and self._is_off(centre))
 
@@ -50,9 +50,9 @@ class _Axis(msgspec.Struct, frozen=True):
 def find_massless_joints(tree: KinematicTree, passive: AbstractSet[str] | None = None) -> Sequence[str]:
     """Return the names of the joints that move no mass, in canonical order.
 
-    `passive` are joints without a drive; None for all. A joint is massless if no link below it has inertia about its
-    axis, and its drive adds none. Links below a passive joint on the same axis do not count: they can stand still. The
-    links that a follower moves count for its leader; followers are not in the result.
+    `passive` are joints without a drive; None for all. A joint is massless if no link below has inertia about the
+    joint's axis, and the drive adds no inertia. Links below a passive joint on the same axis do not count, since they
+    can stand still. Links that a follower moves count for its leader; followers are not in the result.
     """
     poses, children = link_poses(tree, start_positions(tree)), tree.children()
     links = {link.name: link for link in tree.links}

@@ -1,4 +1,4 @@
-"""The joints of a robot's loops in numpy, and the equations of all loops at once."""
+"""The joints and the equations of all loops of a robot, as arrays of numpy."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _TAU = Decimal("6.283185307179586476925286766559005768394")
 
 
 class Rows(NamedTuple):
-    """Equations u·(T·v) = product: u is in the frame of the parent, v in the frame of the child, T is the child's pose.
+    """Equations u·(T·v) = product: u is in the parent's frame, v in the child's frame, and T is the pose of the child.
 
-    The vector v has four numbers: a direction and 0, or the origin and 1, for a translation along u.
+    The vector v has four numbers: a direction and 0 for a rotation, or the origin and 1 for a translation along u.
     """
 
     loops: Array
-    """For each equation, the number of its loop."""
+    """The number of the loop of each equation."""
     u: Array
     v: Array
     products: Array
@@ -44,7 +44,7 @@ class Rows(NamedTuple):
         return cls(*map(np.array, zip(*rows, strict=True)))
 
     def take(self, chosen: Sequence[int], dtype: type = float) -> Rows:
-        """Return some of the equations."""
+        """Return the chosen equations."""
         loops, *numbers = (array[list(chosen)] for array in self)
         return Rows(loops, *(array_of(array, dtype) for array in numbers))
 
@@ -52,14 +52,15 @@ class Rows(NamedTuple):
 class Mechanism:
     """The joints between the root and the frames of all loops; `dtype` is float, or object for decimals.
 
-    The `independent` joints move a loop, and follow no other joint. Their positions determine all poses.
+    The `independent` joints move a loop and follow no other joint. The positions of the independent joints determine
+    all poses.
     """
 
     def __init__(self, tree: KinematicTree, dtype: type = float) -> None:
         by_child, on_paths = {joint.child: joint for joint in tree.joints}, joints_of_loops(tree)
         paths = [[{*_path(by_child, link)} for link in (loop.parent, loop.child)] for loop in tree.loops]
         self.paths = [parent ^ child for parent, child in paths]
-        """For each loop, the joints from one of its frames to the other."""
+        """The joints between the two frames of each loop."""
         self.loops = tree.loops
         self.joints = [joint for joint in tree.joints if joint.name in on_paths]
         index = {joint.child: k for k, joint in enumerate(self.joints, 1)}
@@ -71,7 +72,7 @@ class Mechanism:
         self.turns, self.slides = (np.array([motion == kind for motion in motions], int)[:, None] for kind in MOTIONS)
         signs = [[(j.name in child) - (j.name in parent) for j in self.joints] for parent, child in paths]
         self.signs = np.array(signs, int).reshape(len(paths), -1) * (self.turns + self.slides).T
-        """For each loop, 1 for joints that move the child's frame against the parent's, -1 the other way round."""
+        """For each loop and joint: 1 if the joint moves the child's frame, -1 for the parent's frame, else 0."""
         self._links = np.array([[index.get(loop.parent, 0), index.get(loop.child, 0)] for loop in tree.loops]).T
         self._frames = [_poses([loop.origin for loop in tree.loops], dtype)]
         self._frames += [_poses([loop.child_origin for loop in tree.loops], dtype)]
@@ -87,7 +88,7 @@ class Mechanism:
                 gears[k, column[leader]], offsets[k] = multiplier, offset
         self._gears, self._offsets = array_of(gears, dtype), array_of(offsets, dtype)
         self.moves = self.signs @ gears != 0
-        """For each loop, whether each independent joint moves it."""
+        """For each loop and independent joint, whether the joint moves the loop."""
         self.whole = Rows.of(map(_whole, tree.loops))
 
     def poses(self, q: Array) -> Array:
@@ -102,12 +103,12 @@ class Mechanism:
         return np.array(poses)
 
     def frames(self, poses: Array) -> tuple[Array, Array]:
-        """Return the poses of the frames of all loops, in the parents and in the children."""
+        """Return the poses of the parents' frames and of the children's frames of all loops."""
         a, b = (poses[links] @ frames for links, frames in zip(self._links, self._frames, strict=True))
         return a, b
 
     def twists(self, poses: Array) -> tuple[Array, Array]:
-        """Return for each joint its angular velocity, and the velocity that it gives a point at the root's origin."""
+        """Return for each joint the angular velocity, and the velocity of the point at the root's origin."""
         axes = (poses[1:, :3, :3] @ self._axes[:, :, None])[:, :, 0]
         turns = axes * self.turns
         return turns, axes * self.slides + _cross(poses[1:, :3, 3], turns)
@@ -117,7 +118,7 @@ class Mechanism:
         return self._left(self.poses(q), rows)[0]
 
     def evaluate(self, q: Array, rows: Rows) -> tuple[Array, Array]:
-        """Return the residuals of the equations, and their derivatives by positions."""
+        """Return the residuals of the equations, and the derivatives by the joints' positions."""
         poses = self.poses(q)
         left, u, w = self._left(poses, rows)
         turns, moves = self.twists(poses)
@@ -125,7 +126,7 @@ class Mechanism:
         return left, derivatives @ self._gears
 
     def _left(self, poses: Array, rows: Rows) -> tuple[Array, Array, Array]:
-        """Return the residuals of the equations, and their vectors u and T·v in the frame of the root."""
+        """Return the residuals of the equations, and the vectors u and T·v in the frame of the root."""
         a, b = self.frames(poses)
         u = (a[rows.loops, :3, :3] @ rows.u[:, :, None])[:, :, 0]
         w = (b[rows.loops, :3] @ rows.v[:, :, None])[:, :, 0]
@@ -143,9 +144,9 @@ class Mechanism:
 
 
 def _whole(loop: Loop) -> list[Equation]:
-    """Return all equations of a loop's kind, of which some depend on others.
+    """Return all equations of a loop's kind, including dependent ones.
 
-    Their residuals are largest for a loop that is closed the wrong way round.
+    The residuals are largest if a loop is closed the wrong way round.
     """
     equations: list[Equation] = [(u, ORIGIN, 0.0) for u in AXES]
     if loop.kind == "universal":
@@ -161,7 +162,7 @@ def array_of(values: Any, dtype: type) -> Array:
 
 
 def _cross(a: Array, b: Array) -> Array:
-    """Return the vector products of rows; numpy's own takes five times as long, which was most of the time."""
+    """Return the vector products of rows; `numpy.cross` took most of an assembly's time."""
     crossed: Array = a[:, [1, 2, 0]] * b[:, [2, 0, 1]] - a[:, [2, 0, 1]] * b[:, [1, 2, 0]]
     return crossed
 
@@ -215,7 +216,7 @@ def _path(by_child: Mapping[str, Joint], link: str) -> Iterator[str]:
 
 
 def _roots(tree: KinematicTree) -> Mapping[str, tuple[str, float, float]]:
-    """Return for each joint its final leader, with multiplier and offset; itself if it follows none."""
+    """Return the final leader of each joint, with multiplier and offset; a joint without a leader leads itself."""
     roots: dict[str, tuple[str, float, float]] = {}
     for joint in tree.leaders_first():
         roots[joint.name] = joint.name, 1.0, 0.0

@@ -12,11 +12,11 @@ Matrix = tuple[Vector, Vector, Vector]
 Pose = tuple[Matrix, Vector]
 """Rotation R and translation p: v_world = R·v + p."""
 
-# Greatest position: no joint moves so far, and arithmetic does not overflow. The library's leaderPosition has it, too.
+# Positions are cut off here, since larger numbers overflow. The library's leaderPosition has the same bound.
 _FAR = 1e60
 
 SWEEP = {"rotational": 1.0, "translational": 0.1}
-"""Longest way of a sweep in the library, in rad and m."""
+"""In rad and m: the longest motion of a sweep in the library."""
 _MARGIN, _PERIOD = 0.9, 10.0
 
 IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
@@ -34,15 +34,15 @@ def pose(origin: Origin) -> Pose:
 
 
 def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
-    """Return the angles of a quaternion x, y, z, w of any length but zero; they are precise even if pitch is ±π/2."""
-    largest = max(map(abs, quaternion))  # else the squares of large numbers overflow
+    """Return the angles of a quaternion x, y, z, w of any length but zero, precise even at a pitch of ±π/2."""
+    largest = max(map(abs, quaternion))  # without this, the squares of large numbers overflow
     length = math.hypot(*(value / largest for value in quaternion))
     x, y, z, w = (value / largest / length for value in quaternion)
     up, ahead = 2 * (x * y + w * z), 1 - 2 * (y * y + z * z)
     yaw = math.atan2(up, ahead)
     pitch = math.atan2(2 * (w * y - x * z), math.hypot(up, ahead))
-    # roll is that of the orientation turned back by yaw: at a pitch of ±π/2, where both turn about one axis, the errors
-    # of the two cancel
+    # roll comes from the orientation turned back by yaw: at a pitch of ±π/2 both turn about one axis, and their errors
+    # cancel
     s, c = math.sin(yaw), math.cos(yaw)
     sine = 2 * s * (x * z + w * y) - 2 * c * (y * z - w * x)
     cosine = c * (1 - 2 * (x * x + z * z)) - 2 * s * (x * y - w * z)
@@ -50,7 +50,7 @@ def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
 
 
 def compose(outer: Pose, inner: Pose) -> Pose:
-    """Return the pose `inner`, which is given in the frame `outer`, in the frame in which `outer` is given."""
+    """Return the product of two poses: `inner` is given in the frame of `outer`."""
     (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))
     turned = tuple(tuple(dot(row, column) for column in columns) for row in rotation)
     moved = tuple(p + dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))
@@ -58,7 +58,7 @@ def compose(outer: Pose, inner: Pose) -> Pose:
 
 
 def motion(joint: Joint, position: float) -> Pose:
-    """Return the pose of the child link in the joint frame: a turn by Rodrigues' formula, or a shift along the axis."""
+    """Return the pose of the child link in the joint frame: a turn (by Rodrigues' formula) or a shift."""
     if MOTION_KINDS.get(joint.type) == "translational":
         return IDENTITY[0], tuple(position * a for a in joint.axis)  # type: ignore[return-value]
     if MOTION_KINDS.get(joint.type) != "rotational":
@@ -74,7 +74,7 @@ def motion(joint: Joint, position: float) -> Pose:
 
 
 def link_poses(tree: KinematicTree, positions: Mapping[str, float]) -> Mapping[str, Pose]:
-    """Return the poses of all links in the root frame at the given joint positions (0 if not given)."""
+    """Return the poses of all links in the root frame; a joint without a given position is at 0."""
     poses = {tree.links[0].name: IDENTITY}
     for joint in tree.joints:
         moved = compose(pose(joint.origin), motion(joint, positions.get(joint.name, 0.0)))
@@ -88,7 +88,7 @@ def position_ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:
     followers = tree.followers_by_leader()
     for joint in reversed(tree.leaders_first()):
         for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTION_KINDS else ():
-            if abs(mimic.multiplier) > math.ulp(1):  # else the follower reaches no limit
+            if abs(mimic.multiplier) > math.ulp(1):  # a smaller multiplier moves no follower to a limit
                 ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
                 lower, upper = ranges[joint.name]
                 ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])
@@ -96,7 +96,7 @@ def position_ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:
 
 
 def start_positions(tree: KinematicTree) -> Mapping[str, float]:
-    """Return the start position of each joint: its `start`, else as close to zero as all limits allow."""
+    """Return the start position of each joint: its `start`, else the position closest to zero within all limits."""
     ranges = position_ranges(tree)
     positions: dict[str, float] = {}
     for joint in tree.leaders_first():
@@ -121,7 +121,7 @@ def own_range(joint: Joint) -> tuple[float, float]:
 
 
 def sweep_way(joint: Joint, start: float, reach: float, limits: tuple[float, float]) -> float:
-    """Return the way that a sweep of the library takes from the start: see Functions.sweepEnd."""
+    """Return the signed distance of a library's sweep from the start: see Functions.sweepEnd."""
     velocity = math.inf if joint.limit is None or joint.limit.velocity is None else joint.limit.velocity
     room = min(_MARGIN * velocity * _PERIOD / math.pi, reach)
     above, below = min(room, _MARGIN * (limits[1] - start)), min(room, _MARGIN * (start - limits[0]))
@@ -133,7 +133,7 @@ def _near(position: float) -> float:
 
 
 def across(axis: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors that complete a unit vector to a frame; for a coordinate axis the two others."""
+    """Return two unit vectors that complete a unit vector to a frame; for a coordinate axis, the other two axes."""
     sizes = [abs(value) for value in axis]
     k = sizes.index(min(sizes))
     x, y, z = ((1.0 if i == k else 0.0) - axis[k] * value for i, value in enumerate(axis))
@@ -144,5 +144,5 @@ def across(axis: Vector) -> tuple[Vector, Vector]:
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:
-    """Return the scalar product of two vectors of three."""
+    """Return the scalar product of two vectors."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -1,7 +1,6 @@
 """A robot's tree in canonical order: depth-first from the root, siblings in natural order of their names.
 
-The order of elements in the URDF does not matter here; the numbers of links, joints, axes and frames follow from the
-canonical order.
+The canonical order, not the order in the URDF, gives links, joints, axes and frames their numbers.
 """
 
 from __future__ import annotations
@@ -41,26 +40,25 @@ class KinematicTree(msgspec.Struct, frozen=True):
     sensors: tuple[Sensor, ...] = ()
     """In natural order of their names."""
     loops: tuple[Loop, ...] = ()
-    """In natural order of their names."""
 
     def __hash__(self) -> int:
-        """Return a hash of the elements. The mapping of their names is left out: mappings have no hash."""
+        """Return a hash of the elements without `names`: mappings have no hash."""
         return hash((self.links, self.joints, self.sensors, self.loops))
 
     @classmethod
     def of(cls, robot: Robot, taken: Iterable[str] = ()) -> KinematicTree:
-        """Return the tree of a robot that passed all checks; `taken` names are not given to any element.
+        """Return the tree of a valid robot.
 
-        Raises KeyError or ValueError for a robot that failed a check.
+        No element gets a name in `taken`. Raises KeyError or ValueError for an invalid robot.
         """
         links = {link.name: link for link in robot.links}
         if len({joint.child for joint in robot.joints}) < len(robot.joints):
-            raise ValueError("two joints lead to one link")  # else the loop below might not end
+            raise ValueError("two joints lead to one link")  # without this check, the loop below might not end
         children: defaultdict[str, list[Joint]] = defaultdict(list)
         for joint in robot.joints:
             children[joint.parent].append(joint)
         for siblings in children.values():
-            siblings.sort(key=lambda joint: natural_key(joint.name), reverse=True)  # the first is popped first
+            siblings.sort(key=lambda joint: natural_key(joint.name), reverse=True)  # the pop takes the last first
         (root,) = links.keys() - {joint.child for joint in robot.joints}
         joints: list[Joint] = []
         waiting = list(children[root])
@@ -96,7 +94,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
         return self.names["loop", name]
 
     def children(self) -> Mapping[str, tuple[Joint, ...]]:
-        """Return the joints that start at each link, in canonical order; links without any are left out."""
+        """Return the joints that start at each link, in canonical order. Links without such joints are left out."""
         children: defaultdict[str, list[Joint]] = defaultdict(list)
         for joint in self.joints:
             children[joint.parent].append(joint)
@@ -108,7 +106,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
         return tuple(link for link in self.links if link.name not in parents)
 
     def axes(self, motion: Motion) -> tuple[Joint, ...]:
-        """Return the drivable joints of this kind of motion: those that follow no other joint."""
+        """Return the joints with this kind of motion that follow no other joint."""
         return tuple(j for j in self.joints if MOTION_KINDS.get(j.type) == motion and j.mimic is None)
 
     def starts(self) -> tuple[Joint, ...]:
@@ -116,18 +114,18 @@ class KinematicTree(msgspec.Struct, frozen=True):
         return tuple(joint for joint in self.joints if joint.start is not None)
 
     def followers(self) -> Iterator[tuple[Joint, Mimic]]:
-        """Yield the joints that follow another joint, each with its relation."""
+        """Yield the joints that follow another joint, each with its `mimic`."""
         return ((joint, joint.mimic) for joint in self.joints if joint.mimic is not None)
 
     def followers_by_leader(self) -> Mapping[str, tuple[tuple[Joint, Mimic], ...]]:
-        """Return the direct followers of each joint that has any."""
+        """Return the direct followers of each leader."""
         followers: defaultdict[str, list[tuple[Joint, Mimic]]] = defaultdict(list)
         for joint, mimic in self.followers():
             followers[mimic.joint].append((joint, mimic))
         return {leader: tuple(joints) for leader, joints in followers.items()}
 
     def leaders_first(self) -> list[Joint]:
-        """Return all joints, each after the joint that it follows."""
+        """Return all joints, each one after its leader."""
         followers = self.followers_by_leader()
         order = [joint for joint in self.joints if joint.mimic is None]
         for joint in order:  # the list grows in this loop

@@ -1,8 +1,8 @@
-"""The triangles of a COLLADA file (.dae), placed by its scene, in metres.
+"""The triangles of a COLLADA file (.dae) at their places in the scene, in metres.
 
-The file's `<unit>` is applied, but its `<up_axis>` is not, as in RViz (ros-visualization/rviz issue 1045 and
-`getMeshUnitRescale`). MoveIt and Gazebo classic do not turn meshes either (moveit/geometric_shapes pull request 52,
-gazebosim/gazebo-classic issue 1305), and exporters rely on that. The transformations of the scene's nodes are applied.
+As in RViz, the file's `<unit>` has an effect, but its `<up_axis>` has none (ros-visualization/rviz issue 1045 and
+`getMeshUnitRescale`). MoveIt and Gazebo classic also ignore `<up_axis>`, and exporters rely on this
+(moveit/geometric_shapes pull request 52, gazebosim/gazebo-classic issue 1305).
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _NO_SHAPE = (
     "instance_light",
     "linestrips",
 )
-"""Elements without influence on the shape. They are removed, so that their faults do not matter."""
+"""Elements without influence on the shape, which are removed together with their faults."""
 _MATERIALS = ("library_effects", "library_materials", "bind_material")
 _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 _NONE = (0, 0, 0, 0)
@@ -44,15 +44,15 @@ def collada_parts(
 ) -> Iterator[tuple[Color | None, Triangles]]:
     """Yield the triangles of each geometry at its places in the scene, in metres. Raises MeshError.
 
-    The triangles have their colours only if `others` is given; it has the textures.
+    `others` has the textures; without `others`, triangles have no colours.
     """
     root = _parse(content)
     unit = _unit(root)
     for tag, name in _NOT_READ.items():
         if root.find(f".//{{*}}{tag}") is not None:
-            raise MeshError(f"it has {name}, which urdfsync doesn't read")
-    if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # numpy counts negative ones from the end
-        raise MeshError("one of its faces has an index that no vertex has")
+            raise MeshError(f"the file has {name}, which urdfsync doesn't read")
+    if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # numpy counts negative indices from the end
+        raise MeshError("a face has an index that no vertex has")
     _place_skins(root)
     if others is not None:
         _leave_plain_colors(root, others)
@@ -60,7 +60,7 @@ def collada_parts(
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in without), with_tail=False)
     _move_once_per_node(root)
     shapes = io.BytesIO(etree.tostring(root))
-    del root  # frees memory: pycollada has a tree of its own
+    del root  # frees memory: pycollada builds another tree.
     # `load_scene` would merge vertices and drop infinite triangles
     loaded = load_collada(shapes, ignore_broken=False)
     for node in loaded["graph"]:
@@ -73,7 +73,7 @@ def collada_parts(
 def _leave_plain_colors(root: etree._Element, textures: Mapping[str, bytes]) -> None:
     """Reduce each effect to its colour, and remove references to missing effects and materials.
 
-    Other faults of an effect do not matter. An effect without a colour becomes transparent.
+    The reduction removes all other faults of effects. An effect without a colour becomes transparent.
     """
     space = str(root.tag).removesuffix("COLLADA")
     images = {image.get("id", ""): image for image in root.iterfind("{*}library_images/{*}image")}
@@ -99,16 +99,19 @@ def _leave_plain_colors(root: etree._Element, textures: Mapping[str, bytes]) -> 
 
 
 def _parse(content: bytes) -> etree._Element:
-    """Parse a document without its comments. A document type is refused: its entities could grow without end."""
+    """Parse a document, and leave out its comments.
+
+    A document type is refused: its entities could grow without limit.
+    """
     if b"<!DOCTYPE" in content:
-        raise MeshError("it has a document type declaration, which COLLADA files don't have")
+        raise MeshError("the file has a document type declaration, which COLLADA does not allow")
     parser = etree.XMLParser(
         resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True, huge_tree=True
     )
     try:
         return etree.fromstring(content, parser)
     except etree.XMLSyntaxError as error:
-        raise MeshError(f"it isn't well-formed XML: {error.msg}") from error
+        raise MeshError(f"the file isn't well-formed XML: {error.msg}") from error
 
 
 def _unit(root: etree._Element) -> float:
@@ -120,7 +123,7 @@ def _unit(root: etree._Element) -> float:
     except ValueError:
         unit = math.nan
     if not (math.isfinite(unit) and unit > 0):
-        raise MeshError(f"its unit of length is {text!r} metres")
+        raise MeshError(f"the unit of length is {text!r} metres")
     return unit
 
 
@@ -140,7 +143,7 @@ def _place_skins(root: etree._Element) -> None:
 
 
 def _move_once_per_node(root: etree._Element) -> None:
-    """Give each transformation a node of its own: pycollada multiplies several of one node in single precision."""
+    """Give each transformation its own node: pycollada multiplies those of one node in single precision."""
     for node in list(root.iter("{*}node")):
         moves = [child for child in node if etree.QName(child).localname in _MOVES]
         others = [child for child in node if child not in moves]

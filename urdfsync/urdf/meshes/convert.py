@@ -17,29 +17,30 @@ _process = MeshProcess()
 
 
 def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
-    """Return the imported form of a mesh at `file`, and its facts. Both depend only on contents, URI and scale.
+    """Return the imported form of the mesh in `file`, and its facts.
 
-    `others` has the libraries of materials and the textures that the mesh names.
+    Form and facts depend only on contents, URI and scale. `others` has the mesh's libraries of materials and textures.
 
-    STL and OBJ files without a scale stay as they are; all else becomes binary STL with the scale applied. The facts
-    are `bounds` (`[[x, y, z], [x, y, z]]`, least and greatest) and, if the dependency needs it, `hull` (see
-    `geometry.support_points`). Both are in metres and in the mesh's frame. If its colours are needed (see
-    `lookup.PARTS`), a mesh of several colours becomes one file per colour: OBJ if an OBJ stays as it is, else STL.
+    STL and OBJ files without a scale stay unchanged; all other files become binary STL with the scale applied. The fact
+    `bounds` is `[[x, y, z], [x, y, z]]`, least and greatest. If the dependency needs outermost points, the fact `hull`
+    has them (see `geometry.support_points`). Both facts are in metres, in the mesh's frame. If shapes need the mesh's
+    colours (see `lookup.PARTS`), a mesh of several colours becomes one file per colour: OBJ for an OBJ without a scale,
+    else STL.
 
-    Raises SourceError with one diagnostic, `unreadable-mesh`, if the file can't be read as a mesh.
+    Raises SourceError with the diagnostic `unreadable-mesh`.
     """
     mesh = lookup.mesh(dependency.key)
     suffix = lookup.suffix(mesh.filename)
     try:
         if suffix not in _FORMATS:
-            raise MeshError(f"its format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - reported like findings of the process
+            raise MeshError(f"the format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - reported like findings of the process
         colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts), "")
         is_obj = suffix == ".obj" and lookup.as_is(mesh)
         request = Request(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj)
         (whole, facts), *parts = _process.read(request, content, others)
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
-        hint = "export it again, best as STL or OBJ"
+        hint = "export the mesh again, best as STL or OBJ"
         raise SourceError(Diagnostic(Severity.ERROR, "unreadable-mesh", message, str(file), hint=hint)) from error
     is_split = colors == lookup.PARTS and parts
     more = tuple(Conversion(part, its_facts) for part, its_facts in parts)
@@ -47,9 +48,10 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
 
 
 def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
-    """Return about `most` triangles of a mesh without its scale, or why there are none.
+    """Return about `most` triangles of a mesh without its scale, or the reason why the mesh can't be read.
 
-    The mesh is the imported file at `path`, which has the scale of its `key`; without a path it is the source's file.
+    The mesh is the imported file at `path`, to which the scale in `key` is applied. Without a path, `content` is the
+    file that the URDF names.
     """
     mesh = lookup.mesh(key)
     scale = [1 / factor if path and factor else 1.0 for factor in mesh.scale]

@@ -1,4 +1,4 @@
-"""Moves, measures and writes triangles, as arrays, and finds the few points on which a body stands or rolls."""
+"""Moves, measures and writes arrays of triangles, and finds the few points on which a body stands or rolls."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ Array: TypeAlias = npt.NDArray[np.float64]
 Indices: TypeAlias = npt.NDArray[np.int64]
 
 MAX_TRIANGLES = 1_000_000
-"""The most triangles of one mesh, added up over its places in the scene; as binary STL, they take 50 MB."""
+"""The most triangles of one mesh, in all its places in the scene: 50 MB of binary STL."""
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
 _LARGEST = np.finfo(np.float32).max  # STL has single precision
-_STEPS = 36  # directions on each great circle
-_TIE = 1e-9  # relative to the mesh's size: rounding makes equal lengths differ
-_NEAR = 1e-8  # likewise, for a possible tie: far above the error of a matrix product
-_CHUNK = 1 << 14  # number of points whose products with all directions stay in the cache
+_STEPS = 36  # Directions on each great circle.
+_TIE = 1e-9  # Relative to the mesh's size: equal lengths may differ by rounding.
+_NEAR = 1e-8  # Relative to the mesh's size, for a possible tie: far above the error of a matrix product.
+_CHUNK = 1 << 14  # So many points, times all directions, fit into the processor's cache.
 _DIGITS = 6
 
 
 class Triangles(NamedTuple):
-    """Triangles; seen from outside, their corners are counter-clockwise."""
+    """Triangles with counter-clockwise corners, seen from outside."""
 
     points: Array
     """n × 3."""
@@ -40,11 +40,11 @@ class Triangles(NamedTuple):
 
 
 def placed(mesh: Triangles, pose: Array) -> Triangles:
-    """Move triangles by an affine transformation (4 × 4); mirrored triangles keep their outer sides."""
+    """Move triangles by an affine transformation (4 × 4). Mirrored triangles keep their outer sides."""
     if np.array_equal(pose, np.identity(4)):
         return mesh
     points = np.empty(mesh.points.shape)
-    # not by a matrix product, whose rounding depends on the machine; in chunks, which need little memory
+    # the rounding of a matrix product would depend on the machine; chunks need little memory
     for start in range(0, len(points), _CHUNK):
         x, y, z = (mesh.points[start : start + _CHUNK, axis, np.newaxis] for axis in range(3))
         points[start : start + _CHUNK] = x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3]
@@ -52,33 +52,33 @@ def placed(mesh: Triangles, pose: Array) -> Triangles:
 
 
 def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles:
-    """Return all triangles as one mesh. Raises MeshError for none or too many, and for a corner without a point."""
+    """Return all triangles as one mesh. Raises MeshError for a wrong number of triangles, or a wrong index."""
     triangles = sum(len(part.faces) for part in parts)
     if not triangles:
-        raise MeshError("it has no triangles")
+        raise MeshError("the file has no triangles")
     if triangles > most:
-        raise MeshError(f"it has more than {MAX_TRIANGLES:,} triangles")
+        raise MeshError(f"the file has more than {MAX_TRIANGLES:,} triangles")
     for part in parts:
         if len(part.faces) and (part.faces.min() < 0 or part.faces.max() >= len(part.points)):
-            raise MeshError("one of its faces has an index that no vertex has")
-    if len(parts) == 1:  # no copy: a large mesh takes a quarter of the memory
+            raise MeshError("a face has an index that no vertex has")
+    if len(parts) == 1:  # a copy of a large mesh would take a quarter of the memory
         return parts[0]
-    from trimesh.util import append_faces  # takes 0.7 s, which a page with meshes saves
+    from trimesh.util import append_faces  # a late import saves pages 0.7 s
 
     return Triangles(*append_faces([part.points for part in parts], [part.faces for part in parts]))
 
 
 def import_form(mesh: Triangles, scale: Vector, with_hull: bool) -> tuple[Triangles, Facts]:
-    """Return a mesh in metres, with the facts of its shape: `bounds`, and perhaps `hull` (see `support_points`).
+    """Return a mesh in metres, with the facts of its shape: `bounds`, and on request `hull` (see `support_points`).
 
-    Raises MeshError for numbers that an STL file can't hold.
+    Raises MeshError for numbers too large for STL.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         scaled = placed(mesh, np.diag((*scale, 1.0)))
     points = _used_points(scaled)
     extent = bounds(points)
     if not (np.abs(extent) <= _LARGEST).all():
-        raise MeshError("it has coordinates that aren't finite, or too large for single precision")
+        raise MeshError("the file has coordinates that are infinite, or too large for single precision")
     return scaled, {"bounds": extent, **({"hull": support_points(points)} if with_hull else {})}
 
 
@@ -89,7 +89,7 @@ def _used_points(mesh: Triangles) -> Array:
 
 
 def binary_stl(mesh: Triangles) -> bytes:
-    """Return triangles as binary STL; the normal of a triangle without area is zero."""
+    """Return triangles as binary STL. A triangle without area has a normal of zero."""
     facets = np.zeros(len(mesh.faces), dtype=_FACET)
     for start in range(0, len(facets), _CHUNK):
         part = slice(start, start + _CHUNK)
@@ -102,7 +102,7 @@ def binary_stl(mesh: Triangles) -> bytes:
 
 
 def stl_triangles(content: bytes) -> Triangles:
-    """Return the triangles of a binary STL file, without any that has a NaN or infinity. Raises MeshError for none."""
+    """Return the finite triangles of a binary STL file. Raises MeshError if no triangle is finite."""
     corners = np.frombuffer(content, dtype=_FACET, offset=len(_HEADER) + 4)["corners"].astype(np.float64)
     points = corners[np.isfinite(corners).all(axis=(1, 2))].reshape(-1, 3)
     return joined([Triangles(points, np.arange(len(points)).reshape(-1, 3))], math.inf)
@@ -117,16 +117,16 @@ def obj(mesh: Triangles) -> bytes:
 
 
 def bounds(points: Array) -> list[list[float]]:
-    """Return least and greatest coordinates of `points` (n × 3): `[[x, y, z], [x, y, z]]`."""
+    """Return the least and the greatest coordinates of `points` (n × 3): `[[x, y, z], [x, y, z]]`."""
     return [points.min(axis=0).tolist(), points.max(axis=0).tolist()]
 
 
 def support_points(points: Array) -> list[list[float]]:
-    """Return some points of the convex hull of `points` (n × 3, metres): rounded to 1e-6 m, sorted, each once.
+    """Return some points of the convex hull of `points` (n × 3, in m): rounded to 1e-6 m, sorted, without repetition.
 
-    They are the extreme points along 122 fixed directions: three great circles normal to the coordinate axes in steps
-    of 10°, and the faces, edges and corners of a cube. If a whole edge or face is extreme, its own extreme points
-    count, so that a wheel keeps the rims of both sides.
+    These points are extreme along 122 fixed directions: three great circles normal to the coordinate axes in steps of
+    10°, and the faces, edges and corners of a cube. If a whole edge or face is extreme, its own extreme points count: a
+    wheel keeps the rims of both sides.
     """
     size = float(np.ptp(points, axis=0).max())
     near = _nearly_extreme(points, _DIRECTIONS, size)
@@ -134,14 +134,14 @@ def support_points(points: Array) -> list[list[float]]:
     for number, direction in enumerate(_DIRECTIONS):
         heights = _products(near, direction[np.newaxis])[:, 0]
         tied = near[heights >= heights.max() - _TIE * size]
-        is_corner = (tied == tied[0]).all()  # as in most directions
+        is_corner = (tied == tied[0]).all()  # so in most directions
         chosen.append(tied[:1] if is_corner else _corners(tied, number, size))
     rounded = np.round(np.concatenate(chosen), _DIGITS) + 0.0  # -0.0 becomes 0.0
     return [list(point) for point in sorted(set(map(tuple, rounded.tolist())))]
 
 
 def _directions() -> Array:
-    """Return unit vectors (122 × 3), rounded so that they are the same on every machine."""
+    """Return unit vectors (122 × 3), which rounding makes equal on all machines."""
     angles = [2 * math.pi * step / _STEPS for step in range(_STEPS)]
     circle = [(math.cos(angle), math.sin(angle), 0.0) for angle in angles]
     circles = [(*vector[3 - axis :], *vector[: 3 - axis]) for axis in range(3) for vector in circle]
@@ -152,12 +152,12 @@ def _directions() -> Array:
 
 
 _DIRECTIONS = _directions()
-_NORMALS = np.cross(_DIRECTIONS[:, np.newaxis], _DIRECTIONS)  # per pair of directions
-_CROSSING = np.linalg.norm(_NORMALS, axis=2) > 1e-6  # the pairs that are not parallel
+_NORMALS = np.cross(_DIRECTIONS[:, np.newaxis], _DIRECTIONS)  # For each pair of directions.
+_CROSSING = np.linalg.norm(_NORMALS, axis=2) > 1e-6  # Pairs of directions that are not parallel.
 
 
 def _nearly_extreme(points: Array, directions: Array, size: float) -> Array:
-    """Return the points that may be extreme along one of the directions: mostly some hundreds, even of millions."""
+    """Return the points that may be extreme along a direction: mostly a few hundred of a million points."""
     highest = np.full(len(directions), -np.inf)
     candidates = []
     for start in range(0, len(points), _CHUNK):
@@ -169,7 +169,7 @@ def _nearly_extreme(points: Array, directions: Array, size: float) -> Array:
 
 
 def _corners(tied: Array, number: int, size: float) -> Array:
-    """Return the points, of those tied along direction `number`, that are extreme along another; of a tie, the ends."""
+    """Return the tied points that are extreme along another direction, too; of a further tie, both ends."""
     others, along = _DIRECTIONS[_CROSSING[number]], _NORMALS[number][_CROSSING[number]]
     tied = np.unique(_nearly_extreme(tied, others, size), axis=0)
     heights, positions = _products(tied, others), _products(tied, along)
@@ -181,7 +181,7 @@ def _corners(tied: Array, number: int, size: float) -> Array:
 
 def _products(points: Array, directions: Array) -> Array:
     """Return scalar products (points × directions)."""
-    # not by a matrix product, whose rounding depends on the machine
+    # the rounding of a matrix product would depend on the machine
     x, y, z = (points[:, axis, np.newaxis] * directions[np.newaxis, :, axis] for axis in range(3))
     products: Array = x + y + z
     return products

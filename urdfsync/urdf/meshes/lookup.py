@@ -1,9 +1,9 @@
-"""Lists a robot's mesh files, their possible places, and their names in the package. Pure: reads no file.
+"""Lists a robot's mesh files, their possible places, and their names in the package, without reading files.
 
 The URI as written and the scale identify a mesh, since the imported file has the scale applied. URIs are resolved as in
 ROS, and in further ways that real URDF files need: `package://` and `model://` with search paths, unexpanded `$(find
-…)`, `modelica://`, `file:` in all its spellings, relative paths, backslashes and percent-encoding. Other schemes are
-not looked up: a build doesn't use the network.
+…)`, `modelica://`, `file:` in all its spellings, relative paths, backslashes and percent-encoding. Other schemes have
+no place: a build doesn't use the network.
 """
 
 from __future__ import annotations
@@ -24,40 +24,40 @@ from urdfsync.urdf.plausibility import find_length
 from urdfsync.urdf.robot import Collision, Link, Mesh, Robot, Vector, Visual
 
 _TOO_LARGE, _LARGEST = 20, 2.0
-"""Greatest size of a mesh, in lengths of the robot and in m; a mesh that exceeds both is probably in another unit."""
+"""A mesh of more than 20 lengths of the robot and more than 2 m is probably in another unit."""
 _SCALES = (0.001, 0.01, 0.0254)
-"""Millimetres, which most programs export, centimetres and inches, in m."""
+"""In m: a millimetre, a centimetre and an inch. Most programs export millimetres."""
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
-"""Names of facts: all models need the first one, and ground contacts also the second."""
+"""Names of facts: all models need `bounds`, contacts with the ground also need `hull`."""
 PARTS, COLORS, TEXTURED, COLORLESS = "parts", "colors", "textured", "colorless"
 """Names of facts of meshes with their own colours.
 
-`parts` lists the colours of a mesh that becomes one file per colour. `colors` lists them instead if another shape needs
-the whole mesh: then these files stand beside the whole one. `textured` tells whether textures were found, `colorless`
-which colours are missing, in words.
+`parts` lists the colours of a mesh that becomes one file per colour. If another shape needs the whole mesh, `colors`
+lists them instead: then the files per colour stand beside the whole mesh. `textured` tells whether textures were found.
+`colorless` names the missing colours.
 """
 COLORED = (".dae", ".obj")
 """Formats with colours."""
 GLTF = ".gltf"
 AS_IS = (".stl", ".obj")
-"""Formats that Modelica tools draw: they are imported unchanged unless they are scaled."""
+"""Formats that Modelica tools can draw: such files without a scale are imported unchanged."""
 
-_SCHEME = r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)"  # two letters at least: `C:` is a drive
+_SCHEME = r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)"  # at least two letters: `C:` is a drive
 _FOUND = r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s+([^)]+)\)/*(.*)"
 _DRIVE = r"/*([A-Za-z]:/.*)"
 _MENTIONS = {
     ".obj": re.compile(rb"^[ \t]*mtllib[ \t]([^\r\n]+)", re.MULTILINE),
     ".mtl": re.compile(rb"^[ \t]*map_Kd[ \t]([^\r\n]+)", re.MULTILINE),
-    # <init_from> of a surface names an image inside of the file
+    # the <init_from> of a surface names an image in this file, not another file
     ".dae": re.compile(rb"<surface\b[^<>]*>\s*<init_from>[^<>]+</init_from>|<init_from>([^<>]+)</init_from>"),
     GLTF: re.compile(rb'"uri"\s*:\s*"([^":]+\.bin)"'),
 }
-"""Patterns for the names of other files in a file, by its suffix: libraries of materials, textures and buffers."""
+"""Patterns for names of other files, by the suffix of the file: libraries of materials, textures and buffers."""
 _LIBRARY = re.compile(rb"(?i)\S.*?\.mtl(?=\s|$)|\S.*")
-"""One of the libraries that a line names; names may have blanks in them."""
+"""One of the libraries that a line names. Names may contain blanks."""
 _TEXTURE_OPTION = re.compile(r"-[a-zA-Z]+|[-+.\deE]+|on|off")
-"""A word before the name of a texture in a library of materials: an option or its value."""
+"""An option, or its value, before the name of a texture in a library of materials."""
 _UNFIT = "[\x00-\x1f\x7f\ud800-\udfff]"
 _NAME_BYTES = 255
 _PATH_BYTES = 4095
@@ -70,14 +70,14 @@ def key(mesh: Mesh) -> str:
 
 
 def mesh(key: str) -> Mesh:
-    """Return the mesh that has this key, or to which a further file with this key belongs."""
+    """Return the mesh with this key, or the mesh of a further file with this key."""
     filename, _, numbers = key.rpartition(" scale ")
     x, y, z = map(float, numbers.split(" ")[:3])
     return Mesh(filename, (x, y, z))
 
 
 def suffix(uri: str) -> str:
-    """Return the suffix of the mesh file in lower case, with the dot; empty if it has none."""
+    """Return the suffix of a mesh file in lower case, with the dot, or an empty text."""
     return PurePosixPath(_file_name(uri)).suffix.lower()
 
 
@@ -87,20 +87,20 @@ def as_is(mesh: Mesh) -> bool:
 
 
 def _has_colors(mesh: Mesh, visual: Visual) -> bool:
-    """Return whether a visual is drawn in the colours of its mesh: the URDF gives it none."""
+    """Return whether a visual has the colours of its mesh, since the URDF gives no colour."""
     return suffix(mesh.filename) in COLORED and (visual.material is None or visual.material.rgba is None)
 
 
 def mentioned(dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
-    """Return the other files that a mesh needs: buffers of glTF; materials and textures if its colours are drawn."""
+    """Return the other files that a mesh needs: buffers of glTF, or materials and textures for its colours."""
     is_needed = TEXTURED in dependency.facts or suffix(dependency.uri) == GLTF
     return mentioned_files(file, content) if is_needed else ()
 
 
 def findings(imports: Mapping[str, Import], robot: Robot) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a warning for each mesh that lacks some of its colours, or seems to be in another unit than the robot.
+    """Yield a warning for each mesh with missing colours, or probably in another unit than the robot.
 
-    If meshes have textures, a note says that these become colours.
+    If meshes have textures, a note says that textures become colours.
     """
     sizes = {key: math.dist(*file.facts[BOUNDS]) for key, file in imports.items() if file.facts.get(BOUNDS)}
     length = find_length(KinematicTree.of(robot)) if max(sizes.values(), default=0) > _LARGEST else 0.0
@@ -113,7 +113,7 @@ def findings(imports: Mapping[str, Import], robot: Robot) -> Iterator[tuple[str,
             yield key, Diagnostic(Severity.WARNING, "mesh-size", message, hint=hint)
         if missing := file.facts.get(COLORLESS):
             message = f"mesh `{mesh(key).filename}` lacks colours: "
-            hint = "put what is missing beside the mesh, or give the visual a <material>"
+            hint = "put the missing files beside the mesh, or give the visual a <material>"
             yield key, Diagnostic(Severity.WARNING, "mesh-colors", message + "; ".join(missing), hint=hint)
     count = sum(bool(file.facts.get(TEXTURED)) for file in imports.values())
     if count:
@@ -122,9 +122,9 @@ def findings(imports: Mapping[str, Import], robot: Robot) -> Iterator[tuple[str,
 
 
 def mentioned_files(file: str, content: bytes) -> list[str]:
-    """Return the paths of a mesh's buffers and of the files with its colours, relative to its folder.
+    """Return the paths of a mesh's buffers, and of files with its colours, relative to the folder of the mesh.
 
-    `file` is the path of the mesh or of its library of materials; the names in it count from its own folder.
+    `file` is the path of the mesh or of its library of materials. Names in `file` count from the folder of `file`.
     """
     path = PurePosixPath(file)
     suffix = path.suffix.lower()
@@ -132,12 +132,12 @@ def mentioned_files(file: str, content: bytes) -> list[str]:
     if suffix == ".obj":
         mentions = [library for line in mentions for library in _LIBRARY.findall(line)]
     names = dict.fromkeys(map(path_of_mention, mentions))
-    # buffers of glTF are looked for only below its folder
+    # buffers of glTF have to be in the folder of the mesh or below
     return [str(path.parent / name) for name in names if name and not (suffix == GLTF and ".." in name.split("/"))]
 
 
 def path_of_mention(mention: bytes) -> str:
-    """Return the relative path by which a file names another one; empty for an absolute path or a URI."""
+    """Return the relative path of a file that another file names; empty for an absolute path or a URI."""
     words = unquote(mention.decode("utf-8", "replace")).strip()
     if words.startswith("-"):
         words = " ".join(itertools.dropwhile(_TEXTURE_OPTION.fullmatch, words.split()))
@@ -146,9 +146,9 @@ def path_of_mention(mention: bytes) -> str:
 
 
 def target(mesh: Mesh) -> str:
-    """Return the path of the imported file below the package folder; it depends only on URI and scale.
+    """Return the path of the imported file in the package folder.
 
-    Its digits are a hash of both: meshes with the same file name have different paths, also without regard to case.
+    Its digits are a hash of URI and scale: meshes with one file name have different paths, even ignoring case.
     """
     stem = re.sub("[^A-Za-z0-9_-]+", "_", PurePosixPath(_file_name(mesh.filename)).stem)
     stem = stem[:_STEM_LENGTH].strip("_-") or "mesh"
@@ -159,11 +159,11 @@ def target(mesh: Mesh) -> str:
 def dependencies(
     links: Sequence[Link], kinds: Sequence[str], lookup: Lookup, lines: Mapping[str, int], *, touches: bool
 ) -> tuple[Dependency, ...]:
-    """Return the mesh files of links, each URI and scale once, in the order of their keys.
+    """Return the mesh files of links in the order of keys.
 
-    `kinds` are the shapes that count: `visual`, `collision`. Collisions need outermost points if the robot `touches`
-    the ground. `lines` has the source's line of each element by its path. A dependency has the line of a shape, for
-    example `link wheel / visual 2 / geometry`, or else of its link.
+    Each pair of URI and scale comes once. `kinds` are the shapes that count: `visual`, `collision`. If the robot
+    `touches` the ground, collisions need outermost points. `lines` has the source's line of each element by path. A
+    dependency has the line of a shape, such as `link wheel / visual 2 / geometry`, else of its link.
     """
     shapes_of = defaultdict[Mesh, list[tuple[str, int, bool]]](list)
     for link in links:
@@ -189,7 +189,7 @@ def dependencies(
 
 
 def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
-    """Return the facts that a mesh needs. `shapes` has kinds, lines, and whether the shapes have the mesh's colours."""
+    """Return the names of the facts of a mesh; each shape has its kind, its line, and whether it shows colours."""
     hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in shapes) else ()
     colored = [is_colored for _, _, is_colored in shapes]
     colors = (PARTS if all(colored) else COLORS, TEXTURED, COLORLESS) if any(colored) else ()
@@ -197,16 +197,16 @@ def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str,
 
 
 def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:
-    """Return possible absolute paths of the file, best first; none if the URI names no file of this machine.
+    """Return possible absolute paths of the file, best first; none for the URI of another machine.
 
-    The URI is taken literally first, then with its percent-encoding undone.
+    The URI is taken literally first, then without percent-encoding.
     """
     texts = (uri.strip(), unquote(uri.strip()))
     paths = (path for text in texts if not re.search(_UNFIT, text) for path in _places(text.replace("\\", "/"), lookup))
     absolute_paths: dict[Path, None] = {}
     for path in paths:
         sizes = [len(part.encode("utf-8", "surrogatepass")) for part in path.parts]
-        # no file system has longer names: looking for one raises OSError
+        # no file system allows longer names: a search for one raises OSError
         if path.is_absolute() and max(sizes) <= _NAME_BYTES and sum(sizes) + len(sizes) <= _PATH_BYTES:
             absolute_paths[path] = None
     return tuple(absolute_paths)
@@ -228,7 +228,7 @@ def _places(text: str, lookup: Lookup) -> Iterator[Path]:
 
 
 def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
-    """Yield the places of a path without a scheme: absolute, or below a search path or a folder above the source."""
+    """Yield the places of a path without a scheme: absolute, or below the source's parents and search paths."""
     if drive := re.fullmatch(_DRIVE, text):
         yield Path(drive[1])
     elif text.startswith("/"):
@@ -238,10 +238,11 @@ def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
 
 
 def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
-    """Yield the places in a package: it is a search path, a folder above the source, or a child of one.
+    """Yield the places in a package.
 
-    Exporters may leave out the package's name (`package:///a.stl`), name a folder beside the source, or write a slash
-    too many. A copy of a package may have another name.
+    The package is a search path, a folder above the source, or a child of either. Exporters may leave out the package's
+    name (`package:///a.stl`), name a folder beside the source, or write a slash too many. A copy of a package may have
+    another name.
     """
     path = text.lstrip("/")
     named = bool(package)
@@ -260,10 +261,10 @@ def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
 
 
 def _in_library(class_name: str, text: str, lookup: Lookup) -> Iterator[Path]:
-    """Yield the places in a Modelica library: on MODELICAPATH, then in a folder of its name above the source.
+    """Yield the places in a Modelica library: on MODELICAPATH, then in folders of its name above the source.
 
-    `modelica://Plant.Arms/a.stl` is beside the class `Plant.Arms`: in its folder, or where its file is. A path that
-    leads out of the library has no place.
+    `modelica://Plant.Arms/a.stl` is in the folder of the class `Plant.Arms`, or in the folder with its file. A path out
+    of the library has no place.
     """
     name, *inner = class_name.split(".")
     path = text.lstrip("/")

@@ -1,4 +1,4 @@
-"""The process that reads untrusted meshes: its limits contain a file that exploits a fault of a library."""
+"""A process reads untrusted meshes: its limits protect against files that exploit a fault of a library."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from urdfsync.processes import importable, python_module
 from urdfsync.urdf.robot import Vector
 
 FOR_PICTURE = 4
-"""Factor of the limits below for a picture, which simplifies meshes of any size."""
+"""Factor of the limits below for a picture: pictures simplify meshes of any size."""
 CPU_SECONDS = 4.0
-"""CPU time for one mesh, on Linux and macOS. A command with one such mesh stays below 5 s."""
+"""CPU time for one mesh, on Linux and macOS. So a command with one slow mesh stays below 5 s."""
 MEMORY = 450_000_000
-"""The most bytes that the process allocates, on Linux, besides 50 MB for its libraries."""
+"""The most bytes that the process may allocate, on Linux, in addition to 50 MB for libraries."""
 WALL_SECONDS = 60.0
-"""Wall time for one mesh, on all systems. A busy machine may need so long for the CPU time above."""
-_LIMITS = f"reading it takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the process that does it"
+"""Wall time for one mesh, on all systems: a busy machine may need so long for this CPU time."""
+_LIMITS = f"reading the file takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the reading process"
 _LONGEST = 300
-"""The most characters of a library's error."""
+"""The most characters of an error message from a library."""
 _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
 
 Facts: TypeAlias = dict[str, Any]
-"""Facts of a shape by their names: see `convert`."""
+"""Facts of a shape by name: see `convert`."""
 
 
 _STL_COUNT = slice(80, 84)
@@ -39,27 +39,27 @@ _STL_FACET = 50
 
 
 class MeshError(Exception):
-    """An unusable mesh; its text completes the message `the mesh … can't be read: it …`."""
+    """An unusable mesh; the text completes the message `the mesh … can't be read: …`."""
 
 
 class Request(msgspec.Struct, frozen=True):
-    """A line for the process; the bytes of a mesh and of other files follow."""
+    """A line to the process; the bytes of a mesh and of other files follow."""
 
     suffix: str
     scale: Vector = (1.0, 1.0, 1.0)
     with_hull: bool = True
     colors: str = ""
-    """Name of the fact with the colours, see `lookup.PARTS`; empty for none."""
+    """Name of the fact with the colours, see `lookup.PARTS`; empty without colours."""
     as_obj: bool = False
-    """Whether the parts of a mesh are OBJ, and not STL."""
+    """Whether the parts of a mesh are written as OBJ instead of STL."""
     most: int = 0
-    """The most triangles of a picture, to which a larger mesh is simplified; 0 for a file of the package."""
+    """For a picture: the most triangles of the simplified mesh. Zero stands for a file of the package."""
     size: int = 0
-    """Size of the mesh in bytes; `MeshProcess` fills in this field and those below."""
+    """Size of the mesh in bytes; `MeshProcess` fills in this field and the fields below."""
     others: Mapping[str, int] = {}
-    """Sizes of the other files by their paths."""
+    """Sizes of the other files by path."""
     seconds: float = 0.0
-    """CPU time that reading it may take."""
+    """Limit of the CPU time, in s."""
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -68,20 +68,21 @@ class Answer(msgspec.Struct, frozen=True):
     sizes: tuple[int, ...] = ()
     facts: tuple[Facts, ...] = ()
     problem: str = ""
-    """Why the file can't be used; empty if it can."""
+    """The reason why the file can't be used; empty for a usable file."""
     is_last: bool = False
-    """Whether the process has grown so much that the next mesh would not have its full memory."""
+    """Whether the process is too large to give the next mesh its full memory."""
 
 
 def is_binary_stl(content: bytes) -> bool:
-    """Return whether an STL file is binary; some binary ones begin with `solid`, as texts do."""
+    """Return whether an STL file is binary. Some binary files begin with `solid`, as texts do."""
     return len(content) == _STL_COUNT.stop + _STL_FACET * int.from_bytes(content[_STL_COUNT], "little")
 
 
 class MeshProcess:
-    """The process, which starts for the first mesh. After a mesh that reached a limit, the next mesh starts a new one.
+    """The process, which starts for the first mesh.
 
-    Signals are handled while it reads. It always ends with this process, which closes its stdin by ending.
+    After a mesh that reached a limit, the next mesh starts a new process. This program handles signals while the
+    process reads. When this program ends, the end of stdin ends the process.
     """
 
     def __init__(self) -> None:
@@ -93,7 +94,7 @@ class MeshProcess:
     ) -> list[tuple[bytes, Facts]]:
         """Return the imported files of a mesh, with their facts.
 
-        Raises MeshError, or OSError if no process can be started.
+        Raises MeshError, or OSError if the process can't start.
         """
         others = others or {}
         sizes = {name: len(other) for name, other in others.items()}
@@ -108,10 +109,10 @@ class MeshProcess:
                 answer, files = _ask(process, request, (content, *others.values()))
                 if answer.is_last:
                     self.end()
-            except (OSError, ValueError) as error:  # the process ended, or the answer is invalid
+            except (OSError, ValueError) as error:  # the process has ended, or the answer is invalid
                 self.end()
                 raise MeshError(_LIMITS) from error
-            except BaseException:  # after an interruption, the pipe still has half an answer
+            except BaseException:  # after an interruption, the pipe may hold half an answer
                 self.end()
                 raise
             finally:
@@ -121,12 +122,12 @@ class MeshProcess:
         return list(zip(files, answer.facts, strict=True))
 
     def end(self) -> None:
-        """End the process, if there is one."""
+        """End the process, if it runs."""
         process, self._process = self._process, None
         if process is not None:
             atexit.unregister(self.end)
             process.kill()
-            with contextlib.suppress(OSError), process:  # closes the pipes and waits; unwritten data are lost
+            with contextlib.suppress(OSError), process:  # closes the pipes and waits
                 pass
 
     def _start(self) -> subprocess.Popen[bytes]:
@@ -136,14 +137,14 @@ class MeshProcess:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            # each thread needs its own memory; libraries use deprecated parts of numpy
+            # threads need memory; libraries use deprecated parts of numpy
             env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1", "PYTHONWARNINGS": "ignore"},
-            process_group=0,  # Ctrl-C reaches only the process that waits, which then ends this one
+            process_group=0,  # Ctrl-C reaches only the waiting program, which ends the process
         )
 
 
 def _ask(process: subprocess.Popen[bytes], request: Request, contents: Sequence[bytes]) -> tuple[Answer, list[bytes]]:
-    """Send a mesh to the process, and return its answer. Raises OSError or ValueError for a missing or wrong one."""
+    """Send a mesh to the process, and return its answer. Raises OSError or ValueError for a missing or wrong answer."""
     stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
     stdin.write(msgspec.json.encode(request) + b"\n")
     for content in contents:

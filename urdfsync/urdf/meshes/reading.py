@@ -1,4 +1,4 @@
-"""Reads the triangles of a mesh file by trimesh, strictly: an incomplete mesh is an error."""
+"""Reads the triangles of a mesh file by trimesh. An incomplete mesh is an error."""
 
 from __future__ import annotations
 
@@ -24,27 +24,27 @@ _FACES = {
     ".off": re.compile(rb"OFF(?:\s|#[^\n]*\n)*\d+\s+(\d+)"),
     ".ply": re.compile(rb"^element[ \t]+face[ \t]+(\d+)", re.MULTILINE),
 }
-"""The number of faces that a file announces, by its suffix."""
+"""Patterns for the number of faces that a file announces, by suffix."""
 _MOST_COLORS = 20
-"""Most colours of one mesh, since each becomes a shape. Triangles of further colours are drawn in grey."""
+"""The most colours of one mesh, since each colour becomes a shape. Triangles of further colours are grey."""
 _LONGEST, _NAMES = 60, 3
-"""Most characters of the name of a missing file in a warning, and most names."""
+"""The most characters of a missing file's name in a warning, and the most names."""
 _FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
-"""By the specification of glTF, y is up. Drake, Blender and RViz (since 2025: ros2/rviz#1229) turn z up."""
+"""Turns glTF's upward y axis into z, as Drake, Blender and RViz (since 2025: ros2/rviz#1229) do."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
 
 
 class _Files(dict[str, bytes]):
-    """The other files that trimesh may read: only given ones, since only these are watched for changes."""
+    """The other files that trimesh may read: only files whose changes the daemon watches."""
 
     def __missing__(self, name: str) -> bytes:
-        raise MeshError(f"it needs another file, {name}")
+        raise MeshError(f"the mesh needs another file, {name}")
 
 
 def read_mesh(
     suffix: str, content: bytes, others: Mapping[str, bytes] | None = None, most: float = MAX_TRIANGLES
 ) -> Triangles:
-    """Read all triangles, moved by the nodes of their scene; in metres, or the file's unit. Raises MeshError.
+    """Read all triangles at their places in the scene, in metres or in the file's unit. Raises MeshError.
 
     `others` has the buffers of a glTF file.
     """
@@ -52,17 +52,17 @@ def read_mesh(
         parts = collada_parts(content) if suffix == ".dae" else _parts(suffix, content, buffers=others)
         mesh = joined([triangles for _, triangles in parts], most)
         if len(mesh.faces) < _announced(suffix, content):  # trimesh ignores missing faces
-            raise MeshError("its end is missing")
-    gc.collect()  # scenes are cyclic and hold copies of large meshes
+            raise MeshError("the end of the file is missing")
+    gc.collect()  # scenes have reference cycles and hold copies of large meshes
     return mesh
 
 
 def read_parts(
     suffix: str, content: bytes, others: Mapping[str, bytes]
 ) -> tuple[dict[Color | None, Triangles], list[str]]:
-    """Read the triangles of an OBJ or COLLADA file by their colours, as `read_mesh` does; None for no colour.
+    """Read the triangles of an OBJ or COLLADA file by colour; None stands for no colour.
 
-    `others` has the other files that the mesh names. Also return the missing colours, in words. Raises MeshError.
+    Also return the missing colours, in words. `others` has the other files that the mesh names. Raises MeshError.
     """
     by_color: dict[Color | None, list[Triangles]] = {}
     with _damage_is_an_error():
@@ -72,9 +72,7 @@ def read_parts(
             parts_with_colors = _parts(suffix, content, library_colors(content, others))
         for color, triangles in parts_with_colors:
             by_color.setdefault(color, []).extend([triangles] if len(triangles.faces) else ())
-        joined(
-            [part for some in by_color.values() for part in some]
-        )  # raises MeshError without triangles, or with too many
+        joined([part for some in by_color.values() for part in some])  # raises MeshError for no or too many triangles
         by_size = sorted(by_color, key=lambda color: sum(len(part.faces) for part in by_color[color]), reverse=True)
         for color in by_size[_MOST_COLORS:]:
             by_color.setdefault(None, []).extend(by_color.pop(color) if color else ())
@@ -82,15 +80,15 @@ def read_parts(
     gc.collect()
     missing = [f"`{cut(name, _LONGEST)}` not found" for name, other in others.items() if not other][:_NAMES]
     if suffix == ".dae" and None not in parts:
-        missing = []  # the missing pictures give no colour, such as bump maps
-    return parts, missing or ["a part of it has none"] * (None in parts and len(parts) > 1)
+        missing = []  # the missing pictures have no colours, such as bump maps
+    return parts, missing or ["a part has no colour"] * (None in parts and len(parts) > 1)
 
 
 @contextlib.contextmanager
 def _damage_is_an_error() -> Iterator[None]:
-    """Turn any exception of a library into a MeshError: libraries may raise anything on a damaged file.
+    """Turn any exception into a MeshError: libraries raise all kinds of errors for damaged files.
 
-    Numbers that numpy can't read completely are an error in all its versions. A MemoryError is left to the caller.
+    Numbers that numpy can't read completely are an error in all versions of numpy. A MemoryError is left to the caller.
     """
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -101,7 +99,7 @@ def _damage_is_an_error() -> Iterator[None]:
         raise
     except Exception as error:
         detail = f": {error}" if str(error) else ""
-        raise MeshError(f"it is damaged or of another format ({type(error).__name__}{detail})") from error
+        raise MeshError(f"the file is damaged or of another format ({type(error).__name__}{detail})") from error
 
 
 def _parts(
@@ -110,7 +108,7 @@ def _parts(
     colors: Mapping[bytes, Color] | None = None,
     buffers: Mapping[str, bytes] | None = None,
 ) -> Iterator[tuple[Color | None, Triangles]]:
-    """Yield the triangles of a file; those of an OBJ file by their materials, if these have `colors`."""
+    """Yield the triangles of a file with their colours. An OBJ file has `colors` by material; other files have none."""
     files = {name: buffer for name, buffer in (buffers or {}).items() if buffer}
     by_name = dict[str, Color | None]()
     if suffix == ".stl":
@@ -122,12 +120,12 @@ def _parts(
             files["m"] = b"".join(b"newmtl m%d\n" % number for number in range(len(used)))
         content = _plain_obj(content, with_materials=bool(colors))
     if suffix == ".gltf":
-        json.loads(content)  # invalid JSON raises here; trimesh would look for another file
+        json.loads(content)  # without this, trimesh would take invalid JSON for a reference to another file
     is_gltf = suffix in (".gltf", ".glb")
     if is_gltf:
         for compression in _COMPRESSIONS:
             if compression in content:
-                raise MeshError(f"it is compressed ({compression.decode()})")
+                raise MeshError(f"the file is compressed ({compression.decode()})")
     scene = trimesh.load_scene(
         io.BytesIO(content),
         file_type=suffix[1:],
@@ -135,7 +133,7 @@ def _parts(
         process=False,
         skip_materials=not colors,
     )
-    for color in dict.fromkeys(by_name.values()):  # in the file's order, which trimesh reverses
+    for color in dict.fromkeys(by_name.values()):  # in the order of the file; trimesh reverses the order
         yield color, Triangles(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
     for node in scene.graph.nodes_geometry:
         pose, name = scene.graph[node]
@@ -148,7 +146,7 @@ def _parts(
 
 
 def _announced(suffix: str, content: bytes) -> int:
-    """Return the number of triangles that a file announces; it may have more."""
+    """Return the number of triangles that a file announces. The file may have more triangles."""
     if suffix == ".stl":
         return content.count(b"endfacet") + content.count(b"ENDFACET")
     match = _FACES[suffix].search(content) if suffix in _FACES else None
@@ -156,24 +154,24 @@ def _announced(suffix: str, content: bytes) -> int:
 
 
 def _one_solid(content: bytes) -> bytes:
-    """Return a binary STL file as it is, and an STL text with all its facets in one solid.
+    """Return a binary STL file unchanged, and an STL text with all facets in one solid.
 
-    Names of solids are removed, since they may be any words, even `vertex`.
+    Names of solids are removed, since a name may be any word, even `vertex`.
     """
     if is_binary_stl(content):
         return content
     if not content.rstrip().rpartition(b"\n")[2].lstrip().lower().startswith(b"endsolid"):
-        raise MeshError("its end is missing")
+        raise MeshError("the end of the file is missing")
     return b"solid\n" + _SOLID_LINE.sub(b"", content) + b"\nendsolid\n"
 
 
 def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
-    """Return vertices and faces alone, without references to textures and normals. All indices count from 1.
+    """Return only vertices and faces, without references to textures and normals.
 
-    If materials are wanted, faces keep theirs, from a library `m`.
+    All indices count from 1. With materials, faces keep their materials, in a library `m`.
 
-    trimesh reads index 0 as 1, and counts negative indices from the end of the file. It skips indented lines, and faces
-    with less than three corners. It fails if only some corners have references.
+    The reader of trimesh takes index 0 for 1, and counts negative indices from the end of the file. It skips indented
+    lines, and faces with less than three corners. It fails if only some corners have references.
     """
     text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b" ").replace(b"\t", b" ")
     statements = rb"^ *((?:[vf]|usemtl) .*)" if with_materials else rb"^ *([vf] .*)"
@@ -182,14 +180,14 @@ def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
     if re.search(rb"^f.* -", text, re.MULTILINE):
         text = _count_from_the_first(text)
     if re.search(rb"^[vf](?: +\S+){0,2} *$", text, re.MULTILINE):
-        raise MeshError("one of its vertices or faces has less than three numbers")
+        raise MeshError("a vertex or face has less than three numbers")
     if re.search(rb"^f.* (?:0+(?: |$)|[-/])", text, re.MULTILINE):
-        raise MeshError("one of its faces has an index that no vertex has")
+        raise MeshError("a face has an index that no vertex has")
     return text
 
 
 def _count_from_the_first(text: bytes) -> bytes:
-    """Replace negative indices of an OBJ file, which count back from their own line, by positive ones."""
+    """Replace negative indices of an OBJ file, which count back from their own line, by positive indices."""
     vertices = 0
 
     def replaced(line: re.Match[bytes]) -> bytes:

@@ -1,4 +1,4 @@
-"""Simplifies meshes for a page: corners near each other become one, until there are few enough triangles."""
+"""Simplifies meshes for a page: near corners become one corner, until the triangles are few enough."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from urdfsync.urdf.meshes.geometry import Triangles
 from urdfsync.urdf.meshes.process import Facts
 
 _FINE = 1 << 20
-"""Cells along the longest edge of an unsimplified mesh: finer than visible."""
+"""Cells along the longest edge of an unsimplified mesh: too fine to see."""
 _COARSE = 512
-"""First number of cells along the longest edge of a simplified mesh."""
+"""Number of cells along the longest edge at the first attempt to simplify."""
 
 
 def packed(mesh: Triangles, most: int) -> tuple[bytes, Facts]:
-    """Return about `most` triangles with shared corners, in the form of `scene.Triangles`."""
+    """Return about `most` triangles with shared corners, as `scene.Triangles` needs them."""
     cells = _FINE if len(mesh.faces) <= most else _COARSE
     while True:
         points, faces = _clustered(mesh, cells)
@@ -29,7 +29,7 @@ def packed(mesh: Triangles, most: int) -> tuple[bytes, Facts]:
 
 
 def _clustered(mesh: Triangles, cells: int) -> Triangles:
-    """Replace all corners in a cell of a grid by one point, and remove triangles without area."""
+    """Replace all corners in a cell of a grid by one point. Remove triangles without area."""
     points = mesh.points
     least = points.min(axis=0)
     edge = float(np.ptp(points, axis=0).max()) or 1.0

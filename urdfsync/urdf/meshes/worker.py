@@ -1,4 +1,4 @@
-"""The program that reads meshes, one after the other, each within limits of time and memory; `process` starts it."""
+"""The program that reads meshes one after the other, each within limits of time and memory; `process` starts it."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ if sys.platform != "win32":
     import resource
 
 _UNUSED = ("PIL", "httpx", "networkx", "rtree", "scipy", "shapely")
-"""Optional imports of trimesh that no mesh needs: half a second, and 60 MB."""
+"""Optional imports of trimesh that no mesh needs: they would take half a second and 60 MB."""
 _GROWN = 200_000_000
-"""A process that has allocated more bytes reads no further mesh; its libraries take 70 MB."""
+"""A process with more allocated bytes reads no further mesh; its libraries take 70 MB."""
 
 
 def main() -> None:
@@ -39,14 +39,14 @@ def main() -> None:
 
 
 def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tuple[Answer, list[bytes]]:
-    # numpy and trimesh are imported after `main` has blocked unused packages, and before the limits are set
+    # these imports come after `main` has blocked unused packages, and before limits are set
     from urdfsync.urdf.meshes import geometry, simplify
 
     is_plain = bool(request.most) and request.suffix == ".stl" and is_binary_stl(content)
     if not is_plain:  # plain meshes need no trimesh, which takes half a second
         from urdfsync.urdf.meshes.reading import read_mesh, read_parts
 
-        sys.modules.pop("PIL", None)  # trimesh does not need it, textures do
+        sys.modules.pop("PIL", None)  # textures need PIL, trimesh does not
     try:
         with limits(request.seconds, MEMORY * (FOR_PICTURE if request.most else 1)):
             if request.most:
@@ -78,7 +78,7 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
 
 
 def _allocated() -> int:
-    """Return the bytes that count against the memory limit, perhaps including freed ones; 0 without a limit."""
+    """Return the bytes that count against the memory limit, freed bytes included; 0 without a limit."""
     if sys.platform != "linux":
         return 0
     return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()

@@ -1,4 +1,4 @@
-"""Template data of a joint's model, which depends on no number of the URDF, and of its record."""
+"""Template data of a joint's model and record. The data of the model has no number of the URDF."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ def joint_title(joint: Joint) -> str:
 
 
 def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, Any]:
-    """Return which parts a joint's model has; the rotor is a separate part if the motor has a flange.
+    """Return the parts of a joint's model.
 
-    The spring of an elastic drive keeps the limits of effort and velocity. If Run commands an effort, Run keeps them.
+    If the motor has a flange, the rotor is a separate part. The spring of an elastic drive limits effort and velocity.
+    If Run commands an effort, Run limits both.
     """
-    # if a motor also moves another joint, its gear and its rotor are in the robot model
+    # if a motor also moves another joint, the robot model has its gear and its rotor
     armature, sharing = joint.dynamics and joint.dynamics.armature, sharing_joint(joint, options.drives)
     with_motor = has_motor(joint, options) and not sharing
     inertia = armature if with_motor or sharing else reflected_inertia(joint)

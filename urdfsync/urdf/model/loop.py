@@ -1,4 +1,4 @@
-"""Template data of a joint that closes a loop, and the data that loops add to other files."""
+"""Template data of a joint that closes a loop, and the data of loops in other files."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from urdfsync.urdf.robot import MOTION_KINDS, Loop
 
 
 def loop_reaches(closed: ClosedLoops) -> Mapping[str, Mapping[str, Any]]:
-    """Return, for each driven joint in a loop, how far Test moves it at most: a parameter of the start record."""
+    """Return for each driven joint in a loop the distance that Test moves it: a parameter of the start record."""
     if not closed.reach:
         return {}
     tree, taken = closed.tree, taken_names(closed.tree)

@@ -1,10 +1,10 @@
 """Template data of the record of a whole robot, `<Robot>Parameters.mo`, and the integer tables of its structure.
 
-Links that fixed joints connect move as one *body*: body 1 is that of the root link, and moving joint `i` moves body `i
-+ 1`. A *moving joint* is revolute, continuous or prismatic; moving joints are counted in canonical order, so the body
-that carries a joint has a smaller number than the moved body. The tables assign links to bodies. Modelica adds up the
-masses of a body's links, so no number is written twice. Everything is counted from 1. The template writes the other
-tables, whose entries refer to the data of each link and joint.
+Links that fixed joints connect move as one *body*. Body 1 has the root link. A *moving joint* is revolute, continuous
+or prismatic; moving joint `i` moves body `i + 1`. Moving joints are counted in canonical order, so the body that
+carries a joint has a smaller number than the moved body. The tables assign links to bodies. Modelica adds up the masses
+of a body's links, so no number is written twice. All counts start at 1. The template writes the tables that refer to
+data of links and joints.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
 def record_data(assembly: Assembly, imports: Mapping[str, Import]) -> dict[str, Any]:
     """Return the data of the record of a whole robot.
 
-    Everything is counted from 1. A record outside of a package names the libraries that it uses.
+    A record outside of a package states the used libraries.
     """
     tree, options, package = assembly.tree, assembly.options, assembly.target.package
     is_generic, taken = not obstacles(tree.joints), taken_names(tree)
@@ -44,7 +44,7 @@ def record_data(assembly: Assembly, imports: Mapping[str, Import]) -> dict[str, 
         for shape in shapes:
             # Modelica has no capsule shape: a capsule is drawn as a cylinder and two spheres
             kinds = ("Capsule", "LowerEnd", "UpperEnd") if shape["type"] == "Capsule" else (shape["type"],)
-            length_axis = 1 if shape["type"] in ("Box", "Mesh") else 3  # of the shape frame: 1 is x, 3 is z
+            length_axis = 1 if shape["type"] in ("Box", "Mesh") else 3  # in the shape frame: 1 is x, 3 is z
             drawn += [
                 {"link": number, "visual": shape["component"], "type": kind, "length_axis": length_axis}
                 for kind in kinds
@@ -65,7 +65,7 @@ def record_data(assembly: Assembly, imports: Mapping[str, Import]) -> dict[str, 
             for joint in referred_joints
         ]
 
-    axes = [  # drivable joints, rotational ones first, each with the constant for the number of its flange
+    axes = [  # drivable joints, turning joints first; the record has a constant with the number of each flange
         {"constant": drives[joint.name].axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}
         for motion in MOTIONS
         for number, joint in enumerate(tree.axes(motion), 1)
@@ -99,23 +99,23 @@ class Tables(msgspec.Struct, frozen=True):
     """The integer tables, as `UrdfSync.Records.Robot` describes them."""
 
     link_bodies: list[int]
-    """Per link: its body."""
+    """The body of each link."""
     joint_tree: list[tuple[int, int]]
-    """Per moving joint: the body that carries it, and 1 if it turns or 2 if it slides."""
+    """For each moving joint: the body that carries the joint; 1 for a turning joint, 2 for a sliding joint."""
     first_joints: list[int]
-    """Per body: the first joint that it carries; the number of joints + 1 if there is none."""
+    """For each body: the first joint on the body; without a joint, the number of joints + 1."""
     next_joints: list[int]
-    """Per moving joint: the next one on the same body; the number of joints + 1 if there is none."""
+    """For each moving joint: the next joint on the same body; without a next joint, the number of joints + 1."""
     moving: Mapping[Motion, list[int]]
     """The moving joints of each kind."""
     axes: Mapping[Motion, list[int]]
-    """Per driven axis of each kind: its moving joint."""
+    """For each kind, the moving joint of each driven axis."""
     followers: list[tuple[int, int]]
-    """Per joint that follows another one, leaders first: its number and its leader's; 0 for a fixed leader."""
+    """The numbers of each follower and its leader, leaders first; 0 stands for a fixed leader."""
 
 
 def obstacles(joints: Iterable[Joint]) -> list[Joint]:
-    """Return the planar, floating and ball joints: the generic robot has none, so a record with one has no tables."""
+    """Return the planar, floating and ball joints: a record with such joints has no tables."""
     return [joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed"]
 
 

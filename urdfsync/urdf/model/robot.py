@@ -1,6 +1,6 @@
-"""Template data of `<Robot>.mo`, `<Robot>Run.mo` and `<Robot>Test.mo`: their parts, connections, and places.
+"""Template data of `<Robot>.mo`, `<Robot>Run.mo` and `<Robot>Test.mo`: parts, connections, and places in the diagrams.
 
-The data depend only on the robot's structure, on no number of the URDF.
+The data depend only on the robot's structure, not on numbers of the URDF.
 """
 
 from __future__ import annotations
@@ -22,17 +22,17 @@ from urdfsync.urdf.model.loop import loop_reaches, loop_title
 from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
 from urdfsync.urdf.robot import MOTION_KINDS
 
-_ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
-_PICTURE = 100  # where the picture on the icon ends, and the rows begin
-_FRAME_Y = -50  # y of the frame in the library's benches to which the robot is connected
+_ROW = 20  # Height of a row of connectors on the icon: an axis, and the support 10 below.
+_PICTURE = 100  # The upper end of the picture on the icon; the rows begin there.
+_FRAME_Y = -50  # Y of the frame in the library's benches that connects to the robot.
 
 
 @lru_cache(maxsize=1)
 def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]) -> Mapping[str, Any]:
     """Return the data of the robot model. `tree` has no numbers; loops determine the positions of `dependent` joints.
 
-    The last result is kept: a build compares its data with the last build's, mostly of the same tree. Serves the rows
-    "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
+    The last result is cached: a build needs the data of the last build and of this one, mostly for equal trees. Serves
+    the rows "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
     """
     motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
     couplings: dict[str, dict[str, Any]] = {
@@ -41,7 +41,7 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
             "follower": tree.joint(joint.name).component,
             "follower_motion": motions[joint.name],
             "name": joint.name,
-            # the follower of a fixed joint is held: in the model it has no leader
+            # a fixed leader holds its follower: in the model the follower has no leader
             "leader": tree.joint(mimic.joint).component if motions[mimic.joint] else None,
             "leader_motion": motions[mimic.joint],
             "leader_name": mimic.joint,
@@ -51,7 +51,7 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     followers = defaultdict[str | None, list[str]](list)
     for coupling in couplings.values():
         followers[coupling["leader"]].append(coupling["component"])
-    gears = defaultdict[str | None, list[dict[str, Any]]](list)  # gears in the robot, by the joints that they move
+    gears = defaultdict[str | None, list[dict[str, Any]]](list)  # gears in the robot model, by moved joint
     for name, drive in names.drives.items():
         if drive.gear:
             gear = {"component": tree.joint(name).component, "motor": drive.motor}
@@ -118,8 +118,8 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
 def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
     """Return the data of Run and Test; `robot` is that of the robot model.
 
-    The diagram of a bench shows the robot's icon one and a half times as large. So the icon's rows are 30 apart, and a
-    drive of height 20 fits beside each.
+    The diagram of a bench enlarges the robot's icon by one half. So the icon's rows are 30 apart, and a drive of height
+    20 fits beside each row.
     """
     tree, names, options, closed = assembly.tree, assembly.connectors, assembly.options, assembly.closed
     reaches, sensors, top, rows = loop_reaches(closed), sensor_outputs(tree, names), robot["top"], robot["drives"]
@@ -152,7 +152,10 @@ def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _heights(connectors: Iterable[str]) -> Mapping[str, int]:
-    """Return the heights of the connectors at one side of the icon, above the picture; a new one displaces few."""
+    """Return the heights of the connectors at one side of the icon, above the picture.
+
+    A new connector displaces few connectors.
+    """
     rows = find_rows(dict.fromkeys(connectors, (0, range(1))), set())
     return {connector: _PICTURE + _ROW * (row + 1) for connector, row in rows.items()}
 

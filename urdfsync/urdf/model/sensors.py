@@ -8,8 +8,8 @@ from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import SENSOR_KINDS
 
-_ROW = 20  # height of an output in the diagram of Run
-_TOP = 80  # of the first output, below the outputs of the drives
+_ROW = 20  # Height of an output in the diagram of Run.
+_TOP = 80  # Y of the first output, below the outputs of the drives.
 _ICON_ROW, _ICON_TOP = 10, 90
 
 
@@ -31,7 +31,7 @@ def sensor_models(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]
 
 
 def sensor_outputs(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
-    """Return the sensors' outputs of Run with their places: a column at the right, below the outputs of the drives."""
+    """Return Run's outputs of sensors with their places: a column at the right, below the outputs of the drives."""
     outputs = [
         {
             "component": names.sensors[sensor.name],

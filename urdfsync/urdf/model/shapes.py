@@ -25,10 +25,10 @@ _IN_MODEL = ("component", "type", "label", "is_collision", "y")
 def link_shapes(
     link: Link, imports: Mapping[str, Import], package: str, options: Options
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Return a link's visuals and collisions, each with all its data for models and records.
+    """Return a link's visuals and collisions, each with all data for models and records.
 
-    A shape whose mesh is not imported is left out. Shapes are numbered as in the URDF: if a mesh is found later, the
-    others keep their names. If the base is floating, each collision can touch the ground, except a mesh without
+    A shape whose mesh is not imported is left out. Shapes are numbered as in the URDF: if a mesh is found later, other
+    shapes keep their names. If the base is floating, each collision can touch the ground, except a mesh without
     outermost points.
     """
     visuals: list[dict[str, Any]] = []
@@ -53,10 +53,10 @@ def link_model(
     options: Options,
     contact: Contact | None = None,
 ) -> dict[str, Any]:
-    """Return the structure of a link for its model. It has no number and no name of the URDF.
+    """Return the structure of a link for its model, without numbers and names of the URDF.
 
-    Each collision that can touch the ground has a contact; see `link_shapes`. Of `contact`, only the names of the given
-    numbers are used.
+    Each collision that can touch the ground has a contact; see `link_shapes`. From `contact`, the model needs only the
+    names of the given numbers.
     """
     contacts = [
         {
@@ -86,7 +86,7 @@ def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence
 
 
 def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin, _Body]]:
-    """Yield the collisions of a link that can touch the ground, with their poses; for a mesh, its outermost points."""
+    """Yield the poses and shapes of collisions that can touch the ground; a mesh as its outermost points."""
     for shape in link.collisions:
         if not isinstance(shape.geometry, Mesh):
             yield shape.origin, shape.geometry
@@ -95,9 +95,9 @@ def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin
 
 
 def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float | None:
-    """Return the height of the root frame when the ground just begins to carry the lowest collision shape.
+    """Return the height of the root frame when the lowest collision shape begins to press on the ground.
 
-    A mesh touches with its outermost points. None if there is no shape, or its place is not finite.
+    A mesh touches with its outermost points. None without a shape, or if the places of all shapes are infinite.
     """
     poses = link_poses(tree, start_positions(tree))
     heights = []
@@ -118,12 +118,12 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
                 case points:
                     heights += [height + dot(up, point) for point in points]
     lowest = min(filter(math.isfinite, heights), default=None)
-    # rounded, since the last digits of sines differ between machines
+    # the last digits of sines differ between machines
     return None if lowest is None else round(-lowest, 12)
 
 
 def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package: str) -> Iterator[dict[str, Any]]:
-    """Yield a visual with its colour. A mesh with several colours of its own is yielded as one part per colour."""
+    """Yield a visual with its colour; a mesh with several colours gives one part per colour."""
     shape = _shape("visual", number, visual, imports, package)
     if shape is None:
         return

@@ -1,1 +1,1 @@
-"""Bytes of a URDF to a `Robot`, with diagnostics that carry code, file and line."""
+"""Turns the bytes of a URDF into a `Robot`, with diagnostics."""

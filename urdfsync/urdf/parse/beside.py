@@ -1,13 +1,13 @@
-"""Reads the YAML of loops that `example-parallel-robots` keeps beside a URDF, as elements of the URDF.
+"""Adds the loops in a YAML beside a URDF to this URDF, as elements. `example-parallel-robots` has such files.
 
     closed_loop: [[FRAME, FRAME], …]          pairs of links
     type: [3d | 6d, …]                        a ball or a fixed joint for each pair
     name_mot: [JOINT, …]                      the joints that have a motor
-    joint_name: [JOINT, …]                    joints that URDF has no type for, each with
+    joint_name: [JOINT, …]                    joints whose type URDF lacks, each with
     joint_type: [SPHERICAL | UJOINT_XY | FIXED, …]
 
-The elements go to the end of the URDF, so that all its readers have them, with their lines. A joint of several axes
-becomes a chain.
+The elements go to the end of the URDF, so that all readers of the URDF see the elements and their lines. A joint of
+several axes becomes a chain of joints.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from urdfsync.spelling import counted
 from urdfsync.urdf.parse import xml
 
 AXES = "joint_axes"
-"""Element that gives a joint several axes, one after the other: `<joint_axes joint axes>`."""
+"""Element that gives a joint several axes in a row: `<joint_axes joint axes>`."""
 SUFFIX, OPTION = ".yaml", ""
 _KINDS = {"3d": "ball", "6d": "fixed"}
 _TYPES = {
@@ -31,28 +31,25 @@ _TYPES = {
 }
 _MARK = b"closed_loop"
 _LARGEST = 100_000
-"""The most bytes of a YAML: PyYAML takes up to 2 s and 60 MB for these. 10,000 loops have fewer."""
+"""The most bytes of a YAML: PyYAML reads so many in up to 2 s and 60 MB. Even 10,000 loops need fewer bytes."""
 _DEEPEST = 50
 """Deepest nesting of lists in a YAML: PyYAML needs three levels of recursion for each."""
 _MOST = 10_000_000
-"""The most characters of all elements: aliases may repeat a long name 10,000 times."""
+"""The most characters of all elements: aliases of YAML may repeat a long name 10,000 times."""
 _DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 _DRAKE = {"ball": "", "planar": "", "universal": "xy"}
-"""Types of `<drake:joint>` with the axes of their chains.
-
-By Drake's parser of URDF and its class UniversalJoint, which turns about x of the parent's frame, then about y.
-"""
+"""Types of `<drake:joint>` with the axes of their chains, by Drake's parser of URDF and its class UniversalJoint."""
 
 
 def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
-    """Return the URDF with the YAML's elements before its last tag, and the line of each in both files.
+    """Return the URDF with the YAML's elements before the last tag, and the line of each element in both files.
 
-    A YAML of another kind adds nothing. Raises SourceError for an unreadable one.
+    A YAML without loops adds nothing. Raises SourceError for an unreadable YAML.
     """
     end = content.rfind(b"</robot")
     if _MARK not in other or end < 0:
         return content, ()
-    import yaml  # 20 ms, and few robots need it
+    import yaml  # a late import saves most robots 20 ms
 
     try:
         document = _compose(other)
@@ -70,7 +67,7 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
 
 
 class _LoopsError(Exception):
-    """An unreadable node of the YAML; it has the attributes of PyYAML's errors."""
+    """An unreadable node of the YAML, with the attributes of PyYAML's errors."""
 
     def __init__(self, problem: str, node: Any = None) -> None:
         super().__init__(problem)
@@ -78,7 +75,7 @@ class _LoopsError(Exception):
 
 
 def _compose(content: bytes) -> Any:
-    """Return the root node of a YAML, None if it is empty. Raises YAMLError, ValueError and `_LoopsError`."""
+    """Return the root node of a YAML, or None for an empty file. Raises YAMLError, ValueError and `_LoopsError`."""
     import yaml
 
     class Loader(yaml.SafeLoader):  # type: ignore[misc] # PyYAML has no types
@@ -93,18 +90,18 @@ def _compose(content: bytes) -> Any:
             return node
 
     if len(content) > _LARGEST:
-        raise _LoopsError(f"it has more than {_LARGEST:,} bytes")
+        raise _LoopsError(f"the file has more than {_LARGEST:,} bytes")
     return yaml.compose(content, Loader)
 
 
 def _bounded(elements: Iterator[tuple[str, int]]) -> list[tuple[str, int]]:
-    """Return the elements. Raises `_LoopsError` if they are too long."""
+    """Return the elements. Raises `_LoopsError` if the elements are too long."""
     kept, size = list[tuple[str, int]](), 0
     for element, line in elements:
         kept.append((element, line))
         size += len(element)
         if size > _MOST:
-            raise _LoopsError(f"its elements have more than {_MOST:,} characters")
+            raise _LoopsError(f"the elements for the URDF have more than {_MOST:,} characters")
     return kept
 
 
@@ -119,7 +116,7 @@ def _items(parts: Mapping[str, Any], key: str) -> Sequence[Any]:
 
 
 def _names(nodes: Sequence[Any], key: str) -> Sequence[Any]:
-    """Return the nodes; each must be a name or another text."""
+    """Return the nodes. Raises `_LoopsError` for a list or a mapping."""
     for node in nodes:
         if node.id != "scalar":
             raise _LoopsError(f"an item of `{key}` is no name", node)
@@ -128,7 +125,7 @@ def _names(nodes: Sequence[Any], key: str) -> Sequence[Any]:
 
 def _elements(document: Any) -> Iterator[tuple[str, int]]:
     """Yield each element, and its line in the YAML."""
-    from xml.sax.saxutils import quoteattr  # 9 ms, with urllib, http and email; few robots need it
+    from xml.sax.saxutils import quoteattr  # a late import saves most robots 9 ms
 
     if document.id != "mapping":
         return  # a YAML of another kind, which contains the word `closed_loop`
@@ -141,10 +138,10 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
         parts[key.value] = value
     for key, node in parts.items():
         if key.startswith("closed_loop") and "closed_loop" not in parts and node.id == "sequence":
-            raise _LoopsError(f"the key `{key}` is unknown, perhaps `closed_loop` is meant", node)
+            raise _LoopsError(f"the key `{key}` is unknown; perhaps `closed_loop` is meant", node)
     pairs, kinds = _items(parts, "closed_loop"), _names(_items(parts, "type"), "type")
     if len(pairs) != len(kinds):
-        raise _LoopsError(f"it has {counted(len(pairs), 'loop')} and {counted(len(kinds), 'type')}")
+        raise _LoopsError(f"the file has {counted(len(pairs), 'loop')} and {counted(len(kinds), 'type')}")
     for pair, kind in zip(pairs, kinds, strict=True):
         if pair.id != "sequence" or len(pair.value) != 2:
             raise _LoopsError("an item of `closed_loop` is no pair of frames", pair)
@@ -160,7 +157,7 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
         yield f"<transmission name={name}><joint name={name}/></transmission>", joint.start_mark.line + 1
     joints, kinds = (_names(_items(parts, key), key) for key in ("joint_name", "joint_type"))
     if len(joints) != len(kinds):
-        raise _LoopsError(f"it has {counted(len(joints), 'joint')} and {counted(len(kinds), 'joint type')}")
+        raise _LoopsError(f"the file has {counted(len(joints), 'joint')} and {counted(len(kinds), 'joint type')}")
     for joint, kind in zip(joints, kinds, strict=True):
         if kind.value not in _TYPES:
             raise _LoopsError(f"the joint type {kind.value!r} is none of {', '.join(_TYPES)}", kind)
@@ -168,10 +165,10 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
 
 
 def split_joints(document: xml.Document, balls: Collection[str] = ()) -> xml.Document:
-    """Return the document with a chain for each joint with several axes, and a fixed joint for each with none.
+    """Return the document with one joint for each axis of a joint; a joint without an axis becomes fixed.
 
-    The joints of a chain count as only measured. Elements with an unknown joint or axes stay. Joints of Drake become
-    plain ones or chains, and the named `balls` become chains: each joint of such a chain has the damping.
+    The new joints count as only measured. Elements with an unknown joint or axes stay. Joints of Drake become plain
+    joints or chains. The named `balls` become chains, and each joint of such a chain gets the ball's damping.
     """
     root, places = document.root, document.lines
     own = {

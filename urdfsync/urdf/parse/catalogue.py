@@ -1,10 +1,10 @@
-"""Reads a catalogue: a table whose rows have numbers of drives, such as rotors, gears and limits.
+"""Reads a catalogue: each row has the numbers of one motor, such as rotor, gear and limits.
 
-The rows that the option `motors` names go to the end of the URDF, as they are written, with their units:
+The option `motors` names rows. Each of these rows goes to the end of the URDF, with its units:
 
     <catalogue_row joint="elbow" motor="S41" effort="410 [N.cm]" rotor_inertia="0.6 [g.cm2]"/>
 
-So all readers of the URDF have them, with their lines, and each converts the units itself.
+So each reader of the URDF sees the rows and their lines, and converts the units itself.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ _PLACES: Mapping[MotorNumber, tuple[str, str, str]] = {
     "reduction": ("transmission", "1", "rad/m"),
     "rotor_inertia": ("transmission", "kg.m2", "kg.m2"),
 }
-"""Numbers of a row: the field of `Joint` that has each, and its unit for a turning and for a sliding joint."""
+"""Numbers of a row: the field of `Joint` with the number, and the units of a turning and of a sliding joint."""
 NUMBERS: Mapping[tuple[str | int, ...], str] = {(field, number): number for number, (field, _, _) in _PLACES.items()}
 """Numbers of a row by their paths in a joint."""
 
 
 class Row(NamedTuple):
-    """A row of the catalogue for one joint; numbers that are not of its gear stand in the joint's elements by now."""
+    """A row of the catalogue for one joint. The joint's elements have all numbers but those of the gear."""
 
     motor: Motor
     gear: Mapping[str, float]
@@ -51,9 +51,9 @@ def file(options: Options) -> str:
 
 
 def join(content: bytes, other: bytes, file: str, options: Options) -> tuple[bytes, Sequence[tuple[int, int]]]:
-    """Return the URDF with the rows before its last tag, and the line of each in both files; see `NamedFile`.
+    """Return the URDF with the rows before the last tag, and the line of each row in both files; see `NamedFile`.
 
-    The check of options reports missing rows. Raises SourceError for other faults of the table.
+    The check of options reports missing rows. Raises SourceError for any other fault of the table.
     """
     if (end := content.rfind(b"</robot")) < 0:
         return content, ()
@@ -65,7 +65,7 @@ def join(content: bytes, other: bytes, file: str, options: Options) -> tuple[byt
 
 def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str, int]]:
     """Yield the element of each joint, and its line in the catalogue."""
-    from xml.sax.saxutils import quoteattr  # 9 ms, and few robots need it
+    from xml.sax.saxutils import quoteattr  # a late import saves most robots 9 ms
 
     from urdfsync.table.formats import read_sheets  # likewise
     from urdfsync.table.reading import name_and_unit
@@ -90,7 +90,7 @@ def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str
     for joint, name in options.motors.items():
         line, texts = rows.get(name, (0, names))
         if len(texts) != len(names):
-            message = f"the row `{name}` has {len(texts)} cells, and the header {len(names)}"
+            message = f"the row `{name}` has {len(texts)} cells, but the header has {len(names)}"
             raise SourceError.of("bad-row", message, file, line, hint="fill each cell, or quote its text")
         filled = {column: f"{text} [{unit}]" for (column, unit), text in zip(header, texts, strict=True) if text}
         found = {"joint": joint, "motor": name}
@@ -105,8 +105,8 @@ def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str
 def read_rows(reader: Reader, root: Element) -> Mapping[str, Row]:
     """Put the numbers of the catalogue's rows into the elements of their joints; return the rows by joint.
 
-    The rows leave the document. Those of joints without an axis are left out: the check of options reports them. The
-    first fault becomes a diagnostic: a wrong unit is one fault, and not one in each row.
+    The rows leave the document. A row of a joint without an axis is ignored: the check of options reports this row.
+    Only the first fault becomes a diagnostic, since a wrong unit is a fault in each row.
     """
     joints = {joint.get("name"): joint for joint in root.findall("joint") if joint.get("type") in MOTION_KINDS}
     rows, found = root.findall(_ROW), dict[str, Row]()
@@ -127,14 +127,14 @@ def _read_row(reader: Reader, element: Element, joint: Element, line: int) -> Ro
     gear, name, own = dict[str, float](), element.get("motor", ""), joint.get("name", "")
     numbers = [number for number in _PLACES if number in element.attrib]
     if not numbers:
-        hint = "fill its cells, or name its columns in `motor_columns`"
+        hint = "fill cells of the row, or name columns in `motor_columns`"
         raise SourceError.of("bad-row", f"the row `{name}` has no number of a drive", hint=hint)
     for number in numbers:
         field, *units = _PLACES[number]
         part = next((part for part in map(joint.find, (field, f"axis/{field}")) if part is not None), None)
         if part is None and field == "limit" and joint.get("type") != "continuous":
-            message = f"joint `{own}` has no <limit>, and the row `{name}` can't give it limits of position"
-            raise SourceError.of("bad-row", message, hint="write its <limit> in the URDF")
+            message = f"joint `{own}` has no <limit>: the row `{name}` gives no limits of position"
+            raise SourceError.of("bad-row", message, hint="write the joint's <limit> in the URDF")
         try:
             size = _in_si(number, element.get(number, ""), units[MOTION_KINDS[joint.get("type")] == "translational"])  # type: ignore[index] # see `joints`
         except ValueError as error:
@@ -151,8 +151,8 @@ def _read_row(reader: Reader, element: Element, joint: Element, line: int) -> Ro
 
 
 def _in_si(number: MotorNumber, text: str, expected: str) -> float:
-    """Return a number with a unit, such as `410 [N.cm]`, in the `expected` unit. Raises ValueError, and SourceError."""
-    from urdfsync.table.reading import name_and_unit, read_value  # 15 ms, and few robots need it
+    """Return a number with a unit, such as `410 [N.cm]`, in the `expected` unit. Raises ValueError or SourceError."""
+    from urdfsync.table.reading import name_and_unit, read_value  # a late import saves most robots 15 ms
     from urdfsync.table.units import find_unit, is_same_kind
 
     cell, unit = name_and_unit(text)
@@ -162,7 +162,7 @@ def _in_si(number: MotorNumber, text: str, expected: str) -> float:
     if not is_same_kind(unit, expected):
         raise ValueError(f"{unit} can't be converted to {expected}")
     found = find_unit(unit)
-    if expected.startswith("rad") and "rad" not in found.si:  # pint takes 1/min for rad/min, data sheets for rpm
+    if expected.startswith("rad") and "rad" not in found.si:  # pint reads 1/min as rad/min, data sheets mean rpm
         raise ValueError(f"write `turn` or `rad` in {unit}")
     size = float(read_value(cell, found) or 0)
     if size < 0 if number != "reduction" else not size:
@@ -171,12 +171,12 @@ def _in_si(number: MotorNumber, text: str, expected: str) -> float:
 
 
 def with_row(reader: Reader, joint: Joint, row: Row | None) -> Joint:
-    """Return a joint with the gear of its row."""
+    """Return the joint with the gear of its row."""
     if row is None:
         return joint
     gear = msgspec.structs.replace(joint.transmission or Transmission(), **row.gear)
     if gear.joint is not None and "reduction" in row.gear:
-        message = f"the motor of joint `{joint.name}` moves `{gear.joint}`, too: a row can't give its reduction"
-        fault = SourceError.of("bad-row", message, "", row.line, hint="leave its cell empty")
+        message = f"the motor of joint `{joint.name}` also moves `{gear.joint}`: a row can't give its reduction"
+        fault = SourceError.of("bad-row", message, "", row.line, hint="leave the cell of the reduction empty")
         reader.diagnostics += fault.diagnostics
     return msgspec.structs.replace(joint, motor=row.motor, transmission=None if gear == Transmission() else gear)

@@ -1,8 +1,8 @@
-"""Reads the drives of joints: `<ros2_control>`, `<transmission>`, plugins of Gazebo for wheels and couplings.
+"""Reads the drives of joints, as `<ros2_control>`, `<transmission>` and plugins of Gazebo state them.
 
-If a joint's drive is stated several times, the configuration counts first, then `<ros2_control>`, a transmission, a
-plugin. A contradiction is a warning, except with the configuration. The `<mimic>` of a joint counts before all other
-couplings.
+A source may state the drive of a joint several times. The first of these counts: configuration, `<ros2_control>`,
+transmission, plugin. A contradiction is a warning, unless the configuration decides. For couplings, the `<mimic>` of
+the joint comes first.
 """
 
 from __future__ import annotations
@@ -30,25 +30,26 @@ _REDUCTIONS = (
     "joint/mechanicalReduction",
     "mechanicalReduction",
 )
-"""Elements of a transmission with its reduction; the first existing one counts."""
+"""Places of the reduction in a transmission; the first existing place counts."""
 _JOINT = re.compile(r"\w*joint\d*", re.IGNORECASE)
-"""Elements of a transmission that name its joints: `joint`, `flexJoint` and `gap_joint` of the PR2, `joint1`."""
+"""Elements of a transmission that name joints: `joint`, `joint1`, and `flexJoint` and `gap_joint` of the PR2."""
 _ROLES = {"flexJoint": "joint1", "rollJoint": "joint2", "rightActuator": "actuator1", "leftActuator": "actuator2"}
-"""Roles in a transmission that couples joints, by the elements of the PR2's wrist."""
+"""Elements of the PR2's wrist transmission with their roles."""
 _REDUCTIONS_OF_PARTS = ("drake:gear_ratio", "mechanical_reduction", "mechanicalReduction", "@mechanicalReduction")
-"""Places of the reduction in a joint or an actuator of a transmission that couples joints."""
+"""Places of the reduction in a joint or an actuator, if the transmission couples joints."""
 _Law: TypeAlias = Callable[[float, float], tuple[tuple[float, float], tuple[float, float]]]
 _COUPLINGS: Mapping[str, _Law] = {
     "DifferentialTransmission": lambda first, second: ((first, second), (first, -second)),
     "FourBarLinkageTransmission": lambda first, second: ((first, 0.0), (1.0, second)),
     "WristTransmission": lambda first, second: ((first, -second), (-first, -second)),
 }
-"""From the reductions of two joints: a row for each motor, with its turns before its own gear per turn of each joint.
+"""Laws of coupled joints: the reductions of two joints give a row for each motor.
 
-`transmission_interface` of ros_control and `pr2_mechanism_model` document these laws.
+The row has the motor's turns per turn of each joint, without the motor's own gear. The packages
+`transmission_interface` (of ros_control) and `pr2_mechanism_model` document these laws.
 """
 _COMMANDS: tuple[Command, ...] = get_args(Command)
-"""Interfaces of a joint in order: the first existing one counts."""
+"""Command interfaces of a joint in order: the first existing interface counts."""
 _INTERFACES: Mapping[str, Command | None] = {
     "PositionJointInterface": "position",
     "VelocityJointInterface": "velocity",
@@ -57,15 +58,15 @@ _INTERFACES: Mapping[str, Command | None] = {
     "PosVelAccJointInterface": "position",
     "JointStateInterface": None,
 }
-"""The command of each interface of ROS 1; None for the measuring one."""
+"""The command of each interface of ROS 1; None for the interface that only measures."""
 _STATES = ("position", "velocity", "acceleration", "effort")
-"""State interfaces of a joint in a model."""
+"""State interfaces that the model of a joint has."""
 _KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
-"""Fields of `Drive` that may contradict each other, in words."""
+"""Words for the fields of `Drive` that may contradict each other."""
 _SAME = 1e-6
 """The greatest rounding error of a position, in rad or m."""
 _WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
-"""Elements by which plugins for differential and skid-steer drives name the joints of wheels."""
+"""Elements that name the joints of wheels in plugins for differential and skid-steer drives."""
 
 
 class Drive(NamedTuple):
@@ -81,11 +82,11 @@ class Drive(NamedTuple):
     mimic: Mimic | None = None
     start: float | None = None
     is_driven: bool = True
-    """Whether it drives the joint."""
+    """Whether the element drives the joint."""
     is_measured: bool = False
-    """Whether it only measures the joint."""
+    """Whether the element only measures the joint."""
     is_coupled: bool = False
-    """Whether the transmission couples joints in a way that is not modelled."""
+    """Whether the transmission couples joints by a law that urdfsync does not model."""
 
 
 def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
@@ -112,7 +113,7 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
             gear = gears[number] if gears else None
             drive = Drive(place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None))
             is_measured = commands == {None}
-            # a passive_joint of the PR2's gripper has no motor
+            # the passive_joints of the PR2's gripper have no motor
             is_driven = not is_measured and not joint.tag.startswith("passive")
             yield drive._replace(is_driven=is_driven, is_measured=is_measured, is_coupled=gears is None)
 
@@ -120,7 +121,7 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
 def _read_gears(
     reader: Reader, element: Element, path: str, joints: Sequence[Element]
 ) -> Sequence[Transmission | None] | None:
-    """Return the gear of each joint of a transmission; None if it couples them in a way that is not modelled."""
+    """Return the gear of each joint of a transmission; None if urdfsync does not model their coupling."""
     kind = (element.findtext("type") or element.findtext("plugin") or element.get("type") or "").strip()
     law = _COUPLINGS.get(kind.rpartition("/")[2])
     actuators = [part for part in element if part.tag.lower().endswith("actuator")]
@@ -132,7 +133,7 @@ def _read_gears(
     if law and (gears := _read_coupled_gears(reader, path, law, joints, actuators)):
         reader.used.update(part for part in element if part.tag in ("type", "plugin"))
         return gears
-    # Franka's simulator has such transmissions for handles of the whole arm; they couple nothing
+    # Franka's simulator has such transmissions for handles of the whole arm; no joints are coupled
     if not kind.endswith("Interface"):
         names = ", ".join(dict.fromkeys(joint.get("name", "") for joint in joints))
         message = f"{path} ({kind or 'without a type'}) moves {names} in a way that is not modelled: "
@@ -146,7 +147,7 @@ def _read_gears(
 def _read_coupled_gears(
     reader: Reader, path: str, law: _Law, joints: Sequence[Element], actuators: Sequence[Element]
 ) -> Sequence[Transmission | None] | None:
-    """Return the gears of two joints in their order; None if their elements or numbers do not fit the law."""
+    """Return the gears of two joints in the order of `joints`; None if elements or numbers do not fit the law."""
     parts = dict[str, Element]()
     for kind, elements in (("joint", joints), ("actuator", actuators)):
         for number, part in enumerate(elements, 1):
@@ -172,7 +173,7 @@ def _read_coupled_gears(
 
 
 def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive:
-    """Return the drive of a joint of `<ros2_control>`; without a command it only measures."""
+    """Return the drive of a joint of `<ros2_control>`; without a command, the element only measures the joint."""
     # gazebo_ros2_control has `velocity_pid` for a velocity with its own controller
     interfaces = {part.get("name", "").removesuffix("_pid"): part for part in joint.findall("command_interface")}
     states = joint.findall("state_interface")
@@ -189,7 +190,7 @@ def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive
 
 
 def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str) -> float | None:
-    """Return the initial position of a joint of `<ros2_control>`; an initial velocity is left out, with a warning."""
+    """Return the initial position of a joint of `<ros2_control>`. Warn of an initial velocity and ignore the value."""
     starts = dict[str, float]()
     for state in states:
         kind, param = state.get("name", ""), state.find("param[@name='initial_value']")
@@ -200,7 +201,7 @@ def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str)
             if kind == "position":
                 reader.place(param, f"joint {name} / start")
             elif starts.get(kind):
-                message = f"{path} begins with velocity {starts[kind]:g}; in Run and Test it begins at rest"
+                message = f"{path} begins with velocity {starts[kind]:g}; in Run and Test the joint begins at rest"
                 reader.add(param, "bad-start", message, "take it out")
     return starts.get("position")
 
@@ -218,7 +219,7 @@ def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator
 
 
 def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path: str) -> Mimic | None:
-    """Return a coupling from elements by their names; None without a leader."""
+    """Return the coupling that the elements `parts` state; None without the element named `leader`."""
     name = (parts[leader].text or "").strip() if leader in parts else ""
     if not name:
         return None
@@ -232,9 +233,9 @@ def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path:
 
 
 def _read_interfaces(reader: Reader, element: Element, joint: Element, path: str) -> set[Command | None]:
-    """Return the commands of a transmission's joint. An interface that only measures gives None.
+    """Return the commands of a transmission's joint; None stands for an interface that only measures.
 
-    The actuator's interfaces count if the joint names none, and there is only one joint.
+    The actuator's interfaces count if the joint names no interface, and the transmission has no other joint.
     """
     is_alone = len(element.findall("joint")) == 1
     stated = list[set[Command | None]]()
@@ -260,12 +261,12 @@ def _add_unknown(reader: Reader, element: Element, path: str, name: str, names: 
 
 
 def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | None:
-    """Return reduction, offset and rotor of a transmission; None if it has none of them."""
+    """Return reduction, offset and rotor of a transmission; None if the transmission has none of these numbers."""
     reduction = _read_reduction(reader, element, _REDUCTIONS, path)
     offset = _number(reader, element, ("joint/offset",), path) or 0.0
     gear = Transmission(reduction or 1.0, offset, _number(reader, element, ("actuator/drake:rotor_inertia",), path))
     reader.used.update(part for part in element if part.tag in ("joint", "actuator"))
-    # a SimpleTransmission drives one joint, and is modelled
+    # the type SimpleTransmission needs no report: the model has it
     reader.used.update(part for part in element if "SimpleTransmission" in (part.text or ""))
     return None if gear == Transmission() else gear
 
@@ -276,7 +277,7 @@ def _number(reader: Reader, element: Element, places: Iterable[str], path: str) 
 
 
 def _read_reduction(reader: Reader, element: Element, places: Iterable[str], path: str) -> float | None:
-    """Return a reduction; None if there is none or, after a warning, zero."""
+    """Return a reduction; None if the reduction is missing or, after a warning, zero."""
     reduction = _number(reader, element, places, path)
     if reduction == 0:
         reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
@@ -284,15 +285,15 @@ def _read_reduction(reader: Reader, element: Element, places: Iterable[str], pat
 
 
 def configured_drives(options: Options) -> Iterator[Drive]:
-    """Yield the commands and start positions of the configuration. They do not make a joint driven."""
+    """Yield the commands and start positions of the configuration. Neither makes a joint driven."""
     for name in dict.fromkeys((*options.commands, *options.start)):
         yield Drive("", name, command=options.commands.get(name), start=options.start.get(name), is_driven=False)
 
 
 def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
-    """Return the joints with their drives; the first one of contradictory drives counts.
+    """Return the joints with their drives; of contradictory drives the first counts.
 
-    An element that drives a joint without an axis counts as not modelled.
+    A drive of a joint without an axis is not modelled.
     """
     by_joint = defaultdict[str, list[Drive]](list)
     for drive in drives:
@@ -308,8 +309,8 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
             driven[number] = msgspec.structs.replace(joint, transmission=None)
             path = next(drive.path for drive in by_joint[joint.name] if drive.transmission == gear)
             name, pair = path.partition(" / ")[0], f"{joint.name} and {gear.joint}"
-            message = f"{name} couples {pair}, which do not both turn by themselves: they have no gears"
-            if gear.joint in starts:  # a joint that does not exist is reported elsewhere
+            message = f"{name} couples {pair}, but not both joints turn by themselves: neither has a gear"
+            if gear.joint in starts:  # other code reports a missing joint
                 loose.setdefault(name, Finding("coupled-transmission", path, message))
     reader.extend(loose.values())
     for joint in driven:
@@ -331,13 +332,13 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
     reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
 
     def first(field: str) -> Drive | None:
-        """Return the first drive that states a field; report others that contradict it."""
+        """Return the first drive that states a field; report later drives that contradict the first."""
         stated = [drive for drive in drives if getattr(drive, field) is not None]
         for other in stated[1:] if stated and stated[0].path else ():
             if getattr(other, field) != getattr(stated[0], field):
                 message = f"joint {joint.name!r} has two {_KINDS[field]} that differ: "
                 message += f"that of {stated[0].path} counts, that of {other.path} does not"
-                hint = "correct one of them, or choose by `commands` in the configuration" if field == "command" else ""
+                hint = "correct one, or choose by `commands` in the configuration" if field == "command" else ""
                 reader.extend([Finding("drive-contradiction", other.path, message, hint)])
         return stated[0] if stated else None
 
@@ -346,18 +347,18 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
         drives.insert(0, Drive(place, joint.name, mimic=joint.mimic, is_driven=False))
     mimic = first("mimic")
     if mimic and not joint.mimic:
-        reader.lines[place] = reader.lines[mimic.path]  # for later findings about the coupling
+        reader.lines[place] = reader.lines[mimic.path]  # later findings about the coupling need the line
     for drive in drives:
         stated = drive.element.get("mimic", "").lower() if drive.element is not None else ""
         if stated == ("false" if mimic else "true"):
-            fact = "follows another one, which counts" if mimic else "has no <mimic>, and moves by itself"
+            fact = "follows another joint all the same" if mimic else "has no <mimic>, and moves by itself"
             message = f"{drive.path} has mimic={quoted(stated)}, but joint {joint.name!r} {fact}"
             reader.extend([Finding("drive-contradiction", drive.path, message)])
     gear, command, start = first("transmission"), None if mimic else first("command"), first("start")
     lower, upper = own_range(joint)
     if start and start.path and not lower - _SAME <= (start.start or 0.0) <= upper + _SAME:
         message = f"joint {joint.name!r} begins at {start.start:g}, outside of its limits {lower:g} to {upper:g}"
-        reader.extend([Finding("bad-start", f"joint {joint.name} / start", f"{message}, and is not put there")])
+        reader.extend([Finding("bad-start", f"joint {joint.name} / start", f"{message}: the start is ignored")])
         start = None
     return msgspec.structs.replace(
         joint,

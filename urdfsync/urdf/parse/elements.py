@@ -27,14 +27,11 @@ from urdfsync.urdf.validate import Finding, perhaps
 _SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
 
 _TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
-"""Attributes of the other half of a symmetrical tensor; some exporters write both halves."""
+"""Attributes of the lower half of an inertia, with their equals in the upper half: some exporters write both."""
 
 
 def read_link(reader: Reader, element: Element, path: str, contact: Contact | None) -> Link:
-    """Read a link without looking up its materials; `contact` was read from the whole robot.
-
-    An absent mass or inertia is 0, with a warning.
-    """
+    """Read a link; its materials are not looked up yet. An absent mass or inertia is 0, with a warning."""
     owner, place = f"link {element.get('name', '')}", f"{path} / inertial"
     part, inertial = element.find("inertial"), None
     if part is not None:
@@ -44,7 +41,7 @@ def read_link(reader: Reader, element: Element, path: str, contact: Contact | No
                 inertia.attrib.pop(twin, None)
         inertial = reader.read(part, place, Inertial, owner)
         if mass is None or "value" not in mass.attrib:
-            reader.add(part if mass is None else mass, "missing-mass", f"{place} has no mass: it is taken as 0")
+            reader.add(part if mass is None else mass, "missing-mass", f"{place} has no mass: 0 is taken")
         absent = [name for name in Inertia.__struct_fields__ if inertia is None or name not in inertia.attrib]
         if absent:
             message = f"{place} has no {', '.join(absent)}: taken as 0"
@@ -58,7 +55,7 @@ def read_link(reader: Reader, element: Element, path: str, contact: Contact | No
 def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str) -> Iterator[Visual | Collision]:
     """Yield each visual or collision that can be drawn.
 
-    Others are left out with a warning, and have no number in paths.
+    A shape that can't be drawn gets a warning and no number in paths.
     """
     number = 0
     for element in link.findall(tag):
@@ -72,7 +69,7 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
         number += 1
         place, kind = reader.place(element, f"{path} / {tag} {number}"), shapes[0].tag
         if len(shapes) > 1:
-            message = f"{place} has {len(shapes)} geometries, of which the first counts"
+            message = f"{place} has {len(shapes)} geometries; the first counts"
             reader.add(element, "duplicate-element", message, f"write one {tag} for each")
         reader.expect(holder, f"{place} / geometry", (), moves=False)
         for child in holder:
@@ -88,7 +85,7 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
 
 
 def read_material(reader: Reader, element: Element, path: str, owner: str = "") -> Material:
-    """Read a material as written. A missing colour is None; a faulty one, too, with a warning."""
+    """Read a material as written. A missing colour is None; so is a faulty colour, with a warning."""
     reader.expect(element, path, ("name",), moves=False)
     color = reader.children(element, path, ("color",), owner).get("color")
     rgba = None
@@ -104,17 +101,18 @@ def read_material(reader: Reader, element: Element, path: str, owner: str = "") 
             red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in numbers)
             rgba = red, green, blue, opacity
             if rgba != numbers:
-                reader.add(color, "color-range", f"{shown} is not between 0 and 1, and is cut off there")
+                reader.add(color, "color-range", f"{shown} is not between 0 and 1, and is clamped")
     return Material(element.get("name", ""), rgba)
 
 
 def resolve_materials(
     reader: Reader, links: Mapping[str, Link], materials: dict[str, Material], defined: Collection[str]
 ) -> tuple[Link, ...]:
-    """Return the links with their materials, looked up by name in the whole robot; keys are paths.
+    """Return the links after looking up their materials by name in the whole robot.
 
     As in urdfdom, the first definition of a name counts: the robot's own `materials` come before those in visuals.
-    `defined` are the defined names, with a colour or without.
+    `defined` has the names of all materials that a definition gives a colour or a texture. The keys of `links` and
+    `materials` are paths.
     """
     inline = {
         f"{path} / visual {number} / material": visual.material
@@ -146,11 +144,11 @@ def resolve_materials(
 
 
 def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
-    """Read a joint with its written axis; return None, after an error, if it connects nothing.
+    """Read a joint, with its axis as written.
 
-    A joint of unknown type becomes a plain fixed one. Isaac Sim's `spherical` is a ball. SDFormat has limits and losses
-    inside of the axis. Drake has `drake:acceleration` among the limits (its page on parsing models for multibody
-    dynamics).
+    Return None, after an error, for a joint without parent or child. A joint of unknown type becomes a plain fixed
+    joint. Isaac Sim writes `spherical` for a ball. SDFormat has limits and losses inside of the axis. Drake's page on
+    parsing models documents `drake:acceleration` among the limits.
     """
     axis = element.find("axis")
     if axis is not None:
@@ -181,8 +179,8 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
     safety = element.find("safety_controller")
     if safety is not None and "k_velocity" not in safety.attrib:
         reader.add(safety, "missing-gain", f"{path} / safety_controller has no 'k_velocity', taken as 0")
-    # An absent limit of position is 0, as in urdfdom; an absent one of effort or velocity is no limit. Since URDF 1.2
-    # the limits of position are required, and the others may be left out.
+    # As in urdfdom, an absent limit of position is 0, and an absent effort or velocity means no limit. Since URDF 1.2
+    # the limits of position are required, and effort and velocity may be left out without a warning.
     kind, is_new = JOINT_KINDS[joint.type], reader.version >= (1, 2)
     if limit is None:
         if kind.has_limits:

@@ -1,14 +1,14 @@
 """Reads elements into the structs of `urdf.robot`.
 
-A field of numbers or text is read from the attribute with its name, a struct from the child element with its name. A
-field without a default is required. Unknown parts are kept as text (see `Extension`) and reported: with a warning where
-they may change the motion, otherwise in one note that counts them.
+A field of numbers or text comes from the attribute with its name. A struct comes from the child element with its name.
+A field without a default is required. Unknown parts are kept as text and reported. A part that may change the motion
+gets a warning. One note counts all other parts.
 
 SDFormat writes values as text: `<axis><xyz>0 1 0</xyz></axis>`, `<lower>-1</lower>`, `<pose>0 0 1 0 0 0</pose>`
-(sdformat.org/spec, version 1.11). Such a text is read, with a warning.
+(sdformat.org/spec, version 1.11). Such texts are read with a warning.
 
 Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. An
-unreadable value is an error. A default replaces it, so that the reading goes on and finds the next fault.
+unreadable value is an error. A default replaces the value, so that the reader goes on and finds the next fault.
 """
 
 from __future__ import annotations
@@ -44,30 +44,30 @@ Values = TypeVar("Values", bound=msgspec.Struct)
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
 _COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
-"""How many numbers an attribute has, by the type of its field; 0 for text."""
+"""Types of fields, with the count of numbers in the attribute; 0 for text."""
 _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
-"""Fields of numbers or text that are child elements, each with the only attribute of its element."""
+"""Fields of numbers or text that URDF writes as child elements, each with the only attribute of its element."""
 _REPEATED = ("visual", "collision")
 _LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
-"""Vectors that may be meant by an unknown attribute, with their counts of numbers."""
+"""Vectors that an unknown attribute with so many numbers may mean."""
 _POSE = 6
 _ELSEWHERE = ("transmission", "start", "motor")
-"""Fields that are not read from the element of their struct, but elsewhere."""
+"""Fields that other modules read."""
 _STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *get_args(Geometry)})
-"""Structs of elements in which unknown parts do not change the motion."""
+"""Structs whose unknown parts do not change the motion."""
 _NEUTRAL = frozenset({"name", "id", "sensor", "dont_collapse"})
-"""Attributes and elements that never change the motion; with `dont_collapse` Isaac Gym keeps a fixed joint."""
+"""Attributes and elements that never change the motion; `dont_collapse` keeps a fixed joint in Isaac Gym."""
 _MASSES = ("inertial", "mass", "inertia")
 _MASS_WORDS = re.compile("mass|inerti", re.IGNORECASE)
 _BY_KIND = frozenset({"unknown-attribute", "unknown-element"})
-"""Codes of warnings that become one for each unknown name: their messages differ only by the path."""
+"""Codes of warnings about unknown names: a file gets one warning for each name."""
 _SHOWN_ALONE = 3
 _LINES_SHOWN = 8
 _TEXT_SHOWN = 60
 
 
 class Reader:
-    """A reader of the elements of one file; each has its path in the robot, such as `joint elbow / limit`."""
+    """A reader of the elements of one file. Each element has a path in the robot, such as `joint elbow / limit`."""
 
     def __init__(self, element_lines: Mapping[Element, int], allowed: Collection[str] = ()) -> None:
         self.element_lines = element_lines
@@ -80,11 +80,11 @@ class Reader:
         self.diagnostics: list[Diagnostic] = []
         """Diagnostics so far, without the name of the file."""
         self.extensions: list[tuple[str, Element]] = []
-        """Elements that belong to no struct, each with its owner."""
+        """Elements without a field in a struct, each with its owner."""
         self.attributes: list[tuple[str, Element]] = []
         """Unknown attributes that do not change the motion, each with its element."""
         self.used = set[Element]()
-        """The elements in `extensions`, or inside of them, that other code reads."""
+        """Elements of `extensions`, or inside of these, that other code reads."""
 
     @property
     def failed(self) -> bool:
@@ -96,12 +96,12 @@ class Reader:
         entry = diagnostic(code, message, self.element_lines[element], hint)
         if code in self.allowed:
             entry = msgspec.structs.replace(
-                entry, severity=Severity.WARNING, hint="name it in `allow` to build the robot without it"
+                entry, severity=Severity.WARNING, hint="nothing to do: `allow` leaves this part out"
             )
         self.diagnostics.append(entry)
 
     def extend(self, findings: Iterable[Finding]) -> None:
-        """Add findings about elements, at their lines or those of the nearest elements around them."""
+        """Add findings; each gets the line of its element, or of the nearest known element around it."""
         for code, path, message, hint in findings:
             place = path
             while place not in self.lines and " / " in place:
@@ -126,9 +126,10 @@ class Reader:
     def children(
         self, element: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False
     ) -> dict[str, Element]:
-        """Return the first child of each of `tags`, without visuals and collisions; children of other tags are kept.
+        """Return the first child with each tag of `tags`, without visuals and collisions.
 
-        Kept children become extensions of `owner`; `moves` says whether they would change the motion.
+        Children with other tags become extensions of `owner`; `moves` says whether such a child would change the
+        motion.
         """
         by_tag: dict[str, Element] = {}
         for child in element:
@@ -148,11 +149,11 @@ class Reader:
         return by_tag
 
     def keep(self, child: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False) -> None:
-        """Keep an element whose tag is none of `tags`; warn if it would change the motion or looks misspelt."""
+        """Keep an element whose tag is none of `tags`. Warn if it would change the motion or looks misspelt."""
         self.extensions.append((owner, child))
         mass = next((part for part in child.iter() if part.tag in _MASSES), None)
         if mass is not None:
-            message = f"{path}: this <{mass.tag}> is not where URDF has it, and is left out of the model"
+            message = f"{path}: this <{mass.tag}> is misplaced, and is left out of the model"
             self.add(mass, "stray-inertial", message)
             return
         alike = "" if child.tag in _moving_tags() or ":" in child.tag else perhaps(child.tag, tags, 0.8)
@@ -167,7 +168,7 @@ class Reader:
             self.add(child, "unknown-element", message, hint)
 
     def unmodelled(self) -> Iterator[tuple[str, Element]]:
-        """Yield unread elements with their owners: whole extensions, and the unread parts of those that are read."""
+        """Yield each unread element with its owner: whole extensions, or the unread parts of a read extension."""
         waiting = self.extensions[::-1]
         while waiting:
             owner, element = waiting.pop()
@@ -178,8 +179,8 @@ class Reader:
             waiting += [(owner or f"{element.tag} {name}".rstrip(), child) for child in reversed(element)]
 
     def find(self, element: Element, tags: str) -> Element | None:
-        """Return the first element at a path of tags below an element, and mark it as read."""
-        # ElementTree's own paths know no prefix without a namespace, such as that of drake:gear_ratio
+        """Return the first element at a path of tags below `element`, and mark all elements of the path as read."""
+        # the paths of ElementTree refuse a prefix without a namespace, such as drake:gear_ratio
         tag, _, rest = tags.partition("/")
         for child in element:
             if child.tag == tag and (end := self.find(child, rest) if rest else child) is not None:
@@ -190,9 +191,9 @@ class Reader:
     def numbers(
         self, element: Element, places: Iterable[str], path: str, code: str, count: int = 1
     ) -> tuple[float, ...] | None:
-        """Return the numbers at the first of some places; None if there are none or, after a warning, faulty ones.
+        """Return the numbers at the first existing place; None without a place or, after a warning, for faulty text.
 
-        A place is a path of tags. In the element there, the attribute behind `@` counts, else `value`, else the text.
+        A place is a path of tags. In the last element, the attribute behind `@` counts, else `value`, else the text.
         """
         for place in places:
             tags, _, attribute = place.partition("@")
@@ -209,7 +210,7 @@ class Reader:
         return None
 
     def expect(self, element: Element, path: str, attributes: Collection[str], *, moves: bool = True) -> None:
-        """Report attributes other than `attributes`: with a warning if they may change the motion or look misspelt."""
+        """Report unexpected attributes: with a warning if the attribute may change the motion or looks misspelt."""
         for name in element.attrib:
             if name in attributes or name.startswith("xml"):
                 continue
@@ -226,7 +227,7 @@ class Reader:
     def _take_texts(self, element: Element, path: str, attributes: Iterable[str]) -> None:
         """Turn texts in SDFormat's spelling into attributes of their element, with a warning.
 
-        The text of `<origin>` and `<pose>` has six numbers; the text of any other element is its only attribute.
+        The text of `<origin>` and `<pose>` has six numbers; the text of any other element becomes its only attribute.
         """
         absent = [name for name in attributes if name not in element.attrib]
         texts = {part.tag: part for part in element if not len(part) and not part.attrib and (part.text or "").strip()}
@@ -245,7 +246,7 @@ class Reader:
             self.add(element, "sdf-spelling", message)
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str, **given: Any) -> Values:
-        """Return a struct from attributes and children, with the `given` fields."""
+        """Read a struct from the attributes and children of an element; `given` has the fields read before."""
         attributes, children, required = _schema(struct)
         moves = struct not in _STILL
         if not children and (len(element) or (struct is Origin and element.text)):
@@ -311,19 +312,19 @@ class Reader:
             return text
         else:
             self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
-        # a missing required value gets a value that passes all later checks, so that the fault is reported once
+        # this value passes all later checks: the missing value is reported only once
         return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
 
 
-# The 45,000 elements of a robot with 1,000 links are of only 15 kinds.
+# The 45,000 elements of a robot with 1,000 links need only 15 different structs.
 @functools.cache
 def _schema(
     struct: type[msgspec.Struct],
 ) -> tuple[Mapping[str, tuple[int, Any]], Mapping[str, tuple[Any, Any]], Sequence[str]]:
-    """Return attributes and children of a struct's element, and its required children.
+    """Return the attributes, the children and the required children of a struct's element.
 
-    Each attribute and child comes with its default. An attribute has its count of numbers, 0 for text; a child has this
-    count, or its struct.
+    Each attribute has its count of numbers (0 for text) and its default. Each child has its count or its struct, and
+    its default.
     """
     attributes: dict[str, tuple[int, Any]] = {}
     children: dict[str, tuple[Any, Any]] = {}
@@ -348,15 +349,15 @@ def _schema(
 
 @functools.cache
 def _moving_tags() -> frozenset[str]:
-    """Return the tags that change the motion wherever they stand."""
+    """Return the tags that change the motion in any place."""
     return frozenset({*_schema(Joint)[1], *_schema(Inertial)[1], "pose"} - {"safety_controller", "calibration"})
 
 
-_alike = functools.lru_cache(maxsize=1024)(perhaps)  # 0.1 ms, and a robot may have 10,000 unknown attributes
+_alike = functools.lru_cache(maxsize=1024)(perhaps)  # takes 0.1 ms; a robot may have 10,000 unknown attributes
 
 
 def _meant(count: int, absent: Sequence[str], attributes: Sequence[str]) -> str:
-    """Return a hint about an unknown attribute of `count` words: the only vector of that length, or all attributes."""
+    """Return a hint about an unknown attribute of `count` words: the only vector of this length, or all attributes."""
     if count == _LENGTHS["quat_xyzw"] and "rpy" in attributes:
         return 'write quat_xyzw="x y z w" in a robot of version="1.1", or rpy in rad'
     alike = absent if len(attributes) == 1 else [name for name in absent if _LENGTHS.get(name) == count]
@@ -370,13 +371,13 @@ def _is_zero(text: str) -> bool:
     return not set(text) - set(" 0.-+\t\n")
 
 
-# Many attributes have the same text, such as `xyz="0 0 0"`. Serves the row "one mass changed in the daemon, 1,000
-# links" of docs/speed.md: 50 of 500 ms.
+# Many attributes have equal texts, such as `xyz="0 0 0"`. Serves the row "one mass changed in the daemon, 1,000 links"
+# of docs/speed.md: 50 of 500 ms.
 @functools.lru_cache(maxsize=1024)
 def parse_numbers(text: str, count: int) -> tuple[float, ...]:
-    """Return exactly `count` decimal numbers, separated by blanks; raise ValueError with the fault.
+    """Return exactly `count` decimal numbers, separated by blanks.
 
-    Negative zero becomes zero, so that two exports do not differ by it.
+    Raises ValueError with the fault. Negative zero becomes zero: exporters write either.
     """
     words = [word for word in _BLANKS.split(text) if word]
     wrong = next((word for word in words if not _DECIMAL.fullmatch(word)), None)
@@ -391,12 +392,12 @@ def parse_numbers(text: str, count: int) -> tuple[float, ...]:
 
 
 def quoted(text: str) -> str:
-    """Return the text in quotes, cut if it is long."""
+    """Return a text in quotes; a long text is cut."""
     return repr(cut(text, _TEXT_SHOWN))
 
 
 def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) -> tuple[Diagnostic, ...]:
-    """Return findings about elements of a file, with the lines of its reading."""
+    """Return diagnostics for findings about a file; `lines` are those of `RobotReading`."""
     reader = Reader({})
     reader.lines.update(lines)
     reader.extend(findings)
@@ -404,9 +405,9 @@ def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) ->
 
 
 def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of a file by line; more than three warnings of one code become one.
+    """Return the diagnostics of a file in order of lines.
 
-    Warnings about unknown names become one for each name.
+    More than three warnings with one code become one warning. All warnings about one unknown name become one warning.
     """
     by_code: dict[tuple[Severity, str, str], list[Diagnostic]] = {}
     for entry in sorted(diagnostics, key=lambda entry: (entry.line, entry.column)):

@@ -1,6 +1,6 @@
-"""Reads Gazebo's elements: contact properties of links, and elements that change the motion.
+"""Reads the contact properties of links, and warns of elements that change the motion but are not modelled.
 
-Contact properties are also read in the forms of SDFormat and Bullet.
+Gazebo, SDFormat and Bullet each have their own form of contact properties.
 """
 
 from __future__ import annotations
@@ -21,16 +21,17 @@ _IN_GAZEBO = {
     "min_depth": ("minDepth", "surface/contact/ode/min_depth", "collision/surface/contact/ode/min_depth"),
 }
 _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "kd": ("contact/damping",)}
-"""Fields of `Contact`, and the paths of their elements: in gazebo blocks (Gazebo's, then SDFormat's), and in links."""
+"""Fields of `Contact`, with the paths of their elements in `<gazebo>` and in links."""
 
 FORCES = re.compile("force|cable|spring|damper|bushing|tendon")
-"""Elements that act between the links of a robot: in early and present Drake, and in MuJoCo."""
+"""Elements of Drake and MuJoCo with forces between the links of a robot."""
 
 
 def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
-    """Return the contact of each link that has one. The first number of each field counts.
+    """Return the contact properties of links by name.
 
-    A faulty or negative number is left out, with a warning, and so is a stiffness of zero.
+    The first number of each field counts. Faulty and negative numbers and a stiffness of zero are left out, with a
+    warning.
     """
     links = {link.get("name", ""): link for link in root.iterfind("link")}
     joints = {joint.get("name", "") for joint in root.iterfind("joint")}
@@ -44,7 +45,7 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
         name = gazebo.get("reference", "")
         if name in links:
             places.append((gazebo, name, _IN_GAZEBO))
-        elif name and name not in joints and gazebo.find("sensor") is None:  # a sensor gets a warning of its own
+        elif name and name not in joints and gazebo.find("sensor") is None:  # sensors have their own warning
             message = f"<gazebo> refers to {name!r}, which is no link or joint"
             reader.add(gazebo, "unknown-reference", message, perhaps(name, links.keys() | joints))
     contacts: dict[str, dict[str, float]] = {}
@@ -58,7 +59,9 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
                 message = f"link {name}: {field} {number:g} is {'negative' if number else 'zero'}, and is left out"
                 reader.add(element, "bad-contact", message)
             elif numbers.setdefault(field, number) != number:
-                message = f"link {name}: {field} {number:g} contradicts the first one, {numbers[field]:g}, which counts"
+                message = (
+                    f"link {name}: {field} {number:g} contradicts {numbers[field]:g}, the first value, which counts"
+                )
                 reader.add(element, "duplicate-element", message)
     return {name: Contact(**numbers) for name, numbers in contacts.items() if numbers}
 
@@ -77,7 +80,7 @@ def warn_of_left_out(reader: Reader, root: Element) -> None:
                 elif name in links and links[name].find("inertial") is not None:
                     reader.add(part, "gravity-off", f"link {name!r} has no weight in Gazebo, but has it in the model")
             elif part.tag in ("springStiffness", "dampingFactor"):
-                with contextlib.suppress(ValueError):  # Gazebo ignores it, too
+                with contextlib.suppress(ValueError):  # Gazebo also ignores a text that is no number
                     if float(text):
                         what = f"{part.tag} {text} of {name!r} acts in Gazebo, but not in the model"
                         reader.add(part, "force-left-out", what)

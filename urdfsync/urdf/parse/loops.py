@@ -1,15 +1,15 @@
 """Reads the loops of a robot from a source and the configuration.
 
-- `<loop_joint>`, as Isaac Sim and early Drake write it: `<link1>` and `<link2>`, each with `link`, `xyz` and `rpy`.
-  Isaac Sim's page has `<link1>` twice. Exporters of Fusion 360 write `<parent>` and `<child>`: see `_read_ends`.
+- `<loop_joint>` of Isaac Sim and early Drake: `<link1>` and `<link2>`, each with `link`, `xyz` and `rpy`. Isaac Sim's
+  page has `<link1>` twice. Exporters of Fusion 360 write `<parent>` and `<child>`: see `_read_ends`.
 - `<drake:ball_constraint>`: two bodies, each with a point.
-- `<joint>` of SDF within `<gazebo>`: its frame is given in the child; the loop is closed with all joints at zero.
-- Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They have no kind, and count as a
-  ball, which closes planar loops as a hinge does.
-- The option `loops`, which replaces a loop of the source that has the same name or the same two frames.
+- `<joint>` of SDF within `<gazebo>`: the frame is given in the child link; all joints at zero close the loop.
+- Two links `closing_NAME_1` and `closing_NAME_2` of onshape-to-robot. These names state no kind of joint. The loop
+  counts as a ball: in a planar loop, a ball has the effect of a hinge.
+- The option `loops`. Such a loop replaces a loop of the source with an equal name or equal frames.
 
-Other forms of loops are reported, not read: raisim's pins, MuJoCo's `<equality>` and joints of plugins are documented
-nowhere as parts of a URDF. MuJoCo documents `<compiler>`, `<option>` and `<size>` as such (XML reference, URDF).
+Other forms of loops are only reported: no page documents raisim's pins, MuJoCo's `<equality>` or joints of plugins as
+parts of a URDF. MuJoCo documents only `<compiler>`, `<option>` and `<size>` as parts of a URDF (XML reference, URDF).
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
 
 _BALL = "drake:ball_constraint"
 TAGS = ("loop_joint", _BALL)
-"""Elements of a robot that join two links of the tree; in <gazebo>, a <joint> does so."""
+"""Elements that close loops as children of `<robot>`; within `<gazebo>`, `<joint>` closes a loop."""
 _PARTS: Mapping[str, Sequence[str]] = {
     "loop_joint": (
         *("link1", "link2", "axis", "parent", "child", "origin", "parent_origin", "child_origin"),
-        *("world_origin", "world_axis"),  # exporters repeat origin and axis in the frame of the root
+        *("world_origin", "world_axis"),  # exporters also write origin and axis in the frame of the root
     ),
     _BALL: (f"{_BALL}_body_A", f"{_BALL}_p_AP", f"{_BALL}_body_B", f"{_BALL}_p_BQ"),
 }
@@ -52,7 +52,7 @@ _KINDS: Mapping[str, LoopKind] = {
     "fixed": "fixed",
 }
 _JOINS_NOTHING = re.compile("collision|contact|exclude|group|chain|effector|frame|virtual|sensor|camera")
-"""Elements that name links but do not join them, such as those of SRDF."""
+"""Elements that name links without joining them, such as elements of SRDF."""
 _CONSTRAINS = re.compile("constraint|equality|coupl|weld|gear|tendon|spring")
 _CLOSING = re.compile(r"(closing_.+)_([12])")
 _DETACHABLE = ("parent_link", "child_link")
@@ -73,14 +73,14 @@ def find_loop_elements(root: Element) -> Iterator[Element]:
 
 
 def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
-    """Add a finding for each unread element that joins two links or constrains them otherwise.
+    """Add a finding for each unread element that joins or constrains links.
 
-    A pair of links that the configuration has as a loop is not reported.
+    If the configuration has a loop between the two links, the element is not reported.
     """
     links = {name for link in root.iterfind("link") if not (name := link.get("name", "")).isdecimal()}
     stated = {frozenset({loop.parent, loop.child}) for loop in configured_loops(options.loops)}
     for child in root:
-        if child.tag == "gazebo":  # gz-sim's DetachableJoint, by its page
+        if child.tag == "gazebo":  # as gz-sim's page on DetachableJoint documents
             pairs = ((part, {part.findtext(tag, "").strip() for tag in _DETACHABLE}) for part in child.iter("plugin"))
             found = [(part, pair) for part, pair in pairs if len(pair & links) == len(_DETACHABLE)]
         elif child.tag in _NO_LOOPS or FORCES.search(child.tag):
@@ -96,12 +96,12 @@ def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
                 message = (
                     f"{words} joins links {' and '.join(map(repr, sorted(pair)))} in a form that urdfsync does not read"
                 )
-                hint = 'state it as `loops` in the configuration, or leave it out by `allow = ["loop-joint"]`'
+                hint = 'state the loop in `loops` of the configuration, or leave it out by `allow = ["loop-joint"]`'
                 reader.add(part, "loop-joint", message, hint)
 
 
 def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Element, set[str]]]:
-    """Yield the innermost elements that name two links, in attributes and texts of their own or of their parts."""
+    """Yield the innermost elements that name two links in attributes or texts, or in those of their parts."""
     if _JOINS_NOTHING.search(element.tag):
         return
     words = [text for name, text in element.items() if name != "name"]
@@ -113,7 +113,7 @@ def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Elem
 
 
 def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) -> tuple[Loop, ...]:
-    """Return the loops of a robot. `robot` has all other parts, and is a tree. Loops with a fault are left out."""
+    """Return the loops of a robot. `robot` is a tree, with all parts but the loops. Faulty loops are left out."""
     loops = list[Loop]()
     elements = list(find_loop_elements(root))
     poses = link_poses(KinematicTree.of(robot), {}) if elements else {}
@@ -136,9 +136,9 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
                 loop = _read_loop_joint(reader, element, path, name, poses)
             else:
                 loop = _read_ball(reader, element, path, name)
-        if loop is not None and loop.parent and loop.child:  # a missing name is reported already
+        if loop is not None and loop.parent and loop.child:  # reader.read reports a missing name
             loops.append(loop)
-    # a frame may have the name of a joint, whose frame is that of its child
+    # a loop may name a joint instead of the joint's child link: both have one frame
     loops = [
         replace(loop, parent=ends.get(loop.parent, loop.parent), child=ends.get(loop.child, loop.child))
         for loop in loops
@@ -146,7 +146,7 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
     configured = configured_loops(options.loops)
     faulty = {finding.path for finding in validate.check_loops(configured, links)}
     paths = validate.element_paths("loop", (loop.name for loop in configured))
-    # option_names reports the faulty ones
+    # option_names reports faulty loops
     chosen = [loop for path, loop in zip(paths, configured, strict=True) if path not in faulty]
     of_source = list[Loop]()
     for loop in map(_with_axes_of_its_kind, loops):
@@ -154,7 +154,7 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
         if rival is None:
             of_source.append(loop)
         elif _unit(rival) != _unit(loop):
-            message = f"loop {loop.name!r} is stated otherwise by `loops` in the configuration, which counts"
+            message = f"loop {loop.name!r} differs from `loops` in the configuration: the configuration counts"
             reader.extend([validate.Finding("loop-contradiction", f"loop {loop.name}", message)])
     of_source += _frames_by_name(reader, robot.links, configured)
     reader.extend(validate.check_loops(of_source, links))
@@ -162,18 +162,18 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
 
 
 def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
-    """Return the loops of the option `loops`; axes are as written if their kind has them."""
+    """Return the loops of the option `loops`; their axes are not normalised."""
     read = (_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops)
     return list(map(_with_axes_of_its_kind, read))
 
 
 def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
-    """Return the configured loop with the name or the frames of a loop of the source."""
+    """Return the configured loop that has the name or the frames of a loop of the source."""
     return next((other for other in configured if other.name == loop.name or _ends(other) == _ends(loop)), None)
 
 
 def _with_axes_of_its_kind(loop: Loop) -> Loop:
-    """Return a loop without the axes that its kind does not have: sources fill these in differently."""
+    """Return a loop with default values for the axes that its kind lacks: sources fill these in differently."""
     axis = loop.axis if loop.kind in ("revolute", "universal") else (0.0, 0.0, 1.0)
     return replace(loop, axis=axis, child_axis=loop.child_axis if loop.kind == "universal" else (1.0, 0.0, 0.0))
 
@@ -189,7 +189,7 @@ def _ends(loop: Loop) -> frozenset[tuple[str, Origin]]:
 
 
 def _vector(reader: Reader, element: Element, place: str, path: str) -> Vector | None:
-    return reader.numbers(element, [place], path, "bad-number", 3)  # type: ignore[return-value] # three numbers
+    return reader.numbers(element, [place], path, "bad-number", 3)  # type: ignore[return-value] # has three numbers
 
 
 def _second_axis(axis: Vector) -> Vector:
@@ -223,17 +223,17 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str, pos
         return None
     if (frame := element.find("axis[@frame]")) is not None and frame.get("frame") != "parent":
         message = f"{path} has its <axis> in the frame {quoted(frame.get('frame', ''))}"
-        reader.add(element, "loop-joint", message, 'write it in that of the parent, frame="parent"')
+        reader.add(element, "loop-joint", message, 'write the axis in the frame of the parent: frame="parent"')
     axis = _vector(reader, element, "axis@xyz", path) or (1.0, 0.0, 0.0)
     return kind and _between(name, kind, frames, axis, _second_axis(axis))
 
 
 def _read_ends(reader: Reader, element: Element, path: str, poses: Mapping[str, Pose]) -> list[LoopFrame]:
-    """Return the frames of `<parent>` and `<child>`.
+    """Return the frames of the elements `<parent>` and `<child>`.
 
-    Each states its own place, or has an element `<parent_origin>` or `<child_origin>`. If `<child_origin>` states no
-    orientation, the child's frame is parallel to the parent's with all joints at zero, as at the export. An `<origin>`
-    is that of a URDF joint: the child's frame in the parent's.
+    Each element states the place of its frame itself, or in `<parent_origin>` or `<child_origin>`. Without an
+    orientation in `<child_origin>`, both frames are parallel with all joints at zero, as at the export. `<origin>` is
+    the frame of a URDF joint in the parent link.
     """
     frames = list[LoopFrame]()
     for tag in ("parent", "child"):
@@ -265,9 +265,9 @@ def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop |
 def _read_joint(
     reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose], in_gazebo: Collection[str | None]
 ) -> Loop | None:
-    """Return a joint of SDF; its frame is the child link's, moved by its <pose>.
+    """Read a joint of SDF as a loop; `<pose>` gives its frame in the child link.
 
-    `in_gazebo` are the links that only Gazebo has: no joint to them closes a loop of the robot.
+    `in_gazebo` are the links that only Gazebo has. A joint to such a link closes no loop of the robot.
     """
     kind = _kind(reader, element, path)
     parent, child = (element.findtext(tag, "").strip() for tag in ("parent", "child"))
@@ -282,7 +282,7 @@ def _read_joint(
         part = reader.find(element, tag)
         frame = child if part is None else part.get(attribute) or child
         if kind and child and frame != child:
-            message, hint = f"{path} has its <{tag}> in the frame {frame!r}", f"write it in the frame of link {child!r}"
+            message, hint = f"{path} has its <{tag}> in the frame {frame!r}", f"use the frame of link {child!r}"
             reader.add(element, "loop-joint", message, hint)
             kind = None
     numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6
@@ -290,7 +290,7 @@ def _read_joint(
     second = _vector(reader, element, "axis2/xyz", path)
     if kind is None or parent not in poses or child not in poses:
         known = kind is None or not (parent and child)
-        return None if known else Loop(name, kind or "ball", parent, child)  # validate reports the missing one
+        return None if known else Loop(name, kind or "ball", parent, child)  # validate reports a missing link
     child_origin = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
     origin = _origin(compose(_inverse(poses[parent]), compose(poses[child], pose(child_origin))))
     return Loop(name, kind, parent, child, origin, child_origin, axis, second or _second_axis(axis))
@@ -303,7 +303,7 @@ def _inverse(of: Pose) -> Pose:
 
 
 def _origin(of: Pose) -> Origin:
-    """Return a pose as place and angles, rounded so that all machines agree."""
+    """Return a pose as place and angles; rounding makes the numbers equal on all machines."""
     (r, place) = of
     angles = (
         math.atan2(r[2][1], r[2][2]),
@@ -315,7 +315,7 @@ def _origin(of: Pose) -> Origin:
 
 
 def _frames_by_name(reader: Reader, links: Sequence[Link], configured: Sequence[Loop]) -> Iterator[Loop]:
-    """Yield a ball for each pair of links that onshape-to-robot names as ends of a loop, unless it is configured."""
+    """Yield a ball for each pair of links with onshape-to-robot's names of a loop, unless `configured` has the loop."""
     pairs: dict[str, dict[str, str]] = {}
     for link in links:
         if match := _CLOSING.fullmatch(link.name):

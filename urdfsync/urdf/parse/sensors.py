@@ -1,4 +1,4 @@
-"""Reads the modelled `<sensor>` elements of URDF, of gazebo blocks and of ros2_control."""
+"""Reads the `<sensor>` elements of robots, links, joints, `<gazebo>` and `<ros2_control>`."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ _TYPES: Mapping[str, SensorKind] = {
     **dict.fromkeys(("camera", "depth", "depth_camera", "rgbd", "rgbd_camera", "wideanglecamera"), "camera"),
     **dict.fromkeys(("ray", "gpu_ray", "lidar", "gpu_lidar"), "lidar"),
 }
-"""Kinds by the attribute `type` of gazebo and iDynTree, and by the elements inside of URDF's own sensors.
+"""Kinds by the attribute `type` of Gazebo and iDynTree, and by the elements inside of URDF's own sensors.
 
-iDynTree places accelerometers and gyroscopes at a link, and forces and torques at `<parent joint="…"/>` (its page on
+iDynTree puts accelerometers and gyroscopes at a link, force-torque sensors at `<parent joint="…"/>` (its page on
 extensions of URDF for sensors).
 """
 _STATES: Mapping[str, SensorKind] = {
@@ -32,7 +32,7 @@ _STATES: Mapping[str, SensorKind] = {
     "force": "force_torque",
     "torque": "force_torque",
 }
-"""Kinds by the prefix of the state interfaces of ros2_control."""
+"""Kinds by the first word of ros2_control's state interfaces."""
 _CAMERA = {
     "width": ("image/width", "image@width"),
     "height": ("image/height", "image@height"),
@@ -50,13 +50,13 @@ _LIDAR = {
     "min_range": ("range/min",),
     "max_range": ("range/max",),
 }
-"""Fields of `Camera` and `Lidar`, and their paths in gazebo and URDF below the sensor's own element."""
+"""Fields of `Camera` and `Lidar`, with their paths in Gazebo and in URDF below the element of the sensor."""
 _FRAMES = ("child", "parent", "sensor")
 _DIRECTIONS = ("child_to_parent", "parent_to_child")
 _COUNTS = frozenset({"width", "height", "samples", "vertical_samples"})
 _LARGEST_INTEGER = 2**31 - 1  # of Modelica
 _PARTS = ("camera", "ray", "lidar")
-"""Other elements of a sensor that may have these fields."""
+"""Elements of a sensor that may contain these fields."""
 
 _Numbers = TypeVar("_Numbers", Camera, Lidar)
 
@@ -73,20 +73,20 @@ class _SensorElement(NamedTuple):
 def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: Iterable[Joint]) -> tuple[Sensor, ...]:
     """Return the sensors that the package models.
 
-    Sensors of other kinds, and those of ros2_control without a frame, are left out. If sensors have the same name, the
-    name of their link or joint is put before it.
+    Sensors of other kinds, and sensors of ros2_control without a frame, are left out. If several sensors have one name,
+    the name of the link or joint goes before the name of the sensor.
     """
     joints_above, joint_names = {joint.child: joint.name for joint in joints}, {joint.name for joint in joints}
     placed = list[_SensorElement]()
     for source in _find_sensors(root):
         place, kind = source.at, SENSOR_KINDS[source.kind].at
-        if kind == "joint" and place not in joint_names:  # gazebo names the joint's child link
+        if kind == "joint" and place not in joint_names:  # Gazebo names the joint's child link
             place = joints_above.get(place, place)
         path = reader.place(source.element, f"sensor {source.name}")
         if place in (joint_names if kind == "joint" else links):
             placed.append(source._replace(at=place))
             continue
-        message = f"{path} is at {kind} {source.at!r}, which does not exist: it is left out"
+        message = f"{path} is at {kind} {source.at!r}, which does not exist: the sensor is left out"
         reader.add(source.element, "unknown-sensor-place", message)
     counts = Counter(name for name, _ in {(source.name, source.at) for source in placed})
     sensors: dict[tuple[str, str], Sensor] = {}
@@ -94,7 +94,7 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
         name = source.name if counts[source.name] == 1 else f"{source.at}/{source.name}"
         sensor = _read(reader, source, name)
         first = sensors.setdefault((source.name, source.at), sensor)
-        # ros2_control has place and kind of a sensor, but no numbers
+        # ros2_control gives a sensor only a place and a kind, no numbers
         if first.kind != sensor.kind or (first != sensor and source.element.find("state_interface") is None):
             message = f"{source.at!r} has another sensor {source.name}, and the first counts"
             reader.add(source.element, "duplicate-element", message, "give each sensor a name of its own")
@@ -102,7 +102,7 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
 
 
 def _find_sensors(root: Element) -> Iterator[_SensorElement]:
-    """Yield the sensors of a known kind; their places are not yet checked."""
+    """Yield the sensors of known kinds. Their links and joints may not exist."""
     for at, element in _elements(root):
         parent = element.find("parent")
         inside = [child.tag for child in element]
@@ -119,7 +119,7 @@ def _find_sensors(root: Element) -> Iterator[_SensorElement]:
 
 
 def _elements(root: Element) -> Iterator[tuple[str, Element]]:
-    """Yield the sensors of robot, links, joints and gazebo blocks, each with the name of the element around it."""
+    """Yield the sensors of robot, links, joints and `<gazebo>`, with the name of the link or joint."""
     for child in root:
         if child.tag == "sensor":
             yield "", child
@@ -150,7 +150,7 @@ def _read(reader: Reader, source: _SensorElement, name: str) -> Sensor:
 
 
 def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
-    """Return the place of a sensor on its link: the `<pose>` of gazebo, or the `<origin>` of URDF."""
+    """Return the frame of a sensor in its link: the `<origin>` of URDF, or the `<pose>` of Gazebo."""
     pose, origin = reader.find(source.element, "pose"), reader.find(source.element, "origin")
     if origin is not None:
         return reader.read(origin, f"{path} / origin", Origin, path)
@@ -159,7 +159,7 @@ def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
         return Origin()
     if (other := pose.get("relative_to")) and other != source.at:
         message = f"{path}: its pose is read in the frame of {source.at!r}, not of {other!r}"
-        reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {source.at!r}")
+        reader.add(pose, "bad-sensor", message, f"give the pose in the frame of {source.at!r}")
     turn = math.radians(1) if pose.get("degrees", "").strip().lower() in ("true", "1") else 1.0
     x, y, z, roll, pitch, yaw = numbers
     return Origin((x, y, z), (roll * turn, pitch * turn, yaw * turn))
@@ -168,7 +168,7 @@ def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
 def _read_fields(
     reader: Reader, element: Element, path: str, struct: type[_Numbers], places: Mapping[str, Sequence[str]]
 ) -> _Numbers:
-    """Return the numbers of a camera or laser scanner; missing ones are 0."""
+    """Return the numbers of a camera or laser scanner; missing numbers are 0."""
     part = next((child for child in element if child.tag in _PARTS), element)
     reader.used.add(part)
     values = {}

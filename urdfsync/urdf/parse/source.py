@@ -1,7 +1,7 @@
-"""Reads the bytes of a URDF into a Robot: strict XML, URDF's defaults, and the model checks.
+"""Reads the bytes of a URDF into a Robot, and checks the robot.
 
-Defaults are those of ROS's urdfdom. A fault is an error with file and line, even if urdfdom accepts it. If the fault
-leaves only one sensible reading, it is a warning.
+Defaults are those of ROS's urdfdom. A fault is an error with file and line, even where urdfdom accepts the file. If
+only one reading makes sense, the fault is a warning.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
 _DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint", AXES})
-"""Elements of a robot that other code reads, or that do not concern links and joints."""
+"""Children of `<robot>` that other code reads, or that do not concern links and joints."""
 _XACRO = ("include", "macro", "if", "unless", "property")
-"""Elements of xacro that need their prefix since ROS Noetic."""
+"""Elements of xacro that need the prefix `xacro:` since ROS Noetic."""
 _LONGEST, _KINDS = 60, 12
-"""The most characters of a tag, and the most tags, in the note on unmodelled elements; its details have all."""
+"""The most characters of a tag, and the most tags, in the note on unmodelled elements."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 # Attributes with free text: a remaining `${…}` in one is a warning, in any other an error.
 _TEXTS = ("name", "link", "joint", "filename", "group")
@@ -44,26 +44,26 @@ _DEFAULTS = Options()
 
 
 class RobotReading(NamedTuple):
-    """The reading of a URDF: the robot, unless a diagnostic is an error, and the diagnostics.
+    """The robot of a URDF, unless a diagnostic is an error, and the diagnostics.
 
-    `lines` maps paths to lines. Paths are `robot`, `link NAME` and `joint NAME`, and below them for example
-    `link NAME / visual 2`, `link NAME / visual 2 / mesh`, `joint NAME / limit`. Shapes count from 1.
+    `lines` maps paths to lines. Paths are `robot`, `link NAME` and `joint NAME`, and longer paths such as `link NAME /
+    visual 2`, `link NAME / visual 2 / mesh`, `joint NAME / limit`. Shapes count from 1.
     """
 
     robot: Robot | None
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int]
     unmodelled: tuple[Diagnostic, ...] = ()
-    """The note on unmodelled elements, if any."""
+    """The note on unmodelled elements, if the URDF has such elements."""
 
 
 def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: Sequence[str] = ()) -> RobotReading:
     """Read a URDF; `file` is its name in diagnostics.
 
-    Raises nothing for bad input. The options choose the parts that may be left out, and the drives. Each of the
-    `balls`, the ball joints in loops, becomes a chain of three joints.
+    Raises nothing for bad input. The options choose drives and loops, and parts that may be left out. Each ball joint
+    in `balls` becomes a chain of three joints.
 
-    All faults of the model are reported, but only the first fault of the XML.
+    Reports all faults of the model, but only the first fault of the XML.
     """
     try:
         document = split_joints(xml.parse(content), balls)
@@ -76,17 +76,17 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
     if held := [] if balls else _balls_in_loops(robot):
-        reading = read_robot(content, file, options, held)  # which balls are in loops is known once the loops are read
+        reading = read_robot(content, file, options, held)  # the first reading finds the balls to split
         told = [entry for entry in diagnostics if entry.code in ("limit-without-effect", "dynamics-without-effect")]
         for name in held:
-            message = f"joint {name!r} is a ball in a loop: three continuous joints stand for it"
+            message = f"joint {name!r} is a ball in a loop: three continuous joints replace the ball"
             told.append(validate.diagnostic("loop-ball", message, reader.lines[f"joint {name}"]))
         return reading._replace(diagnostics=summary([*told, *reading.diagnostics], file))
     return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file))
 
 
 def _balls_in_loops(robot: Robot) -> list[str]:
-    """Return the ball joints between the two ends of a loop."""
+    """Return the names of the ball joints between the two ends of a loop."""
     balls = [joint.name for joint in robot.joints if joint.type == "ball"]
     parents, held = {joint.child: joint for joint in robot.joints}, set[str]()
     for loop in robot.loops if balls else ():
@@ -100,7 +100,7 @@ def _balls_in_loops(robot: Robot) -> list[str]:
 
 
 def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
-    """Yield one note on all elements and attributes that are in no model, if there are any, each with its line."""
+    """Yield one note on all unmodelled elements and attributes, with their lines; nothing if all are modelled."""
     elements = (
         (reader.element_lines[part], f"<{cut(part.tag, _LONGEST)}>", part.get("name") or owner)
         for owner, part in reader.unmodelled()
@@ -120,7 +120,7 @@ def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
-    """Return whether this is an expanded URDF; if not, add one error."""
+    """Return whether the file is an expanded URDF; if not, add one error."""
     root = document.root
     if root.tag != "robot":
         reader.add(root, "not-urdf", f"the root element is <{root.tag}> and not <robot>: this is no URDF")
@@ -132,7 +132,7 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     for child in root:
         for element in child.iter():
             names = [name for name, text in element.items() if "${" in text or "$(" in text]
-            if child.tag not in _MODELLED:  # plugins of simulators have their own `$(…)`
+            if child.tag not in _MODELLED:  # plugins of simulators use `$(…)`, too
                 names = []
             is_xacro = element.tag.startswith("xacro:")
             if (is_xacro and (element.tag in _XACRO_LOGIC or not has_links)) or not set(names).issubset(_TEXTS):
@@ -177,18 +177,18 @@ def _read(reader: Reader, document: xml.Document, options: Options, rows: Mappin
             reader.add(child, "unknown-joint-type", message)
         elif child.tag == AXES:
             joint, axes = (quoted(child.get(name, "")) for name in ("joint", "axes"))
-            message = f"there is no joint {joint}, or no such axes as {axes} for it to turn about"
+            message = f"there is no joint {joint}, or its axes {axes} are unknown"
             reader.add(child, "unknown-reference", message)
         if child.tag in _DIALECTS:
             reader.extensions.append(("", child))
         elif child.tag in _XACRO or (child.tag != "link" and any(map(len, child.iter("link")))):
             reader.extensions.append(("", child))
             message = f"<{child.tag}> has no effect in URDF: the elements that it stands for are missing"
-            reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or take its links out of it")
+            reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or move its links out")
         elif child.tag not in (*_MODELLED, *TAGS):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
-            reader.used.add(child)  # its parts are read or reported one by one
+            reader.used.add(child)  # other code reads or reports each of its parts
     for element in root.iterfind("gazebo/joint"):
         reader.used.update((element, *(part for part in element if part.tag in ("parent", "child", "pose"))))
     contacts = read_contacts(reader, root)
@@ -222,7 +222,7 @@ def _read(reader: Reader, document: xml.Document, options: Options, rows: Mappin
         tags[tag] = (*tags.get(tag, ()), text)
     robot = Robot(name, tuple(linked), tuple(joints), extensions, sensors)
     reader.extend(validate.check(robot, complete=complete))
-    if complete:  # an incomplete robot may lack the joint that a transmission names
+    if complete:  # the joint of a transmission may be missing in an incomplete robot
         names = {joint.name for joint in joints}
         for drive in drives:
             if drive.joint not in names:

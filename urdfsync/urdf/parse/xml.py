@@ -1,10 +1,10 @@
 """Reads bytes into XML elements: strictly, except for two faults that ROS's own parser accepts.
 
-A faulty XML declaration is accepted with a warning, and a prefix without a namespace silently. Any other fault of the
-XML is one error with its line and column. Entities are never declared, expanded or fetched.
+A faulty XML declaration gets a warning. A prefix without a namespace gets none. Any other fault of the XML is one error
+with its line and column. A file that declares entities is refused.
 
-Elements are the standard library's, with tags and attributes as written. ElementTree's own parser refuses prefixes
-without a namespace and has no lines, so expat is called directly. Loading lxml would take a build 20 ms.
+Elements are those of the standard library, with tags and attributes as written. ElementTree's parser refuses prefixes
+without a namespace and knows no lines, so this module calls expat. Loading lxml would take 20 ms.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.file_kinds import find_conflict, find_kind
 from urdfsync.urdf.validate import diagnostic
 
-_DEEPEST = 256  # as in libxml2; writing an element needs a recursion for each level
+_DEEPEST = 256  # as in libxml2; writing an element recurses once for each level
 _BYTE_ORDER_MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig"),
     (codecs.BOM_UTF32_LE, "utf-32"),
@@ -32,21 +32,21 @@ _BYTE_ORDER_MARKS = (
 )
 _WIDE = ("utf-16", "utf-32", "ucs")
 _NO_ENCODINGS = ("idna", "punycode", "raw-unicode-escape", "unicode-escape")
-"""Codecs of Python that are refused: they fail with unusual exceptions, and one takes minutes for 100 KB."""
+"""Refused codecs of Python: some fail with unusual exceptions, one needs minutes for 100 KB."""
 _DECLARATION = re.compile(
     r"""<\?xml\s+version\s*=\s*(["'])1\.[01]\1
     (?:\s+encoding\s*=\s*(["'])(?P<encoding>[A-Za-z][\w.-]*)\2)?
     (?:\s+standalone\s*=\s*(["'])(?:yes|no)\4)?\s*\?>""",
     re.VERBOSE | re.ASCII,
 )
-# ROS's parser accepts these faulty declarations. Their encoding is ignored, as in other parsers.
+# ROS's parser accepts these faulty declarations. As in other parsers, the declared encoding is ignored.
 _FAULTY_DECLARATION = r"(?ia)\s*<\?xml\s[^<>]*\?>"
 _UNCLOSED = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
 _HINTS = {expat.errors.XML_ERROR_MISPLACED_XML_PI: "put <?xml … ?> at the beginning of the file, above all comments"}
 
 
 class ParseError(Exception):
-    """A file that is no readable XML; the diagnostic lacks the file's name."""
+    """The file is not readable as XML. The diagnostic has no file name."""
 
     def __init__(self, code: str, message: str, line: int = 1, column: int = 0, hint: str = "") -> None:
         super().__init__(message)
@@ -59,7 +59,7 @@ class Document(NamedTuple):
     text: str
     root: Element
     lines: Mapping[Element, int]
-    """Lines of start tags, from 1; in document order."""
+    """Lines of start tags, counted from 1, in document order."""
     warnings: list[Diagnostic]
 
 
@@ -83,7 +83,7 @@ def parse(content: bytes) -> Document:
 
     def refuse_type(_: str, address: str | None, *_more: object) -> None:
         if address:
-            message = f"the file has its document type elsewhere ({address}), where urdfsync never looks"
+            message = f"the document type of the file is elsewhere ({address}), where urdfsync never looks"
             raise ParseError("xml-entity", message, parser.CurrentLineNumber)
 
     def refuse_entity(*_: object) -> None:
@@ -99,7 +99,7 @@ def parse(content: bytes) -> Document:
         parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
     except expat.ExpatError as fault:
         error = fault
-    # the handlers and the parser refer to each other: without this, all elements stay until the garbage collection
+    # ends the cycle of handlers and parser, which would keep all elements until the garbage collection
     parser.StartElementHandler = parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = None
     if (error or ">>>>>>>" in text) and (conflict := find_conflict(text)) is not None:
         raise ParseError(conflict.code, conflict.message, conflict.line)
@@ -113,9 +113,9 @@ def parse(content: bytes) -> Document:
 
 
 def canonical(element: Element) -> str:
-    """Return the text of an element without comments and indentation, with its attributes in order of their names.
+    """Return an element as text, without comments and indentation, with sorted attributes.
 
-    The element loses its indentation.
+    This removes the indentation from the element.
     """
     for part in element.iter():
         part.text, part.tail = (part.text or "").strip(), (part.tail or "").strip()
@@ -129,7 +129,7 @@ def canonical(element: Element) -> str:
 def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     """Return the text with unified line ends and without XML declaration, and warnings about the declaration.
 
-    Blanks replace the declaration, so that lines and columns stay.
+    Blanks replace the declaration: lines and columns stay.
     """
     if (kind := find_kind(content)) is not None:
         raise ParseError(kind.code, kind.message, kind.line, hint=kind.hint)
@@ -140,7 +140,7 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     encoding = encoding or ("utf-8" if is_faulty else declared)
     try:
         if codecs.lookup(encoding).name in _NO_ENCODINGS:
-            raise LookupError  # noqa: TRY301 - as Python does for an unknown codec
+            raise LookupError  # noqa: TRY301 - Python raises LookupError for an unknown codec
         text = content.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
         if not text.isascii():
             text.encode()  # some codecs return lone surrogates

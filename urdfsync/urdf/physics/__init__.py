@@ -1,1 +1,1 @@
-"""The comparison of generated packages with Pinocchio: a prescribed motion, in Modelica and in the reference."""
+"""The comparison of generated packages with Pinocchio: both compute one prescribed motion."""

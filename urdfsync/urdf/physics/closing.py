@@ -1,9 +1,9 @@
 """The loops of a robot in Pinocchio: closed poses, closed motions, and the forces of the loops.
 
-Pinocchio's model is a tree. Two frames are added for each loop, and Pinocchio computes their poses and Jacobians. Only
-the choice of the equations and the start come from `kinematics.loops`. Let x and R be the child frame's position and
-axes in the parent's frame. Then the equations are t·x = 0 and u·R·v = 0, together g = 0. The motion of the axes is
-given; the other joints follow: J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
+Pinocchio's model is a tree. This module adds two frames for each loop, and Pinocchio computes their poses and
+Jacobians. Only the start and the choice of equations come from `kinematics.loops`. Let x and R be the position and axes
+of the child's frame in the parent's frame. Then the equations are t·x = 0 and u·R·v = 0, together g = 0. The motion of
+the axes is given. The other joints follow from J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
 """
 
 from __future__ import annotations
@@ -19,36 +19,36 @@ from urdfsync.urdf.kinematics.loops import ClosedLoops
 Array = NDArray[np.float64]
 
 _STEPS = 8
-"""Number of steps from the start to a pose: small steps keep the loops in the same assembly."""
+"""Number of steps from the start to a pose: small steps lead to the nearest closed pose."""
 _ITERATIONS = 30
 CLOSED, _FARTHEST = 1e-12, 1.0
-"""Newton's method converges if no gap or step (rad, m) exceeds the first, and diverges if one reaches the second."""
+"""In rad or m: gaps and steps with which Newton's method has converged, and with which it diverges."""
 _NEAR_DEAD_POINT = 0.25
-"""Fraction of the Jacobian's least singular value at the start; below it a compiler may find another assembly."""
+"""Fraction of the Jacobian's least singular value at the start. Below, a compiler may find another closed pose."""
 
 
 class OpenLoopError(Exception):
-    """The loops can't be closed in a pose, or it is near a dead point."""
+    """The loops can't be closed in a pose, or the pose is near a dead point."""
 
 
 class Reaction(NamedTuple):
     """The gap and the force of a loop at an instant."""
 
     gap: Array
-    """Vector from the parent's frame to the child's, resolved in the root's frame."""
+    """Vector from the parent's frame to the child's frame, resolved in the root's frame."""
     force: Array
     """Force of the parent on the child, resolved in the loop's frame on the parent."""
     torque: Array
 
 
 class Closing:
-    """The loops of a robot, and the joints that follow through them."""
+    """The loops of a robot, and the joints that loops move."""
 
     def __init__(self, pin: Any, model: Any, closed: ClosedLoops, others: Array, start: Array, first: Array) -> None:
         """Add frames to the model.
 
-        The positions of all coordinates are a sum: those that follow from the axes (`start` at the start), and `others`
-        times the positions of the other joints (`first` at the start).
+        The positions of all coordinates are a sum of two terms. The first term follows from the axes and is `start` at
+        the start. The second term is `others` times the positions of the other joints, which are `first` at the start.
         """
         self._pin, self._model, self._others, self._start, self._first = pin, model, others, start, first
         self._closures = [closed.closures[loop.name] for loop in closed.tree.loops]
@@ -68,7 +68,7 @@ class Closing:
         return int(model.addFrame(frame, append_inertia=False))
 
     def closed(self, positions: Array) -> Array:
-        """Close the loops by Newton's method; `positions` are those that follow from the axes. Raises OpenLoopError."""
+        """Close the loops by Newton's method; the axes determine `positions`. Raises OpenLoopError."""
         others = self._first
         for share in np.linspace(0, 1, _STEPS + 1):
             known = self._start + share * (positions - self._start)
@@ -84,9 +84,9 @@ class Closing:
         return np.asarray(positions + self._others @ others)
 
     def motion(self, positions: Array, axes: Array, speeds: Array) -> tuple[Array, Array]:
-        """Return the velocities of all coordinates for each axis that moves with velocity 1.
+        """Return the velocities of all coordinates while one axis moves with velocity 1, for each axis.
 
-        Return also their accelerations at these `speeds` while no axis accelerates.
+        Return also the accelerations of all coordinates at the axes' `speeds`, while no axis accelerates.
         """
         jacobian = self._equations(positions)[1]
         ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes)[0]
@@ -94,9 +94,10 @@ class Closing:
         return ways, -self._others @ np.linalg.lstsq(jacobian @ self._others, drift)[0]
 
     def reactions(self, positions: Array, load: Array) -> list[Reaction]:
-        """Return gaps and forces; `load` are the efforts that all coordinates would need without loops.
+        """Return gaps and forces of the loops.
 
-        Followers have no drives: the forces λ in the loops carry their load, Jᵀ·λ.
+        Without loops, all coordinates would need the efforts `load`. Joints without drives get their load Jᵀ·λ from the
+        forces λ in the loops.
         """
         jacobian = self._equations(positions)[1]
         forces = iter(np.linalg.lstsq((jacobian @ self._others).T, self._others.T @ load)[0])
@@ -110,7 +111,7 @@ class Closing:
         return found
 
     def forces(self, positions: Array, load: Array) -> Any:
-        """Return the forces in all loops in Pinocchio's form: one on each joint's body, in the joint's frame."""
+        """Return the forces in all loops in Pinocchio's form: one force on each joint's body, in the joint's frame."""
         pin, model = self._pin, self._model
         data, forces = self._data(positions), [pin.Force.Zero() for _ in range(model.njoints)]
         for (parent, child), reaction in zip(self._frames, self.reactions(positions, load), strict=True):
@@ -136,7 +137,7 @@ class Closing:
             pose = data.oMf[frames[0]].actInv(data.oMf[frames[1]])
             axes = pose.rotation
             parent, child = (pin.getFrameJacobian(model, data, frame, pin.LOCAL) for frame in frames)
-            # how the child's frame moves relative to the parent's, resolved in the child's
+            # motion of the child's frame relative to the parent's frame, resolved in the child's frame
             jacobian = child - pose.inverse().action @ parent
             for t in closure.translations:
                 gaps.append(float(t @ pose.translation))
@@ -158,7 +159,7 @@ class Closing:
             carried, speed = pose.actInv(self._speed(data, parent)), self._speed(data, child)
             relative = speed - carried
             gains = [pin.getFrameAcceleration(model, data, frame, pin.LOCAL) for frame in (parent, child)]
-            # all resolved in the child's frame, which turns
+            # all vectors are resolved in the turning frame of the child
             gain = gains[1] - pose.actInv(gains[0]) + relative.cross(carried)
             turning = relative.angular
             for t in closure.translations:

@@ -1,7 +1,7 @@
-"""Makes copies of URDF files that Pinocchio can read, with a mass behind every moving joint.
+"""Copies a URDF for Pinocchio, with a mass behind every moving joint.
 
-Pinocchio's reader refuses, or leaves out, elements that urdfsync reads with a warning. Without mass behind a moving
-joint, only its kinematics could be compared. Package and reference are both made from the copy.
+Pinocchio's reader refuses or leaves out some elements that urdfsync reads with a warning. Of a joint without a mass
+behind it, only the kinematics could be compared. The copy is the source of both package and reference.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ _NEEDED = {
 }
 """Attributes that Pinocchio's reader requires."""
 _PER_MASS = (0.013, 0.002, -0.003, 0.016, 0.001, 0.012)
-"""Made-up inertia tensor of 1 kg, in the order of `Inertia`'s fields: not diagonal, and possible for a body."""
+"""Made-up inertia tensor of 1 kg, in the order of `Inertia`'s fields: not diagonal, and physically possible."""
 
 
 class CompletedSource(NamedTuple):
-    """A copy of a URDF (the same bytes if nothing is missing), and notes on its changes, without full stops."""
+    """A copy of a URDF, and notes on its changes, without full stops. A complete URDF is copied unchanged."""
 
     content: bytes
     notes: tuple[str, ...] = ()
@@ -41,7 +41,7 @@ class CompletedSource(NamedTuple):
 def completed_for_pinocchio(content: bytes, joints: Collection[str] | None = None) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires.
 
-    `joints` are the names of the joints that our reader found, see `plain_root`.
+    `joints` are the names of the joints in the first reading, see `plain_root`.
     """
     root = xml.parse(content := plain_urdf(content, joints)).root
     added = set() if root.get("name") else {"the robot's name"}
@@ -70,10 +70,10 @@ def completed_for_pinocchio(content: bytes, joints: Collection[str] | None = Non
 
 
 def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
-    """Return the URDF with made-up inertias in all links behind a moving joint that carries no mass.
+    """Return the URDF with made-up inertias in all links behind a moving joint without a mass.
 
-    The root link counts as moving: a robot without any mass gets inertias in all its links. Couplings that the source
-    states in another way become `<mimic>`.
+    The root link counts as moving: a robot without a mass gets inertias in all links. Couplings of `<ros2_control>` and
+    plugins become `<mimic>`.
     """
     massless, root = _massless_links(tree), xml.parse(content).root
     couplings = {joint.name: mimic for joint, mimic in tree.followers()}
@@ -91,12 +91,12 @@ def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
                 link.remove(old)
             link.append(_made_up_inertial(name))
     links = f"{len(massless)} links" if len(massless) > 1 else f'link "{next(iter(massless))}"'
-    note = f"inertias were made up for {links} of the generated package only, because they move without any mass"
+    note = f"inertias were made up for {links} of the generated package only, since moving links need a mass"
     return CompletedSource(tostring(root, "UTF-8", xml_declaration=True), (note,))
 
 
 def _massless_links(tree: KinematicTree) -> set[str]:
-    """Return all links below each moving joint that carries no mass, its child included."""
+    """Return the child of each moving joint without a mass behind it, and all links below the child."""
     massive = {link.name for link in tree.links if link.inertial and link.inertial.mass > 0}
     for joint in reversed(tree.joints):  # from the leaves to the root
         if joint.child in massive:
@@ -109,8 +109,8 @@ def _massless_links(tree: KinematicTree) -> set[str]:
 
 
 def _made_up_inertial(link: str) -> Element:
-    """Return mass properties that no two links share, in a frame that is turned and off-centre."""
-    mass = random.Random(link).uniform(0.5, 3)  # noqa: S311 - seeded by the link's name: the same on every machine
+    """Return made-up mass and inertia in a turned frame off the centre. No two links get equal numbers."""
+    mass = random.Random(link).uniform(0.5, 3)  # noqa: S311 - the link's name is the seed: equal on all machines
     element = Element("inertial")
     SubElement(element, "origin", xyz="0.04 -0.07 0.06", rpy="0.3 -0.8 0.6")
     SubElement(element, "mass", value=repr(round(mass, 3)))

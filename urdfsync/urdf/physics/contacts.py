@@ -1,7 +1,7 @@
-"""Force and torque of the ground on a standing robot, from the robot's own numbers: the reference has no contacts.
+"""Computes the force and torque of the ground on a standing robot: Pinocchio has no contacts.
 
-The base is held level, so that no robot tips, and the joints are held at the start. The force on each point follows the
-law of the library's `Contacts.Functions.point`, which is written here a second time.
+The base is held level, so that no robot tips, and the joints stay at the start. The force on each point follows the law
+of the library's `Contacts.Functions.point`. The law is written here a second time.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Sphere
 
 GRAVITY = 9.80665
 PENETRATION, DAMPING_RATIO, FRICTION, SLIP_SPEED = 3e-4, 2.0, 0.8, 1e-3
-"""The ground's numbers for links that state none."""
+"""Numbers of the ground for links without their own numbers."""
 _LEVEL = np.eye(3)
 _UPRIGHT, _TILTED = 1e-3, 0.15
-"""Sines of a cylinder's tilt: between them, the contact moves from its end to its rim."""
+"""Sines of a cylinder's tilt: between these two, the contact moves from its end to its rim."""
 
 
 class Point(NamedTuple):
     """A point of a link that may touch the ground."""
 
     place: Array
-    """Vector from the root link's origin, raised by the link's `min_depth`, at which there is no force yet."""
+    """Vector from the root link's origin to the point, raised by the link's `min_depth` (the depth without a force)."""
     share: float
     """Weight of this point among the points of its shape."""
     stiffness: float
@@ -41,7 +41,7 @@ class Point(NamedTuple):
 
 
 class Stand(NamedTuple):
-    """A robot of a given weight on the points that carry it."""
+    """A robot of a given weight, and the points that carry the robot."""
 
     tree: KinematicTree
     imports: Mapping[str, Import]
@@ -49,12 +49,12 @@ class Stand(NamedTuple):
     lowest: float
     """Height of the lowest point above the root link's origin."""
     depth: float
-    """Depth of the lowest point at which the ground carries the weight."""
+    """Depth of the lowest point in the ground when the ground carries the weight."""
 
     def wrench(self, rise: float = 0.0, slide: Sequence[float] = (0.0, 0.0), axes: Array = _LEVEL) -> Array:
-        """Return the ground's force, and its torque about the root link's origin, while the robot rises and slides.
+        """Return the ground's force and torque about the root link's origin, while the robot rises and slides.
 
-        `axes` are those of the root link in the world; the result is resolved in them.
+        `axes` are those of the root link in the world. The result is resolved in `axes`.
         """
         total, speed = np.zeros(6), math.hypot(*slide)
         for point in _points(self.tree, self.imports, self.weight, axes):
@@ -70,7 +70,7 @@ class Stand(NamedTuple):
 
 
 def stand(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> Stand | None:
-    """Return how a robot stands; None if none of its shapes can touch the ground, or it weighs nothing."""
+    """Return the stand of a robot; None for a robot without weight, or without shapes that can touch the ground."""
     points = list(_points(tree, imports, weight, _LEVEL)) if 0 < weight < math.inf else []
     if not points:
         return None
@@ -100,7 +100,7 @@ def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float, r
 
 
 def _lowest(axes: Array, shape: Any) -> Iterable[tuple[Array, float]]:
-    """Yield the touching points of a shape, with weights: vectors from its origin, in the world's axes."""
+    """Yield the touching points of a shape as vectors from its origin, in the world's axes, with weights."""
     match shape:
         case Box(size=size):
             corners = np.array(np.meshgrid(*[(-edge / 2, edge / 2) for edge in size])).reshape(3, -1).T

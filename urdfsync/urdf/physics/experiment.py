@@ -25,15 +25,16 @@ from urdfsync.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.urdf.second.reading import read_again
 
 _ITERATED = 1e-7
-"""The least tolerance for robots with loops: compilers close them by iteration."""
+"""The least tolerance for robots with loops: compilers close loops by iteration."""
 _MOST_AXES = 20
-"""Greatest number of axes in the free motion of a package's robot: rumoca takes 6 GB for 30."""
+"""The most axes in the free motion of a package's robot: for 30 axes, rumoca takes 6 GB."""
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
-    """Return the comparison, see `urdfsync.checks.experiment.Checks`. Moving links without any mass get inertias.
+    """Return the comparison, see `urdfsync.checks.experiment.Checks`.
 
-    Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
+    Moving links without a mass get inertias. Raises SourceError for an error in the source, without Pinocchio, or if
+    Pinocchio can't read the source.
     """
     file, options = sample.file, sample.options
     reading = read_robot(sample.content, file, options)
@@ -48,15 +49,15 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
     robot = _robot(read_robot(completed, file, options))
     trials = list[Trial]()
-    # the reference has smooth friction and rigid drives, and rumoca can't start two joints with stiction that slide
+    # Pinocchio has smooth friction and rigid drives; rumoca can't start if two joints with stiction slide
     simplified = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # infinite numbers in the source
         try:
             subject = Subject(msgspec.structs.replace(sample, content=completed, options=simplified), robot)
         except OpenLoopError:
-            return "Pinocchio can't close its loops at the start or near it"
+            return "Pinocchio can't close the loops of the robot at or near the start"
         tree = subject.tree
-        # the record of any other robot has a warning
+        # the records of other robots have a warning
         has_record = not (
             tree.loops or obstacles(tree.joints) or any(sharing_joint(joint, "joint") for joint in tree.joints)
         )
@@ -75,7 +76,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
 
 
 def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Trial]:
-    """Yield the simulations for one approach; the first goes through all instants."""
+    """Yield the simulations for one approach. The first simulation goes through all instants."""
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
     pairs = list(quantities.bodies(subject, names))
@@ -109,7 +110,7 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
 
 
 def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]:
-    """Yield the trial in which given efforts move the axes, if these efforts determine the accelerations."""
+    """Yield the trial in which given efforts move the axes, if efforts determine the accelerations."""
     is_free, reference, time = subject.options.base == "floating", subject.reference, (0.0,)
     courses = [probe.free_course(subject, number) for number in range(len(subject.axes))]
     state = reference.free_state(courses, motion.FREE_START if is_free else {})
@@ -118,7 +119,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     response = reference.free_gains(state, efforts, is_free)
     reference.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
     if response is None:
-        subject.unchecked["free motion: some axis moves no mass, so its effort determines no acceleration"] = None
+        subject.unchecked["free motion: an axis moves no mass, so its effort determines no acceleration"] = None
         return
     gains, doubt = response
     pairs = list(quantities.poses(subject, names, [reference.solve(state)], time, Part.FREE_MOTION))
@@ -146,7 +147,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
 
 
 def _simplified(subject: Subject, options: Options) -> Iterator[str]:
-    """Yield the chosen laws of joints that the compared package replaces by simpler ones, in words."""
+    """Yield, in words, the laws of joints that the compared package replaces by simpler laws."""
     every, driven = subject.tree.joints, subject.closed.driven
     drives = [joint for joint in every if joint.name in driven]
     joints = {
@@ -166,16 +167,16 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     options, axes = subject.options, len(subject.axes)
     in_loops = [joint.name for joint in subject.axes if subject.is_in_loop(joint)]
     if in_loops:
-        yield f"the limits of joints in loops beyond where {', '.join(in_loops)} move{'s' * (len(in_loops) == 1)} them"
+        yield f"the limits of joints in loops beyond the motion of {', '.join(in_loops)}"
     yield "the motion of Run, and models around the robot (they are only compiled)"
     if options.visualizer != "standard":
         yield "how Visualization2 draws shapes"
     if axes > _MOST_AXES:
-        yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
+        yield f"free motion of more than {_MOST_AXES} axes: a compiler would need too much memory"
     if "record" in options.approach and subject.tree.loops:
         yield "the record, which has no loops"
     elif "record" in options.approach and obstacles(subject.tree.joints):
-        yield "the record: it has no tables for robots with ball joints"
+        yield "the record, which has no tables for robots with ball joints"
     elif "record" in options.approach:
         yield "warnings, sensors, shapes, contacts and `frame_b` of the generic robot"
 

@@ -1,10 +1,10 @@
-"""Checks the laws of joints that the reference lacks: a joint must not give away energy that it never got.
+"""Checks the laws of joints that Pinocchio lacks: a joint must not give away more energy than it got.
 
 One joint of each kind in the package stands alone in the world and carries a body. Its axis moves to and fro from a
-relaxed start. Up to any time, the axis must have taken in at least zero energy: friction loses some, springs and bodies
-hand back what they got (passivity). A law with the wrong sign hands out more. Its effort must also be that of its
-numbers: the documented equations and the library's default numbers are written here a second time, and the second
-reading says which joint has which law.
+relaxed start. Up to any time, the energy into the axis must be at least zero (passivity). Friction loses energy;
+springs and bodies only hand it back. A law with the wrong sign hands out more energy. The efforts must also follow from
+the numbers of the law. For this, the documented equations and the library's default numbers are written here a second
+time. The second reading says which joint has which law.
 """
 
 from __future__ import annotations
@@ -18,24 +18,24 @@ from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.second.reading import MOVES, TURNS, Element, Reading
 
 _STEP, _STOP = 0.02, 1.0  # s
-_STROKE = 0.2  # rad or m
-_SHAKE = 6.0  # times the effort at which the joint breaks loose
+_STROKE = 0.2  # Motion of an axis, in rad or m.
+_SHAKE = 6.0  # Greatest push, as a multiple of the effort at which the joint breaks loose.
 _DEFAULTS = {
     True: {"stribeckSpeed": 0.05, "bristleDeflection": 1e-4, "stiffness": 1e4, "damper": 100.0},
     False: {"stribeckSpeed": 0.005, "bristleDeflection": 1e-5, "stiffness": 1e6, "damper": 1e4},
 }
-"""Numbers of the library that no source states, by whether a joint turns."""
+"""Default numbers of the library, for turning (True) and sliding joints."""
 _BRISTLE_TIME = 1e-3  # s
 _ENDLESS = 1e15
 _BREAKAWAY = 1.5
-"""Effort at which a joint breaks loose per dry friction. In a package it is 1, which would hide what depends on it."""
+"""This multiple of the dry friction breaks a joint loose. The default of packages, 1, would hide faults."""
 _RUN = "saturated drive in Run"
 
 
 def laws_trial(subject: Subject, reading: Reading, options: Options) -> Trial | None:
-    """Return the simulation of one joint with each combination of laws; None if Pinocchio has them all.
+    """Return the simulation of one joint with each combination of laws; None if Pinocchio has all laws.
 
-    `reading` and `options` have the laws, which the subject has not.
+    `reading` and `options` have the laws of the source; the subject has simpler laws.
     """
     tree, target, driven = subject.tree, subject.target, subject.closed.driven
     chosen = dict[tuple[object, ...], tuple[Element, str]]()
@@ -72,15 +72,16 @@ def laws_trial(subject: Subject, reading: Reading, options: Options) -> Trial | 
 
 
 def _limits(joint: Element) -> tuple[float, float]:
-    """Return the limits of effort and speed; a large number for none."""
+    """Return the limits of effort and speed; a large number stands for no limit."""
     return min(joint.number("limits.effort"), _ENDLESS), min(joint.number("limits.velocity"), _ENDLESS)
 
 
 def _declarations(k: int, model: str, joint: Element, laws: str) -> Iterator[str]:
-    """Yield a joint, its body and its drive. A sticking joint is driven by an effort: it can't follow a prescribed way.
+    """Yield a joint, its body and its drive.
 
-    The body is light, so that its energy hides no loss; on a spring it swings slowly enough for any solver. A saturated
-    drive is asked for twice its effort, and for thrice its speed.
+    An effort drives a joint with stiction, which can't follow a prescribed motion. The body is light, so that its
+    energy hides no loss; on a spring, the body swings slowly enough for any solver. A saturated drive is asked for
+    twice its limit of effort and three times its limit of speed.
     """
     is_turning, is_pushed, stroke = joint.type in TURNS, laws == "stiction", _STROKE
     kind, q = ("Rotational", "phi") if is_turning else ("Translational", "s")
@@ -97,7 +98,7 @@ def _declarations(k: int, model: str, joint: Element, laws: str) -> Iterator[str
         light = effort / (20 * stroke) if 0 < effort < _ENDLESS else light
     mass, inertia = ("1", repr(light)) if is_turning else (repr(light), "1")
     inertias = ", ".join(f"I_{i}{i} = {inertia}" for i in (1, 2, 3))
-    # the drive gives a prescribed axis its start, where the spring is relaxed
+    # the drive starts a prescribed axis with a relaxed spring
     yield f"{model} joint{k}({', '.join(own)})"
     yield f"Modelica.Mechanics.MultiBody.Parts.Body body{k}(animation = false, m = {mass}, r_CM = zeros(3), {inertias})"
     if is_pushed:
@@ -107,7 +108,7 @@ def _declarations(k: int, model: str, joint: Element, laws: str) -> Iterator[str
 
 
 def _errors(k: int, joint: Element, laws: str) -> Iterator[str]:
-    """Yield by how much the efforts of a joint's friction and spring differ from the equations of their laws."""
+    """Yield the differences of a joint's efforts from the equations of its laws, as expressions."""
     is_turning = joint.type in TURNS
     (q, w, t), axis = (("phi", "w", "tau"), "revolute") if is_turning else (("s", "v", "f"), "prismatic")
     speed, effort, z = (f"joint{k}.friction.{name}" for name in (w, t, "z"))
@@ -126,7 +127,7 @@ def _errors(k: int, joint: Element, laws: str) -> Iterator[str]:
         yield f"if abs({speed}) > 1e-3 then {dry} - {d!r}*sign({speed}) else {held}"
     if "lugre" in laws:
         stribeck = f"(1 + {_BREAKAWAY - 1!r}*exp(-({speed}/{numbers['stribeckSpeed']!r})^2))"
-        yield f"if time > 0 then 0 else {z}"  # the bristles begin straight
+        yield f"if time > 0 then 0 else {z}"  # the bristles are straight at the start
         yield f"der({z}) - {speed} + abs({speed})*{z}/({numbers['bristleDeflection']!r}*{stribeck})"
         yield f"{dry} - {d!r}/{numbers['bristleDeflection']!r}*({z} + {_BRISTLE_TIME!r}*der({z}))"
     if "spring" in laws:
@@ -142,6 +143,6 @@ def _errors(k: int, joint: Element, laws: str) -> Iterator[str]:
 
 
 def _limited(asked: str, speed: str, most: float, fastest: float) -> str:
-    """Return the effort that a saturated drive gives: over the last twentieth of the speed it speeds nothing up."""
+    """Return the effort of a saturated drive: over the last 5 % of the speed, the accelerating effort fades out."""
     fading = f"max(0, min(1, 20 - 20*abs({speed})/{max(fastest, 1e-9)!r}))"
     return f"max(-{most!r}, min({most!r}, {asked}))*(if {asked}*{speed} > 0 then {fading} else 1)"

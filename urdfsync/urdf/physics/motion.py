@@ -1,8 +1,8 @@
-"""The motion of a robot in the comparison. It depends only on names and limits: it is the same on every machine.
+"""The motion of a robot in the comparison.
 
-One simulation goes through all instants, since compiling is expensive. At each instant base and axes have given
-positions, speeds and accelerations. In between they move smoothly: joints in loops follow by integration, and a jump
-would stop the integration.
+The motion depends only on names and limits, so it is equal on all machines. One simulation goes through all instants,
+since compiling is expensive. At each instant, base and axes have given positions, speeds and accelerations. Between
+instants, all motion is smooth: joints in loops follow by integration, and a jump would stop the integration.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTIONS, Joint, Vector
 
 GRAVITY = 9.81
-"""Along -z of the world, in m/s²."""
+"""In m/s², along -z of the world."""
 
 ENDLESS = 1e300
-"""A larger limit counts as none: numbers that follow from it would be infinite."""
-_FARTHEST = 10.0  # m or rad; limits beyond it do not tell where a joint works, and cost digits
+"""A larger limit counts as no limit: results would be infinite."""
+_FARTHEST = 10.0  # m or rad; wider limits do not show where a joint works, and cost digits
 
 
 class Course(NamedTuple):
@@ -39,7 +39,7 @@ class Course(NamedTuple):
         return Course(position, self.speed + self.acceleration * time, self.acceleration)
 
     def way_to(self, goal: Course) -> tuple[float, ...]:
-        """Return the coefficients of a polynomial in the time since the instant. It reaches the goal after 1 s."""
+        """Return the coefficients of a polynomial in the time since the instant; it reaches `goal` after 1 s."""
         d, v, a = (there - left for there, left in zip(goal, self.ahead(1.0), strict=True))
         parabola = self.position, self.speed, self.acceleration / 2
         return *parabola, 10 * d - 4 * v + a / 2, 7 * v - 15 * d - a, 6 * d - 3 * v + a / 2
@@ -48,47 +48,47 @@ class Course(NamedTuple):
 class Instant(enum.IntEnum):
     """The instants, in s.
 
-    Instants up to `TURNED` are compared with the reference. At the next six limits are checked, and at the last four
-    the ground's force.
+    Instants up to `TURNED` are compared with Pinocchio. The next six instants check limits, the last four the force of
+    the ground.
     """
 
     START = 0
     """At rest under gravity, as at the beginning of Run and Test, but with accelerations."""
     SLOW = 1
-    """So slow that dry friction is still changing its sign."""
+    """So slow that dry friction is about to change its sign."""
     BACK = 2
-    """The same in the other direction."""
+    """Slow in the other direction."""
     FAST = 3
     TURNED = 4
     """Fast in the other direction."""
     BELOW = 5
-    """Just below the lower end of the range, and just too fast; it speeds up just too much."""
+    """Just below the lower end of the range, just too fast, and speeding up just too much."""
     LOW = 6
-    """Just inside, and just slow enough."""
+    """Just within the range, and just slow enough."""
     HIGH = 7
     ABOVE = 8
-    """It slows down just too much."""
+    """Just above the upper end of the range, and slowing down just too much."""
     STRAINED = 9
-    """The effort is just above its limit and acts backward, so that a lost sign shows."""
+    """The effort is just above its limit, in the negative direction: this shows a lost sign."""
     LOADED = 10
-    """The effort is just below, in the other direction."""
+    """The effort is just below its limit, in the positive direction."""
     STANDING = 11
-    """The robot stands where the ground carries it, if it can."""
+    """The robot stands on the ground, if one of its shapes can touch the ground."""
     SLIDING = 12
     SINKING = 13
     RISING = 14
 
 
 COMPARED = tuple(map(float, list(Instant)[: Instant.TURNED + 1]))
-"""The instants at which all quantities are compared."""
+"""At these instants, all quantities are compared."""
 JUST = 1e-3
-"""Fraction of a limit by which a value passes it or stays within."""
+"""Distance of a value from its limit, as a fraction of the limit."""
 LOADS = {Instant.STRAINED: -1 - JUST, Instant.LOADED: 1 - JUST}
-"""The effort that drives each axis at these instants, as a fraction of its limit."""
+"""The effort on each axis at these instants, as a fraction of its limit."""
 PERIOD = 10.0
-"""Duration of the way there and back in Test, in s."""
+"""In s: duration of the motion of Test, there and back."""
 GROUND_DEPTH = 1e3
-"""Depth of the ground in m: farther than any robot reaches, but not so far that digits are lost."""
+"""In m: depth of the ground, beyond the reach of any robot, but small enough to keep digits."""
 ON_GROUND: Mapping[Instant, Vector] = {
     Instant.STANDING: (0.0, 0.0, 0.0),
     Instant.SLIDING: (0.3, -0.2, 0.0),
@@ -97,7 +97,7 @@ ON_GROUND: Mapping[Instant, Vector] = {
 }
 """Velocity of a standing robot's base at each instant."""
 TILT = 1e-3
-"""Angle of the base while it sinks, in rad, so that the forms of the shapes show."""
+"""In rad: angle of the base while the robot sinks. With an angle, the forms of shapes have an effect."""
 _SWINGS = {
     Instant.START: (0.0, 0.0, 0.0),
     Instant.SLOW: (0.5, 2e-3, 0.7),
@@ -105,7 +105,7 @@ _SWINGS = {
     Instant.FAST: (0.8, 1.0, 1.5),
     Instant.TURNED: (-0.7, -1.0, -1.1),
 }
-"""Factors of the first amplitude in position, speed and acceleration."""
+"""Factors of the first amplitude, for position, speed and acceleration."""
 _SHIFTS = {
     Instant.START: (0.0, 0.0, 1.0),
     Instant.SLOW: (1.0, 0.0, -1.2),
@@ -113,11 +113,11 @@ _SHIFTS = {
     Instant.FAST: (-0.4, 0.0, 1.3),
     Instant.TURNED: (0.9, 0.0, -0.7),
 }
-"""Factors of a second amplitude, so that speed and acceleration are independent."""
+"""Factors of the second amplitude, which makes speed and acceleration independent."""
 
 
 def ways(courses: Sequence[Course]) -> list[tuple[float, ...]]:
-    """Return the polynomials of a coordinate: one for the second after each instant."""
+    """Return the polynomials of a coordinate, one for the second after each instant."""
     return [course.way_to(goal) for course, goal in itertools.pairwise([*courses, courses[-1].ahead(1.0)])]
 
 
@@ -132,8 +132,8 @@ PATH = (Course(0.4, -0.6, 1.1), Course(-0.3, 0.8, -0.7), Course(0.9, 0.5, 1.6))
 """x, y and z of the root link's frame in the world."""
 TURN = Course(0.7, 0.9, -1.4)
 """Angle of the root link's frame about `TURN_AXIS`."""
-TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)  # ball joints turn about it, too, in the joint's frame
-"""At an angle to all axes of the world, so that gravity and centrifugal forces act along all axes of the root link."""
+TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)  # in its frame, a ball joint turns about this axis, too
+"""The axis is oblique, so that gravity and centrifugal forces act along all axes of the root link."""
 
 
 FREE_START: Mapping[str, Vector] = {
@@ -142,9 +142,9 @@ FREE_START: Mapping[str, Vector] = {
     "v_start": (0.5, -0.3, 0.8),
     "w_start": (0.7, -1.1, 0.6),
 }
-"""The start of a free base, resolved in the world; no two angles are equal, so that their order shows."""
+"""The start of a free base, resolved in the world. All angles differ, so that a wrong order shows."""
 BENCH_LOAD = 500.0
-"""Weight for which the ground of a bench is made, in N."""
+"""In N: weight for which the ground of a bench is designed."""
 BENCH_GRAVITY = 9.80665
 """Gravity of the standard library's world, as in Run and Test."""
 
@@ -152,8 +152,8 @@ BENCH_GRAVITY = 9.80665
 def axis_course(joint: Joint) -> Course:
     """Return the course of a driven axis.
 
-    It begins near the middle of its range, if that is finite and sensible. The joint's name decides, so that a new
-    joint does not change the motion of the others. No speed is close to zero, where faults would be invisible.
+    The axis begins near the middle of a range that is not too large. The numbers are drawn from the joint's name, so
+    that a new joint does not change the motion of others. No speed is close to zero, where faults would be invisible.
     """
     draw = random.Random(joint.name)  # noqa: S311 - not for cryptography
 
@@ -169,7 +169,7 @@ def axis_course(joint: Joint) -> Course:
 
 
 def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = {}) -> tuple[Course, ...]:
-    """Return the courses of a driven axis that starts at `start`; `strains` are its accelerations under load."""
+    """Return the courses of a driven axis from its `start`; `strains` are its accelerations under load."""
     course, (lower, upper) = axis_course(joint), own_range(joint)
     middle, reach = (lower + upper) / 2, (upper - lower) / 2
     if not reach < ENDLESS:
@@ -185,22 +185,22 @@ def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = 
 
 
 def greatest_gains(joint: Joint) -> tuple[float, float]:
-    """Return the limits of the acceleration while a joint speeds up, and while it slows down."""
+    """Return the limits of a joint's acceleration and deceleration."""
     up = joint.limit.acceleration if joint.limit and joint.limit.acceleration is not None else math.inf
     return up, joint.limit.deceleration if joint.limit and joint.limit.deceleration is not None else up
 
 
 def loop_courses(joint: Joint, start: float, share: float) -> tuple[Course, ...]:
-    """Return the courses of an axis in a loop: a `share` of the motion of an axis outside loops. It passes no limit."""
+    """Return the courses of an axis in a loop: a `share` of the usual motion, within all limits."""
     course = axis_course(joint)
     moving = _swinging(start, share * course.speed, share * course.acceleration / 2)
     return (*moving, *(Course(start, 0.0, 0.0) for _ in range(len(Instant) - len(moving))))
 
 
 def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]:
-    """Return the courses of the base's x, y, z and angle. The base rests while joints are at their limits.
+    """Return the courses of the base's x, y, z and angle.
 
-    `depth` is the robot's depth in the ground.
+    The base rests while joints are at their limits. `depth` is the depth of the standing robot in the ground.
     """
     every = list[tuple[Course, ...]]()
     for k, course in enumerate((*PATH, TURN)):

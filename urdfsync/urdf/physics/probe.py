@@ -1,6 +1,6 @@
-"""The Modelica text that moves a generated robot by `motion`, and the variables to read.
+"""Writes the Modelica text that moves a generated robot by `motion`, and names the variables to read.
 
-It uses only `m` and the variables below, so that it also works with edited packages.
+The text uses only `m` and the variables below, so that it also works with edited packages.
 """
 
 from __future__ import annotations
@@ -22,44 +22,47 @@ from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
 
-_FAR_GROUND = -1e9  # m: the ground is so far down that nothing touches it
+_FAR_GROUND = -1e9  # in m: so deep that nothing touches the ground
 _PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
-"""Force and torque of the robot on the base that moves it, resolved in the root link's frame."""
+"""Force and torque of the robot on the moving base, resolved in the root link's frame."""
 MASS = ("mass",)
 CENTRE = tuple(f"centre[{i}]" for i in (1, 2, 3))
-"""Centre of mass in the world; zero without any mass."""
+"""Centre of mass in the world; zero without a mass."""
 
 
 class RobotVariables(msgspec.Struct, frozen=True):
     """Names of variables in a model whose component `robot` is the robot."""
 
     declaration: str
-    """Declaration of the robot, up to the modifiers of the comparison."""
+    """Declaration of the robot, without the modifiers of the comparison."""
     is_package: bool
-    """Whether the robot is the package's, not the generic one."""
+    """Whether the robot is that of the package, not the generic robot."""
     moment: str
-    """An expression: the sum of mass times place over all links, in kg·m."""
+    """In kg·m: an expression for the sum of mass times place over all links."""
     flanges: Mapping[str, str]
-    """Connector of the axis of each joint that can be driven."""
+    """Axis connector of each joint that can be driven."""
     accelerations: Mapping[str, str]
-    """Acceleration of each of these joints. Derivatives of `flanges` take a compiler 3 s more for six."""
+    """Acceleration of each joint that can be driven.
+
+    With derivatives of `flanges`, six joints would take a compiler 3 s more.
+    """
     places: Mapping[str, tuple[str, ...]]
     """Place of each link's frame."""
     axes: Mapping[str, tuple[str, ...]]
     """Rotation matrix of each link's frame, as Modelica defines it."""
     joints: Mapping[str, str]
-    """Component of each joint; none in the record."""
+    """Component of each joint; empty for the record."""
     sensors: Mapping[str, str]
-    """Component of each sensor; none in the record."""
+    """Component of each sensor; empty for the record."""
     loops: Mapping[str, str]
-    """Component of each loop; none in the record."""
+    """Component of each loop; empty for the record."""
 
 
 def robot_variables(subject: Subject, approach: str) -> RobotVariables:
-    """Return the names for an approach. For the record they are those of the generic robot, which numbers its links."""
+    """Return the names for an approach. The record has the names of the generic robot, which numbers its links."""
     tree, target, names = subject.tree, subject.target, subject.connectors
     moments, three = list[str](), (1, 2, 3)
     places, axes, is_package = dict[str, tuple[str, ...]](), dict[str, tuple[str, ...]](), approach == "package"
@@ -148,16 +151,16 @@ def moving_probe(
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
     source = text(target, options, "", declarations, connections, _driven_balls(subject))
     last = float(max(motion.Instant))
-    # loops are closed by integration: accelerations contain its error times the square of its rate of decay
+    # integration closes loops: its error, times the square of its decay rate, adds to the accelerations
     tolerance = 3e-12 if subject.tree.loops else None
     return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
 
 
 def sweeping_probe(subject: Subject, values: Iterable[str]) -> Probe:
-    """Return a model of drives like Test's, each connected only to a weight and a housing.
+    """Return a model of drives as in Test, each connected only to a weight and a housing.
 
-    They get the expected numbers, which `moving_probe` compares with the robot's: among the robot's equations they took
-    a compiler almost as long as the robot itself.
+    The drives get expected numbers, which `moving_probe` compares with those of the robot. Together with the robot, the
+    drives would double a compiler's time.
     """
     declarations, connections = list[str](), list[str]()
     for k, (joint, way) in enumerate(subject.sweeps(), 1):
@@ -179,7 +182,7 @@ def sweeping_probe(subject: Subject, values: Iterable[str]) -> Probe:
 
 
 def _range(subject: Subject, joint: Joint, components: Mapping[str, str]) -> Iterator[str]:
-    """Yield start, range and greatest speed of an axis in the robot, and Test's reach for it if loops restrict it."""
+    """Yield start, range and greatest speed of an axis of the robot; for an axis in loops, also its reach in Test."""
     q, v = ("phi", "w") if MOTION_KINDS[joint.type] == "rotational" else ("s", "v")
     own = components.get(joint.name)
     for name in (f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max"):
@@ -189,7 +192,7 @@ def _range(subject: Subject, joint: Joint, components: Mapping[str, str]) -> Ite
 
 
 def _sweeps_of_record(subject: Subject) -> Iterator[str]:
-    """Yield the ways of the axes in the bench of the generic robot."""
+    """Yield the sweeps of the axes in the bench of the generic robot."""
     for kind in MOTIONS:
         if axes := subject.tree.axes(kind):
             q, v, reach = ("phi", "w", 1) if kind == "rotational" else ("s", "v", 0.1)
@@ -209,9 +212,9 @@ def _number(subject: Subject, joint: Joint) -> int:
 
 
 def _driven_balls(subject: Subject) -> list[str]:
-    """Return the lines of a class that prescribes the motion of ball joints; no lines if there are none.
+    """Return the lines of a class that prescribes the motion of ball joints; no lines without ball joints.
 
-    The class extends the robot: only then may it connect drives to the frames of the robot's joints.
+    The class extends the robot, since only then it may connect drives to the frames of joints.
     """
     target, axis = subject.target, vector(motion.TURN_AXIS)
     components = [subject.tree.joint(ball.name).component for ball in subject.balls]
@@ -230,9 +233,10 @@ def _driven_balls(subject: Subject) -> list[str]:
 def free_probe(
     subject: Subject, names: RobotVariables, courses: Sequence[Course], efforts: Sequence[float], values: Iterable[str]
 ) -> Probe:
-    """Return a model with efforts on the axes. Their positions and speeds begin as `courses` say.
+    """Return a model with efforts on the axes.
 
-    The model extends the bench of Run and Test, and so has their gravity.
+    `courses` give the positions and speeds of the axes at the start. The model extends the bench of Run and Test, and
+    so has the gravity of both.
     """
     starts, turning, sliding = list[str](), dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
     axes, options = subject.axes, subject.options
@@ -281,9 +285,9 @@ def free_probe(
 
 
 def free_course(subject: Subject, number: int) -> Course:
-    """Return how an axis begins its free motion; `number` counts the axes from 0.
+    """Return the start of an axis in the free motion; `number` counts the axes from 0.
 
-    An axis in a loop keeps the package's start position, and so does every second one that is no ball joint.
+    An axis in a loop keeps the package's start position. So does every second axis, except ball joints.
     """
     joint = subject.axes[number]
     course = motion.axis_course(joint)
@@ -292,9 +296,10 @@ def free_course(subject: Subject, number: int) -> Course:
 
 
 def limit_variable(subject: Subject, joint: Joint, ending: str) -> str:
-    """Return the variable of a warning whose message has the joint's name.
+    """Return the variable of a warning about a joint.
 
-    The robot itself checks the effort of a leader, which carries its followers' load, and of joints that share a motor.
+    The robot model checks the effort of a leader, which carries the load of followers, and of joints that share a
+    motor.
     """
     component, name = subject.tree.joint(joint.name).component, "warning_getInstanceName"
     if ending.endswith("effort_limit") and joint.name in subject.checked_by_robot:
@@ -303,7 +308,7 @@ def limit_variable(subject: Subject, joint: Joint, ending: str) -> str:
 
 
 def _place(link: str, origin: Origin) -> str:
-    """Return the place of a frame on a link as an expression."""
+    """Return an expression for the place of a frame on a link."""
     frame = f"{link}.frame_a"
     return f"{frame}.r_0 + Modelica.Mechanics.MultiBody.Frames.resolve1({frame}.R, {vector(origin.xyz)})"
 
@@ -318,7 +323,7 @@ def text(
 ) -> str:
     """Return the package `Probe_`, whose model `Probe` may extend a bench; `classes` are lines of other classes."""
     libraries = [name for name, _ in options.uses]
-    imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads only imported ones
+    imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads only imported libraries
     lines = [
         "package Probe_",
         *(f"  import {library};" for library in imports),

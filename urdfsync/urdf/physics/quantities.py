@@ -24,15 +24,15 @@ Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 """A quantity, and its expected values at each of its instants."""
 
 SWEEP_TIMES = (0.0, motion.PERIOD / 2, motion.PERIOD)
-"""Times in Test at which its ways are compared."""
+"""Times at which motions of Test are compared."""
 _CLEAR = 1e-5
-"""Relative distance from which on a value clearly passes or keeps a limit: warnings have some slack."""
+"""At a greater relative distance, a value clearly passes or keeps a limit: warnings have some slack."""
 
 
 def poses(
     subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...], part: Part
 ) -> Iterator[Pair]:
-    """Yield the pose of each link at some times."""
+    """Yield the pose of each link at the given times."""
     for link in subject.tree.links:
         frames, element = [instant.frame(link.name) for instant in solved], f"link {link.name}"
         at = Compared(Quantity.POSITION, element, "m", names.places[link.name], times, part)
@@ -41,7 +41,7 @@ def poses(
 
 
 def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield poses, efforts of the axes, the wrench that holds the root, and the mass."""
+    """Yield poses, efforts of the axes, force and torque at the root, mass and centre of mass."""
     root, solved = f"link {subject.tree.links[0].name}", [subject.solved[time] for time in COMPARED]
     joints = {f"joint {joint.name}": joint for joint in subject.tree.joints}
     yield from poses(subject, names, solved, COMPARED, Part.BODIES)
@@ -77,7 +77,7 @@ def _efforts(
 
 
 def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[Pair]:
-    """Yield poses and efforts every `step` seconds, without times at which a loop can't be closed."""
+    """Yield poses and efforts every `step` seconds, except at times when a loop can't be closed."""
     solved = dict[float, Solution]()
     for k in range(round(Instant.TURNED / step) + 1):
         with contextlib.suppress(OpenLoopError):
@@ -101,7 +101,7 @@ def motors(subject: Subject) -> Iterator[Pair]:
 
 
 def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield the gap of each loop, and the force in the joint that closes it, if that force is unique."""
+    """Yield the gap of each loop, and the force in its joint, if the force is unique."""
     solved = [subject.solved[float(instant)] for instant in Instant]
     for k, loop in enumerate(subject.tree.loops):
         element, values = f"loop {loop.name}", tuple(f"gap{k + 1}[{i}]" for i in (1, 2, 3))
@@ -118,7 +118,7 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 
 
 def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield start, range and greatest speed of the axes, and the ways on which the generic robot's bench moves them."""
+    """Yield start, range and greatest speed of the axes, and the motion of axes in the generic robot's bench."""
     for k, (joint, way) in enumerate(subject.sweeps(), 1):
         given = way.numbers if names.is_package and joint.name in subject.closed.reach else way.numbers[:4]
         numbers = {f"range{k}[{i}]": number for i, number in enumerate(given, 1) if abs(number) < motion.ENDLESS}
@@ -133,7 +133,7 @@ def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 
 
 def sweeps(subject: Subject) -> Iterator[Pair]:
-    """Yield the ways on which Test's drives move the axes, and the sums of the efforts at axis and housing."""
+    """Yield the motion of Test's drives, and the sums of their efforts at axis and housing."""
     for k, (joint, way) in enumerate(subject.sweeps(), 1):
         what, unit = f"joint {joint.name}", _unit(joint)
         (q, effort), start = ("phi", "N·m") if unit == "rad" else ("s", "N"), way.numbers[0]
@@ -147,14 +147,14 @@ def _unit(joint: Joint) -> str:
 
 
 def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield the readings of the sensors that measure motion or forces."""
+    """Yield the readings of IMUs and force-torque sensors, and the frames of cameras and laser scanners."""
     parents, balls = {joint.name: joint.parent for joint in subject.tree.joints}, [ball.name for ball in subject.balls]
     for sensor in subject.tree.sensors:
         if SENSOR_KINDS[sensor.kind].name == "Imu":
             outputs, again = SENSOR_KINDS["imu"].outputs, subject.second.sensors[sensor.name]
             rows = [subject.reference.acceleration(subject.states[t], again) for t in COMPARED]
         elif sensor.at in balls:
-            subject.unchecked[f"sensor {sensor.name}, in a ball: what prescribes the ball acts beside it"] = None
+            subject.unchecked[f"sensor {sensor.name}, in a ball: the drive of the ball bypasses the sensor"] = None
             continue
         elif sensor.is_in_joint:
             outputs, again = SENSOR_KINDS[sensor.kind].outputs, subject.second.sensors[sensor.name]
@@ -176,7 +176,7 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 
 
 def limits(subject: Subject) -> Iterator[Pair]:
-    """Yield the warnings of each joint at instants with a clear answer: 1 if the warning is expected."""
+    """Yield the warnings of each joint at instants with a clear answer: 1 for an expected warning."""
     coordinates = subject.reference.coordinates()
     for joint in subject.tree.joints:
         if joint.type not in MOTION_KINDS:
@@ -185,7 +185,7 @@ def limits(subject: Subject) -> Iterator[Pair]:
         lower, upper = own_range(joint)
         speed = joint.limit.velocity if joint.limit else None
         effort = joint.limit.effort if joint.limit else None
-        # at later instants the ground changes the efforts
+        # later, the ground changes the efforts
         for time, state in list(subject.states.items())[: Instant.STANDING]:
             q, v = float(state.positions[row]), abs(float(state.v[row]))
             a, gain = abs(float(state.a[row])), float(state.a[row] * state.v[row])
@@ -217,7 +217,7 @@ def limits(subject: Subject) -> Iterator[Pair]:
 
 
 def ground(subject: Subject) -> Iterator[Pair]:
-    """Yield the force and torque that hold a standing robot level: the parts that the ground does not carry."""
+    """Yield the part of the force and torque on a standing robot that the ground does not carry."""
     if subject.stand is None:
         return
     times, rows, root = tuple(map(float, motion.ON_GROUND)), list[Array](), subject.tree.links[0].name
@@ -230,7 +230,7 @@ def ground(subject: Subject) -> Iterator[Pair]:
 
 
 def table(pairs: Iterable[Pair], times: Sequence[float]) -> tuple[tuple[Compared, ...], dict[str, tuple[float, ...]]]:
-    """Return the compared quantities, and their expected numbers at all times; NaN where there is none."""
+    """Return the compared quantities, and the expected numbers at all times; NaN stands for no number."""
     every, numbers = list[Compared](), dict[str, dict[float, float]]()
     for compared, rows in pairs:
         every.append(compared)

@@ -1,11 +1,11 @@
-"""The reference: a robot's poses, efforts, accelerations and sensor readings, computed by Pinocchio.
+"""Computes a robot's poses, efforts, accelerations and sensor readings by Pinocchio.
 
-Pinocchio reads the file itself. Only the parts that its reader leaves out are added here: `mimic` elements and drives.
-They are read separately, since our own reader is under test. Sensors come from the second reading.
+Pinocchio reads the file itself. Its reader leaves out `mimic` elements and drives: this module adds them. The first
+reader is under test, so this module does not use it. Sensors come from the second reading.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
-(RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the axes, whose efforts
-are Bᵀ·tau. With loops, q̇ = N(p)·ṗ and q̈ = N·p̈ + drift (see `closing`), and efforts are Nᵀ·tau.
+(RNEA, section 5.3). Mimic joints enter through q = B·p + c, where p are the positions of the axes; the efforts of the
+axes are Bᵀ·tau. With loops, q̇ = N(p)·ṗ and q̈ = N·p̈ + drift (see `closing`), and efforts are Nᵀ·tau.
 """
 
 from __future__ import annotations
@@ -36,26 +36,26 @@ TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """Steepness s of the dry friction f·tanh(s·v/2) of generated joints, in s/rad and s/m."""
 
 _GREATEST_CONDITION = 1e12
-"""Up to this condition number of the mass matrix, efforts determine accelerations; real robots have 1 to 1e8."""
+"""Up to this condition number of the mass matrix, efforts determine accelerations. Real robots have 1 to 1e8."""
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
 
 class PinocchioRobot(NamedTuple):
-    """Pinocchio's reading of a robot, with the mimic relations that its reader leaves out."""
+    """Pinocchio's reading of a robot, with the mimic relations and rotors that Pinocchio leaves out."""
 
     model: Any
     """Pinocchio's model; its first joint is the free motion of the root link."""
     followers: Mapping[str, Mimic]
-    """Mimic relation of each follower, by the follower's name."""
+    """Mimic relations by names of followers."""
     rotors: Array
-    """The rotors' part of the mass matrix: Pinocchio's `armature` can't couple two joints."""
+    """The part of the rotors in the mass matrix: Pinocchio's `armature` can't couple two joints."""
 
 
 def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRobot:
     """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file.
 
-    Pinocchio merges fixed joints and has no force in them, so those in `loose` become movable. Its reader knows no ball
-    joints: they are added here.
+    Pinocchio merges fixed joints and gives no forces in them, so fixed joints in `loose` become movable. Pinocchio's
+    reader lacks ball joints: this function adds them.
     """
     pin = pinocchio()
     root, balls = xml.parse(content).root, set[str]()
@@ -78,7 +78,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
         for joint in root.findall("joint")
         for mimic in joint.findall("mimic")
     }
-    # a name for Pinocchio's root joint that no element has
+    # an unused name for Pinocchio's root joint
     unused = "_" * (1 + max(len(element.get("name", "")) for element in root.iter()))
     try:
         model = pin.buildModelFromXML(content.decode("utf-8-sig"), pin.JointModelFreeFlyer(), unused)
@@ -103,7 +103,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
 
 
 def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
-    """Return a model in which the hinges `balls` are ball joints; each has its hinge's damping about every axis."""
+    """Return a model with ball joints instead of the hinges `balls`, with the same damping about each axis."""
     changed = pin.Model()
     for k in range(1, model.njoints):
         name, old = model.names[k], model.joints[k]
@@ -120,7 +120,7 @@ def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
 
 
 def pinocchio() -> Any:
-    """Return the library. Raises SourceError if it is not installed."""
+    """Return the module `pinocchio`. Raises SourceError if Pinocchio is not installed."""
     try:
         import pinocchio  # an optional extra
     except ImportError:
@@ -137,21 +137,21 @@ class Configuration(msgspec.Struct, frozen=True):
     v: Array
     a: Array
     positions: Array
-    """Positions of joints, in the order of `v`; those of the base have no meaning."""
+    """Positions of joints, in the order of `v`. The positions of the base have no meaning."""
     ways: Array
-    """Velocities of all coordinates, a column for each axis: the axis moves with velocity 1."""
+    """Velocities of all coordinates while one axis moves with velocity 1: a column for each axis."""
     drift: Array
     """Accelerations of all coordinates while no axis accelerates."""
 
 
 class Reference:
-    """A robot in Pinocchio; `axes` are the names of the independent joints."""
+    """A robot in Pinocchio."""
 
     def __init__(self, robot: PinocchioRobot, axes: Sequence[str], closed: ClosedLoops | None = None) -> None:
         self.pin, self.model = pinocchio(), robot.model
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
-        """The independent joints. Ball joints come last, and turn about `motion.TURN_AXIS`."""
+        """The names of the independent joints. Ball joints come last, and turn about `motion.TURN_AXIS`."""
         self.rotors = robot.rotors
         balls = [joint for joint in self.model.joints if joint.shortname() == "JointModelSpherical"]
         self._balls, self._scalars = [joint.idx_v + k for joint in balls for k in range(3)], len(axes) - len(balls)
@@ -165,7 +165,7 @@ class Reference:
             first = np.array([starts[name] for name in others])
             self.closing = Closing(self.pin, self.model, closed, followers, start, first)
         self.steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
-        """Steepness of dry friction for each coordinate of Pinocchio's velocity, in s/rad or s/m as in the records."""
+        """In s/rad or s/m: steepness of dry friction for each coordinate of Pinocchio's velocity, as in the records."""
         for joint in self.model.joints:
             if joint.shortname().startswith(_SLIDING_JOINTS):
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
@@ -180,7 +180,7 @@ class Reference:
             ways, drift = self.closing.motion(positions, self.projection, speeds)
         q = pin.integrate(model, pin.neutral(model), positions)
         state = Configuration(q, ways @ speeds, ways @ gains + drift, positions, ways, drift)
-        # Pinocchio resolves velocity and acceleration of the root link in its own frame.
+        # Pinocchio resolves velocity and acceleration of the root link in the link's frame.
         place, velocity, acceleration = np.array(base[:3]).T
         angle, speed, gain = base[3]
         axis = np.array(motion.TURN_AXIS)
@@ -191,7 +191,7 @@ class Reference:
         return state
 
     def free_state(self, courses: Sequence[Course], start: Mapping[str, Vector]) -> Configuration:
-        """Return a configuration at time 0, with the start values of a free base; any other base is at rest at zero."""
+        """Return the configuration at time 0. A free base has the `start` values; any other base rests at zero."""
         state, pin = self.state(courses), self.pin
         state.q[:7], state.v[:6], state.a[:6] = (*(0,) * 6, 1), 0, 0
         if start:
@@ -210,17 +210,14 @@ class Reference:
         return {name: joint.idx_v for name, joint in zip(self.model.names, self.model.joints, strict=True)}
 
     def effort_gains(self, state: Configuration, efforts: Array, columns: Sequence[int]) -> Array:
-        """Return by how much additional efforts accelerate some axes beyond `state`; other accelerations stay.
-
-        (Bᵀ·M·B)·a = efforts, with the columns of these axes in B.
-        """
+        """Return the accelerations that additional efforts add to some axes; other axes keep their accelerations."""
         ways = state.ways[:, columns]
         return self._solved(ways.T @ self._mass(state.q) @ ways, efforts)
 
     def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> tuple[Array, float] | None:
-        """Return the accelerations of all coordinates; None if the efforts of the axes do not determine them.
+        """Return the accelerations of all coordinates; None if the efforts of the axes do not determine these.
 
-        Return also their relative uncertainty: loops are closed only to `closing.CLOSED`, and a large load on a small
+        Return also the relative uncertainty: loops are closed only to `closing.CLOSED`, and a large load on a small
         mass amplifies this error. The base rests, unless `is_free`. Ball joints turn in all directions.
         """
         data, nv = self.model.createData(), self.model.nv
@@ -247,7 +244,7 @@ class Reference:
     @staticmethod
     def _solved(mass: Array, efforts: Array) -> Array:
         if not len(efforts) or not np.isfinite(mass).all() or not np.isfinite(efforts).all():
-            return np.zeros(len(efforts))  # infinite numbers in the source: no simulation accepts them
+            return np.zeros(len(efforts))  # no simulation accepts infinite numbers
         return np.asarray(np.linalg.lstsq(mass, efforts)[0])
 
     def acceleration(self, state: Configuration, sensor: Element) -> tuple[Array, Array]:
@@ -295,7 +292,7 @@ class Reference:
         return np.asarray(self.model.damping * v + self.model.friction * np.tanh(self.steepness * v / 2))
 
     def _mimic(self, robot: PinocchioRobot, axes: Sequence[str]) -> tuple[Array, Array]:
-        """Return B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per axis."""
+        """Return B and c of q = B·p + c. B has a row per coordinate of Pinocchio's velocity and a column per axis."""
         projection, offset = np.zeros((self.model.nv, len(axes))), np.zeros(self.model.nv)
         names = set(self.model.names)
         for name, joint in zip(self.model.names, self.model.joints, strict=True):
@@ -312,7 +309,7 @@ class Reference:
 
 
 class Solution(msgspec.Struct, frozen=True):
-    """Poses and efforts of a robot at one instant, by the reference."""
+    """Poses and efforts of a robot at one instant, by Pinocchio."""
 
     reference: Reference
     data: Any
@@ -321,12 +318,12 @@ class Solution(msgspec.Struct, frozen=True):
     load: Array
     """Efforts of all coordinates."""
     force: Array
-    """Force on the root link, in its frame."""
+    """Force on the root link, in the link's frame."""
     torque: Array
     efforts: Array
     """Efforts of the axes."""
     reactions: Sequence[Reaction]
-    """Reactions of the loops, in the order of the tree; their gaps are resolved in the world."""
+    """Gaps and forces of the loops, in the order of the tree. Gaps are resolved in the world."""
 
     def frame(self, link: str) -> tuple[Array, Array]:
         """Return place and axes (as columns) of a link's frame in the world."""
@@ -335,7 +332,7 @@ class Solution(msgspec.Struct, frozen=True):
         return np.array(place.translation), np.array(place.rotation)
 
     def mass_and_centre(self) -> tuple[float, Array]:
-        """Return mass of the whole robot and its centre in the world; zero without any mass."""
+        """Return the mass of the robot, and the centre of mass in the world; zero without a mass."""
         pin, model = self.reference.pin, self.reference.model
         mass = pin.computeTotalMass(model)
         return mass, np.array(pin.centerOfMass(model, self.data, self.q)) if mass else np.zeros(3)

@@ -27,15 +27,15 @@ from urdfsync.urdf.second.reading import Reading, read_again
 _MARGIN = 0.9
 """Fraction of ranges and speeds that Test uses."""
 _REACH = {"rotational": 1.0, "translational": 0.1}
-"""The longest way of an axis in Test, in rad or m, unless loops allow less."""
+"""In rad or m: the longest motion of an axis in Test, unless loops allow less."""
 _SHARES = tuple(0.25**k for k in range(8))
 
 
 class Sweep(NamedTuple):
-    """The way of an axis in Test."""
+    """The motion of an axis in Test."""
 
     numbers: tuple[float, float, float, float, float]
-    """Start, range, greatest speed and reach. Range and speed are those that all joints that follow the axis allow."""
+    """Start, range, greatest speed and reach. All followers of the axis allow this range and speed."""
     end: float
     """The turning point."""
 
@@ -57,13 +57,13 @@ class Subject:
         self.base = motion.base_courses()
         self.stand: contacts.Stand | None = None
         self.unchecked = dict[str, None]()
-        """The parts of this robot that are not compared, in order."""
+        """The parts of this robot that are not compared."""
         self.starts = start_positions(tree)
         self.share = self._closable_share()
-        """Fraction of the usual amplitudes by which joints in loops move."""
+        """Amplitude of joints in loops, as a fraction of the usual amplitude."""
         limits = [joint.limit.effort if joint.limit and joint.limit.effort else math.inf for joint in self.axes]
         courses, strains = self._courses(self.share), dict[Instant, dict[str, float]]()
-        # loads accelerate no joint in a loop: a large acceleration may open the loop
+        # no load acts on joints in loops: a large acceleration may open the loop
         outside = [n for n, joint in enumerate(self.axes) if not self.is_in_loop(joint)]
         for instant, share in LOADS.items():
             state = self._state(instant, courses)
@@ -79,12 +79,12 @@ class Subject:
 
     @cached_property
     def second(self) -> Reading:
-        """The second reading."""
+        """The second reading of the source."""
         return read_again(self.content, self.options)
 
     @cached_property
     def checked_by_robot(self) -> Collection[str]:
-        """The joints whose effort the robot's model checks: leaders, and those that share a motor."""
+        """The joints whose effort the robot model checks: leaders, and joints that share a motor."""
         checked = {*self.tree.followers_by_leader()}
         for joint in self.tree.joints:
             if other := sharing_joint(joint, self.options.drives):
@@ -93,13 +93,14 @@ class Subject:
 
     @cached_property
     def motor_torques(self) -> Mapping[str, float]:
-        """The torque at the motor of each joint that has one.
+        """The torque of each motor with a flange, by joint.
 
-        It is half of the joint's limit, and acts as the effort beyond the limit does: both have to count together.
+        The torque is half of the joint's limit of effort. The check of the limit has to add it to the effort of the
+        drive.
         """
         torques, axes = dict[str, float](), {joint.name for joint in self.axes}
         for name, drive in self.connectors.drives.items():
-            # a motor at a dependent joint of a loop would push the axes
+            # a motor at a dependent joint of a loop would also push the axes
             if drive.motor and {name, drive.other or name} <= axes:
                 joint = self.second.joints[name]
                 effort = joint.number("limits.effort")
@@ -117,7 +118,7 @@ class Subject:
         return effort
 
     def sweeps(self) -> Iterator[tuple[Joint, Sweep]]:
-        """Yield each axis with its way in Test: to the farther end of its range, as far as reach and speed allow."""
+        """Yield each axis with its motion in Test: towards the farther limit, as far as reach and speed allow."""
         ranges, followers = position_ranges(self.tree), self.tree.followers_by_leader()
 
         def speed(joint: Joint) -> float:
@@ -129,7 +130,7 @@ class Subject:
             if joint.type in MOTION_KINDS:
                 start, (lower, upper) = self.starts[joint.name], ranges[joint.name]
                 reach = self.closed.reach.get(joint.name, _REACH[MOTION_KINDS[joint.type]])
-                # the axis moves along a cosine: its greatest speed is pi/period times the way
+                # the axis moves along a cosine: its greatest speed is pi/period times the distance
                 most = min(reach, _MARGIN * speed(joint) * motion.PERIOD / math.pi)
                 above, below = (min(most, _MARGIN * room) for room in (upper - start, start - lower))
                 end = start + above if above >= below else start - below
@@ -140,9 +141,9 @@ class Subject:
         return joint.name in self.closed.joints
 
     def _closable_share(self) -> float:
-        """Return the greatest amplitude with which all loops stay closed around each instant.
+        """Return the greatest share of the amplitudes that keeps all loops closed around each instant.
 
-        Raises OpenLoopError if there is none.
+        Raises OpenLoopError if no share does.
         """
         if not self.closed.joints:
             return 1.0
@@ -179,7 +180,7 @@ class Subject:
         return self.reference.solve(self.reference.state([*map(at, self.courses)], [*map(at, self.base)]))
 
     def _put_down(self, imports: Mapping[str, Import]) -> None:
-        """Put the robot on the ground, if possible."""
+        """Put the robot on the ground, if one of its shapes can touch the ground."""
         mass, _ = self.reference.solve(self._state(Instant.STANDING, self.courses)).mass_and_centre()
         self.stand = contacts.stand(self.tree, imports, mass * motion.GRAVITY)
         if self.stand is None:

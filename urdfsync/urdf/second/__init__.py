@@ -1,1 +1,1 @@
-"""A second reading of the source, which shares no code with the first, and its comparison with a package's numbers."""
+"""Reads the source a second time, without code of the first reader, and compares the result with a package."""

@@ -1,6 +1,6 @@
-"""What the classes of a package have to state by the second reading: robot model, benches, links and joints.
+"""Derives from the second reading the texts that a package must have in its robot model, benches, links and joints.
 
-Each function returns the expected texts by paths, for each element; `models` has their patterns.
+Each function returns the expected texts of each element by paths; `models` has the patterns of the texts.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from urdfsync.urdf.second.models import WORDS, pairs
 from urdfsync.urdf.second.reading import COMMANDS, MOVES, TURNS, Element, Reading
 
 Texts: TypeAlias = Mapping[str, tuple[int, Mapping[str, str]]]
-"""For each element the line in its source, and its texts by paths."""
+"""For each element, its line in the source, and its texts by paths."""
 
 
 class Edge(msgspec.Struct, frozen=True):
-    """A connection of the robot model, and the element that it belongs to."""
+    """A connection of the robot model, and the element of the connection."""
 
     element: str
     line: int
@@ -34,7 +34,7 @@ class Edge(msgspec.Struct, frozen=True):
 
 
 class Classes:
-    """The classes of a package, as texts, with the components that its records name."""
+    """The texts of a package's classes, with the components that its records name."""
 
     def __init__(self, read: dict[str, Values], reading: Reading, sample: Sample) -> None:
         self.read, self.reading, self.options, self.name = read, reading, sample.options, sample.target.name
@@ -46,22 +46,22 @@ class Classes:
         self.record = read.get(f"{self.name}Parameters.mo", Values([], {}, []))
         start = read.get(f"{self.name}Start.mo", Values([], {}, []))
         self.begun = {value.path for value in start.values}
-        """Components of joints that the start record has."""
+        """Components of the joints in the start record."""
         model = read.get(f"{self.name}.mo", Values([], {}, []))
         self.ends = _ends(model.values)
         """Connections in the robot model."""
 
     def of(self, kind: str, name: str) -> str:
-        """Return the component of an element; empty if the package has none."""
+        """Return the component of an element; empty if the package lacks the element."""
         return self.components.get((kind, name), "")
 
     def parts(self) -> Iterable[tuple[str, Element, str]]:
-        """Return kind, element and component of all elements that both the source and the package have."""
+        """Return kind, element and component of all elements that both source and package have."""
         every = ((kind, self.elements[kind].get(name), c) for (kind, name), c in self.components.items())
         return [(kind, part, c) for kind, part, c in every if part]
 
     def bench(self, file: str) -> Texts:
-        """Return all that Run or Test states: the bench, the sources at the axes of joints, and the outputs."""
+        """Return the expected texts of Run or Test: the bench, the sources at the axes of joints, and the outputs."""
         texts, joints, is_run = self.texts(file), self.reading.joints, file.endswith("Run.mo")
         named = any(joint.is_named for joint in joints.values() if joint.in_loop and not joint.leader)
         tolerance = "1e-8" if self.reading.loops else "1e-6"
@@ -76,12 +76,13 @@ class Classes:
         for kind, element, component in self.parts():
             expected = dict[str, str]()
             if kind == "sensor" and is_run:
-                for letter in models.OUTPUTS.get(element.type, ""):
+                _, letters = models.SENSORS[element.type]
+                for letter in letters:
                     text, unit = f"robot.{component}.{letter}", models.UNITS[letter]
                     expected |= pairs(models.OUTPUT, o=f"{component}_{letter}", value=text, unit=unit)
             elif kind == "joint" and element.type in MOVES and not element.leader:
                 flanges = [self.flange(component, side) for side in ("axis", "support")]
-                # loops leave few freedoms: urdfsync may choose which of the named joints it drives, or of all joints
+                # in a loop, urdfsync chooses the driven joints: among the named joints, or among all joints
                 is_free = flanges[0] in texts and (element.is_named or not named)
                 is_driven = bool(element.command) and (is_free or not element.in_loop)
                 expected, fixed = {flanges[0]: "nothing"}, f"robot.{component}.fixedStart"
@@ -94,7 +95,7 @@ class Classes:
         return every
 
     def generic(self) -> Texts:
-        """Return all that the bench of the generic robot states."""
+        """Return the expected texts of the bench of the generic robot."""
         is_fixed = self.options.base == "fixed"
         experiment = models.EXPERIMENT.replace("10", "10" if is_fixed else "1", 1)
         expected = pairs(models.GENERIC[self.options.base] + experiment, name=self.name, tolerance="1e-6")
@@ -116,7 +117,7 @@ class Classes:
         return {"robot": (0, expected)}
 
     def shapes(self, link: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
-        """Return which shapes the model of a link draws, and which of them touch the ground with which numbers."""
+        """Return the file of a link's model, its texts about shapes and contacts, and the expected texts."""
         options = self.options
         file, record = (f"Links/{_class(component)}{ending}.mo" for ending in ("", "Parameters"))
         if file not in self.read or record not in self.read:
@@ -140,7 +141,7 @@ class Classes:
         return file, texts, {f"link {link.name}": (link.line, expected)}
 
     def drawings(self) -> Iterable[tuple[str, dict[str, Value], Texts]]:
-        """Yield the file of each model in the library that draws shapes of this robot, and what it states."""
+        """Yield the file, the texts and the expected texts of each library model that draws shapes of this robot."""
         every = (stated for link in self.reading.links.values() for stated in link.values.items())
         kinds = {stated.value.capitalize() for path, stated in every if path.endswith(".shape")}
         for kind in sorted(kinds if self.options.visualizer == "standard" else ()):
@@ -152,7 +153,7 @@ class Classes:
             yield file, self.statements(file), {f"{LIBRARY}.Visualizers.{kind}": (0, expected)}
 
     def laws(self, joint: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
-        """Return the law of friction and the spring in the model of a joint, and the file with those that it has."""
+        """Return the file of a joint's model, its texts about friction and spring, and the expected texts."""
         file, expected = f"Joints/{_class(component)}.mo", dict[str, str]()
         if file not in self.read:
             return file, {}, {}
@@ -161,7 +162,7 @@ class Classes:
             suffix = {"smooth": "", "stiction": "Stiction", "lugre": "LuGre"}[joint.friction]
             expected |= pairs(models.FRICTION, law=f"{words['kind']}{suffix}", **words)
         run = self.texts(f"{self.name}Run.mo") if f"{self.name}Run.mo" in self.read else {}
-        # loops leave few freedoms: a joint without a drive has no spring
+        # in a loop, few joints have a drive; a joint without a drive has no spring
         if joint.is_elastic and (not joint.in_loop or self.flange(component, "axis") in run):
             expected |= pairs(models.SPRINGS[joint.is_saturated and joint.command != "effort"], **words)
         own = re.compile(r"(type of )?(FrictionLaw|friction|elasticity)\b")
@@ -169,7 +170,7 @@ class Classes:
         return file, texts, {f"joint {joint.name}": (joint.line, expected)}
 
     def closing(self, loop: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
-        """Return what closes a loop in its model, and the file."""
+        """Return the file of a loop's model, its texts about the constraint, and the expected texts."""
         file = f"Joints/{_class(component)}.mo"
         if file not in self.read:
             return file, {}, {}
@@ -178,12 +179,12 @@ class Classes:
         return file, texts, {f"loop {loop.name}": (loop.line, pairs(models.CONSTRAINT))}
 
     def texts(self, file: str) -> dict[str, Value]:
-        """Return all that a class states, by paths: see `models`. A vector of inputs has a path for each item."""
+        """Return all texts of a class by paths: see `models`. A vector of inputs has a path for each item."""
         ends = {end: Value(end, "", *others[0]) for end, others in _ends(self.read[file].values).items()}
         return ends | self.statements(file)
 
     def statements(self, file: str) -> dict[str, Value]:
-        """Return the same without connections."""
+        """Return all texts of a class but connections, by paths."""
         read, texts = self.read[file], dict[str, Value]()
         for each in (*read.values, *read.types):
             path = each.path if each.type or each.path == "extends" else f"type of {each.path}"
@@ -203,7 +204,7 @@ class Classes:
     def _source(
         self, joint: Element, component: str, flanges: Sequence[str], texts: Mapping[str, Value], *, is_run: bool
     ) -> dict[str, str]:
-        """Return the texts by which Run or Test moves a joint, by ends of connections, outputs and modifiers."""
+        """Return the expected texts of a joint's source in Run or Test."""
         own, drive, command = f"robot.{component}", f"{component}Drive", joint.command
         words = WORDS[joint.type in TURNS] | {"axis": flanges[0], "support": flanges[1], "own": own, "d": drive}
         words |= {"kind": _kind(joint), "joint": component}
@@ -226,13 +227,13 @@ class Classes:
 
 
 class RobotModel:
-    """All that the robot model states: its parts with their modifiers in `texts`, and its connections in `edges`."""
+    """The expected robot model: the parts with modifiers in `texts`, and the connections in `edges`."""
 
     def __init__(self, own: Classes, given: Mapping[str, Value]) -> None:
         self.own, self.given, self.edges = own, given, list[Edge]()
         self.part, self.element = Element("", 0), "robot"
         self.expected = self._whole()
-        """The texts of `part`, which is being described."""
+        """The expected texts of `part`."""
         self.texts: dict[str, tuple[int, Mapping[str, str]]] = {"robot": (0, self.expected)}
         for kind, part, c in own.parts():
             self.part, self.element, self.expected = part, f"{kind} {part.name}", {}
@@ -258,7 +259,7 @@ class RobotModel:
         self.edges.append(Edge(self.element, self.part.line, end, other))
 
     def _show(self, ending: str, end: str, component: str) -> None:
-        """Connect an end with a connector of the robot that is named after a component."""
+        """Connect an end with the connector of the robot that is named after a component."""
         others = (other for other, _ in self.own.ends[end])
         name = next((o for o in others if re.fullmatch(rf"{component}{ending}(_\d+)?", o)), component + ending)
         self._connect(end, name)
@@ -270,7 +271,7 @@ class RobotModel:
         own = self.own
         masses = [f"{c}.m" for (kind, _), c in own.components.items() if kind == "link"]
         given = re.sub(r"\s", "", self.given["m"].text).split("+") if "m" in self.given else []
-        masses = given if sorted(given) == sorted(masses) else masses  # the order of a sum has no meaning
+        masses = given if sorted(given) == sorted(masses) else masses  # the order of a sum has no effect
         base = "Stationary" if own.options.base == "fixed" else "Mobile"
         expected = pairs(models.ROBOT, Base=base, masses="+".join(masses))
         if f"{own.name}Start.mo" in own.read:
@@ -282,7 +283,7 @@ class RobotModel:
         return expected
 
     def _sensor(self, c: str) -> None:
-        kind = models.SENSORS.get(self.part.type, "Imu")
+        kind, _ = models.SENSORS[self.part.type]
         self._state(models.SENSOR, c=c, kind=kind)
         if kind in ("Camera", "Lidar"):
             self._show("Frame", f"{c}.frame_b", c)
@@ -296,7 +297,7 @@ class RobotModel:
             self.expected[f"{c}.{letter}_joint"] = f"{'-' * is_reversed}{vector}"
 
     def _axis(self, c: str) -> None:
-        """State the modifiers of a joint with one axis, its coupling and its gear; connect them."""
+        """State the modifiers, the coupling, the gear and the connections of a joint with one axis."""
         joint, own, joints = self.part, self.own, self.own.reading.joints
         words = WORDS[joint.type in TURNS] | {"c": c, "kind": _kind(joint)}
         followers = [
@@ -308,7 +309,7 @@ class RobotModel:
             self._show("Axis", f"{c}.axis", c)
             self._show("Support", f"{c}.support", c)
             fixed = self.given.get(f"{c}.fixedStart")
-            # in a loop, as many joints begin fixed as it leaves freedoms
+            # in a loop, `fixedStart` is true for one joint per degree of freedom
             is_guess = joint.in_loop and fixed and fixed.text == "false"
             self._state(models.AXIS, fixed="false" if is_guess else "fixedStart", **words)
             if c in own.begun:
@@ -337,7 +338,7 @@ class RobotModel:
             self._show("Motor", f"{c}.motor", c)
 
     def _follow(self, c: str, words: Mapping[str, str]) -> None:
-        """State the coupling of a joint that follows another one; a leader that never moves holds it."""
+        """State the coupling of a follower. A leader that never moves holds its follower."""
         coupling, leader = self._coupling(c), self.own.reading.joints.get(self.part.leader)
         start, kind = f"{c}.parameters.mimic.offset", f"Held{words['kind']}"
         self._connect(f"{coupling}.follower", f"{c}.axis")
@@ -353,14 +354,14 @@ class RobotModel:
         return self._beside(f"{follower}.parameters.mimic", "UrdfSync.Couplings.", f"{follower}Mimic")
 
     def _beside(self, parameters: str, class_: str, name: str) -> str:
-        """Return the component of a class that has these parameters; a name if there is none."""
+        """Return the component of a class with these parameters; `name` if the model has no such component."""
         given = (
             path for path, value in self.given.items() if value.text == parameters and value.type.startswith(class_)
         )
         return next(given, name).partition(".")[0]
 
     def _has_gear(self, joint: Element) -> bool:
-        """Return whether the robot model has a gear whose motor moves a joint and another one."""
+        """Return whether the robot model has a gear for a joint that shares its motor."""
         return bool(joint.shares) and (
             self.own.options.drives == "motor" or "transmission.rotorInertia" in joint.values
         )
@@ -371,7 +372,7 @@ def _kind(joint: Element) -> str:
 
 
 def groups(edges: Iterable[tuple[str, ...]]) -> dict[str, set[str]]:
-    """Return, for each end, all ends that connections join with it, directly or not."""
+    """Return for each end all ends that connections join with it, directly or indirectly."""
     groups = dict[str, set[str]]()
     for first, second in edges:
         merged = groups.get(first, {first}) | groups.get(second, {second})
@@ -384,7 +385,7 @@ def _class(component: str) -> str:
 
 
 def _ends(values: Sequence[Value]) -> defaultdict[str, list[tuple[str, int]]]:
-    """Return the ends to which each end is connected, with the lines of the connections."""
+    """Return for each end the connected ends, with the lines of the connections."""
     ends = defaultdict[str, list[tuple[str, int]]](list)
     for value in values:
         if value.path == "connect":

@@ -1,4 +1,4 @@
-"""Compares the numbers and names in the texts of a package with the second reading of its source."""
+"""Compares the texts of a package with the second reading of its source."""
 
 from __future__ import annotations
 
@@ -38,24 +38,21 @@ _NO_MASS = {
     **dict.fromkeys(("inertial.origin.xyz", "inertial.origin.rpy"), ZERO),
     **{f"inertial.{path}": (0.0,) for path in ("mass", *(f"inertia.{part}" for part in TENSOR))},
 }
-"""Values in the record of a link without mass."""
+"""Values in the record of a massless link."""
 _CLOSED = 1e-6
 """The greatest gap of a closed loop, in m."""
 
 
 def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> list[Numbers]:
-    """Compare all literals in the records of packages, and the names in the robot model, Run and Test.
-
-    Raises SourceError if the source can't be read again.
-    """
-    with np.errstate(all="ignore"):  # infinite numbers in the source, or in edits
+    """Compare records, robot model and benches of packages. Raises SourceError if the second reader fails."""
+    with np.errstate(all="ignore"):  # source or edits may have infinite numbers
         try:
             reading = read_again(sample.content, sample.options)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
             message = f"the second reader fails: {type(error).__name__}: {error}"
             raise SourceError.of("second-reader", message, sample.file) from None
         first = _Comparison(packages[0], reading, sample).numbers()
-        others = packages[1:]  # equal without edits: saves 0.1 s with 70 links
+        others = packages[1:]  # equal if there are no edits: saves 0.1 s with 70 links
         return [first, *(first if o == packages[0] else _Comparison(o, reading, sample).numbers() for o in others)]
 
 
@@ -69,7 +66,7 @@ class _Comparison:
         needed |= {path for path in texts if path.startswith("Links/") and path != "Links/package.mo"}
         needed |= {path for path in texts if path.startswith("Joints/") and path.endswith("Parameters.mo")}
         joints = reading.joints.values()
-        # the reference lacks all other laws: it compares the models of joints that have none
+        # Pinocchio compares joints with smooth friction and rigid drives, the second reading all others
         self.has_laws = any(joint.friction not in ("", "smooth") or joint.is_elastic for joint in joints)
         if self.has_laws or reading.loops:
             needed |= {path for path in texts if path.startswith("Joints/") and path != "Joints/package.mo"}
@@ -124,7 +121,7 @@ class _Comparison:
         return Numbers(self.right, self.total, tuple(self.differences), uncompared=tuple(uncompared))
 
     def _compare(self, file: str, element: str, values: Sequence[Value], expected: Mapping[str, Stated]) -> None:
-        """Count values and compare them. An unexpected value is not compared; a missing one is a difference."""
+        """Count values and compare each one. A missing value is a difference; an unexpected value is not compared."""
         given, line = {value.path for value in values}, values[0].line if values else 0
         for value in (*values, *(Value(path, "", "nothing", line) for path in expected if path not in given)):
             own, stated = _read(value.text), expected.get(value.path)
@@ -145,7 +142,7 @@ class _Comparison:
         self.differences.append(Difference(element, value.path, *words, *place))
 
     def _element(self, file: str, component: str, type_: str, values: Sequence[Value], *, whole: bool = False) -> None:
-        """Compare the record of a link, joint or loop, or its part of the `whole` robot's record."""
+        """Compare the record of a link, joint or loop, or its part in the record of the `whole` robot."""
         kind = {"Link": "link", "Loop": "loop"}.get(type_, "joint")
         named = next((value for value in values if value.path == "name"), Value("name", "", "", 0))
         name = str(literals(named.text))
@@ -164,7 +161,7 @@ class _Comparison:
         expected = dict[str, Stated]()
         for path, stated in element.values.items():
             owner = path.partition(".")[0]
-            # the package leaves out a mesh that can't be read
+            # the package leaves out unreadable meshes
             is_drawn = owner in owners or f"{owner}.uri" not in element.values
             if is_drawn and not path.startswith(elsewhere):
                 expected[path] = stated
@@ -173,7 +170,7 @@ class _Comparison:
             expected["type"] = Stated(f"{element.type.capitalize()}Joint", element.line)
         elif kind == "loop":
             expected |= _equations(element, {value.path: literals(value.text) for value in values})
-        elif not whole and element is self.massless_root:  # it has a body with mass 0, which Modelica's frames need
+        elif not whole and element is self.massless_root:  # Modelica's frames need a body: its mass is 0
             del expected["hasInertial"]
             expected |= {path: Stated(number, element.line) for path, number in _NO_MASS.items()}
         uris = {path: self._uris(stated.value) for path, stated in expected.items() if path.endswith(".uri")}
@@ -184,7 +181,7 @@ class _Comparison:
         self._compare(file, f"{kind} {name}", given, expected)
 
     def _uris(self, mesh: tuple[str, Sequence[float]]) -> Sequence[str]:
-        """Return the URIs of the parts of an imported mesh; its key if it was not imported."""
+        """Return the URIs of the parts of an imported mesh; for a mesh that is not imported, its key."""
         key = f"{mesh[0]} scale {' '.join(repr(float(number)) for number in mesh[1])}"
         keys, imports = [key, *(further_key(key, number) for number in range(1, 100))], self.sample.imports
         return [f"modelica://{self.sample.target.package}/{imports[k].target}" for k in keys if k in imports] or [key]
@@ -203,7 +200,7 @@ class _Comparison:
             self._compare(file, f"sensor {name}", values, sensor.values if sensor else {})
 
     def _whole(self, file: str) -> None:
-        """Compare the record of the whole robot: its elements, then the tables that count these."""
+        """Compare the record of the whole robot: first its elements, then its tables."""
         parts, types, owner = defaultdict[str, list[Value]](list), dict[str, str](), ""
         own, shapes, titles = list[Value](), dict[str, tuple[str, int]](), self.titles[file]
         for value in self.values[file]:
@@ -245,7 +242,7 @@ class _Comparison:
         return next((self.reading.joints[name] for name in names), None)
 
     def _positions(self) -> dict[str, float]:
-        """Return the joints' start positions: from the start record, else as near to zero as all limits allow."""
+        """Return the joints' start positions: from the start record, else closest to zero within all limits."""
         joints = {name: joint for name, joint in self.reading.joints.items() if joint.type in MOVES}
         begin = {name: joint.number("start") for name, joint in joints.items() if "start" in joint.values}
         for value in self.values.get(f"{self.name}Start.mo", ()):
@@ -272,7 +269,7 @@ class _Comparison:
         return {name: position(name) for name in joints}
 
     def _starts(self, file: str) -> None:
-        """Compare the start positions of joints: those in loops must close these, all others are as the source says."""
+        """Compare the start positions of joints. Joints in loops must close the loops."""
         values, gap = {value.path: value for value in self.values.get(file, ())}, 0.0
         model = self.classes.statements(f"{self.name}.mo") if f"{self.name}.mo" in self.read else {}
         placed = poses(self.reading, self._positions()) if self.reading.loops else {}
@@ -297,7 +294,7 @@ class _Comparison:
             self._compare(file, "robot", [value], {value.path: self._height(value)})
 
     def _height(self, given: Value) -> Stated:
-        """Return the height of the root at which the lowest collision shape begins to carry the robot."""
+        """Return the height of the root when the lowest collision shape begins to press on the ground."""
         lowest, placed = INF, poses(self.reading, self._positions())
         for (kind, name), component in self.components.items():
             link = self.reading.links.get(name)
@@ -332,7 +329,7 @@ class _Comparison:
     # The robot model, Run and Test
 
     def _model(self, file: str) -> None:
-        """Compare all that the robot model states: its parts, then its connections, whatever their order."""
+        """Compare the robot model: first its parts, then its connections in any order."""
         given = self.classes.statements(file)
         model = RobotModel(self.classes, given)
         self._complete(file, given, model.texts)
@@ -352,7 +349,7 @@ class _Comparison:
                 self._compare(file, "robot", [Value(end, "", other, line)], {end: Stated("nothing", 0)})
 
     def _complete(self, file: str, texts: Mapping[str, Value], every: Texts) -> None:
-        """Compare the texts of a class with those that are expected of each element; others are differences."""
+        """Compare the texts of a class with the expected texts of each element. Unexpected texts are differences."""
         known = {path for _, expected in every.values() for path in expected}
         for element, (line, expected) in every.items():
             given = [texts.get(path, Value(path, "", "nothing", 0)) for path in expected]
@@ -364,13 +361,13 @@ class _Comparison:
 
 
 def _read(text: str) -> Any:
-    """Return the value of a literal; an expression without its blanks."""
+    """Return the value of a literal, or an expression without blanks."""
     value = literals(text)
     return re.sub(r"\s", "", text) if value is None else value
 
 
 def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
-    """Return the expected equations of a loop: the given ones, if a joint of its kind can have them."""
+    """Return the expected equations of a loop: the given equations, if they are possible for the kind of the loop."""
     keys = ("translations", "rotations", "childRotations")
     numbers = [given.get(key) for key in keys]
     whole = [each if isinstance(each, tuple) and len(each) % 3 == 0 else (math.nan,) * 3 for each in numbers]
@@ -391,7 +388,7 @@ def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
 
 
 def _shown(value: Any) -> str:
-    """Return a value in words; a rotation as its angles."""
+    """Return a value in words. A rotation is shown by its angles."""
     if isinstance(value, str):
         return value
     if len(np.shape(value)) == 2:

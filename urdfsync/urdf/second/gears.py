@@ -1,4 +1,4 @@
-"""Reads the gears of a plain URDF once more, for the second reading and for Pinocchio."""
+"""Reads the gears of a plain URDF, for the second reading and for Pinocchio."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from urdfsync.urdf.second.plain import decimal
 
 
 class Gear(NamedTuple):
-    """The gear of a joint: its numbers, and those of another joint that the same motor turns."""
+    """The gear of a joint: its numbers, and another joint that its motor turns."""
 
     reduction: float = 1.0
     offset: float = 0.0
@@ -24,7 +24,7 @@ class Gear(NamedTuple):
 
 
 def read_gears(root: Any) -> dict[str, Gear]:
-    """Return the gears of a URDF, by joint. Tags and attributes are recognized by their endings."""
+    """Return the gears of a URDF by joint. Endings of names identify tags and attributes."""
     gears = dict[str, Gear]()
     turning = {
         joint.get("name")
@@ -51,7 +51,7 @@ def read_gears(root: Any) -> dict[str, Gear]:
 
 
 def _shared_gears(element: Any, kind: str) -> dict[str, Gear] | None:
-    """Return the gears of two joints by the documented formulas of their positions; None for another transmission."""
+    """Return the gears of two coupled joints by the documented formulas of positions; None for other transmissions."""
     roles = {"flexJoint": "joint1", "rollJoint": "joint2", "rightActuator": "actuator1", "leftActuator": "actuator2"}
     parts, count = dict[str, Any](), 0
     for ending in ("joint", "actuator"):
@@ -83,7 +83,7 @@ def _shared_gears(element: Any, kind: str) -> dict[str, Gear] | None:
 
 
 def _numbers(*elements: Any, with_attributes: bool = False) -> dict[str, float]:
-    """Return the numbers in some elements by name, without prefix and underscores; the first of each name counts."""
+    """Return the numbers in elements by name, without prefix and underscores. The first number of each name counts."""
     numbers = dict[str, float]()
     for element in elements:
         texts = [(part.tag, part.get("value", part.text or "")) for part in element]

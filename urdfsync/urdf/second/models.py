@@ -1,6 +1,6 @@
-"""What the models of a package state, as `path = text`, with words that the comparison fills in.
+"""Patterns of the expected texts in the models of a package, as `path = text`; the comparison fills in words.
 
-A path leads to a value, to the type of a component, to the base classes, or from one end of a connection to the other.
+A path names a value, the type of a component, the base classes, or one end of a connection.
 """
 
 from __future__ import annotations
@@ -11,12 +11,11 @@ WORDS = {
     True: dict(zip("qvf", ("phi", "w", "tau"), strict=True), Q='"rad"', V='"rad/s"', F='"N.m"', push="Torque"),
     False: dict(zip("qvf", ("s", "v", "f"), strict=True), Q='"m"', V='"m/s"', F='"N"', push="Force"),
 }
-"""Letters and units of position, speed and effort, and the source of an effort, by whether a joint turns."""
-OUTPUTS = {"imu": "aw", "accelerometer": "a", "gyroscope": "w", "force_torque": "ft"}
+"""For turning (True) and sliding joints: letters and units of position, speed and effort, and the effort's source."""
 UNITS = {"a": '"m/s2"', "w": '"rad/s"', "f": '"N"', "t": '"N.m"'}
 """Units of the outputs of sensors."""
 SURFACE = {"kp": "stiffness", "kd": "viscosity", "mu": "friction", "minDepth": "minDepth"}
-"""Parameters of contacts by the numbers of links."""
+"""Names of a contact's parameters, by the names of numbers in the link's record."""
 
 ROBOT = "extends = UrdfSync.Robots.Partial{Base}Robot; m = {masses}; type of m = finalparameterModelica.Units.SI.Mass"
 LINK = "type of {c} = replaceableLinks.{C}; {c}.animation = animation; {c}.showCollisions = showCollisions"
@@ -33,13 +32,16 @@ FOLLOWER = (
 COUPLING = "{m}.{q}_min = {c}.{q}_min; {m}.{q}_max = {c}.{q}_max; {m}.{v}_max = {c}.{v}_max"
 GEAR = "{g}.parameters = {c}.parameters.transmission; type of {g} = UrdfSync.Drives.SharedGear"
 SENSOR = "type of {c} = UrdfSync.Sensors.{kind}; {c}.parameters = sensorParameters.{c}"
-SENSORS = {"camera": "Camera", "lidar": "Lidar", "force_torque": "ForceTorque"}
-"""Classes of sensors by their kinds; all others are an Imu."""
+SENSORS = {
+    "imu": ("Imu", "aw"), "accelerometer": ("Imu", "a"), "gyroscope": ("Imu", "w"),
+    "force_torque": ("ForceTorque", "ft"), "camera": ("Camera", ""), "lidar": ("Lidar", ""),
+}  # fmt: skip
+"""Class of a sensor and letters of its outputs, by kind."""
 CONNECTORS = {
     "Frame": "MultiBody.Interfaces.Frame_b", "Axis": "{kind}.Interfaces.Flange_a",
     "Support": "{kind}.Interfaces.Flange_b", "Motor": "Rotational.Interfaces.Flange_a",
 }  # fmt: skip
-"""Types of the robot's connectors by the endings of their names."""
+"""Types of the robot's connectors by the ending of the name."""
 FRICTION = (
     "FrictionLaw = UrdfSync.Friction.{law}constrainedbyUrdfSync.Friction.Partial{kind}; "
     "type of FrictionLaw = replaceablemodel; type of friction = FrictionLaw; friction.parameters = parameters.dynamics"
@@ -54,7 +56,7 @@ SPRINGS = {
     True: SPRING + "UrdfSync.Drives.{kind}Spring; elasticity.parameters = parameters.transmission; "
     "elasticity.limits = parameters.limits",
 }  # fmt: skip
-"""The spring between drive and joint, by whether it saturates."""
+"""The spring between drive and joint; True is a saturating spring."""
 BENCH = {
     "fixed": "type of robot = replaceable{name}; robot.frame_a = world.frame_b; extends = UrdfSync.Robots.PartialBench",
     "floating": "type of robot = replaceable{name}; robot.frame_a = base.frame_b; stance = {name}Stance; "
@@ -105,7 +107,7 @@ CONSTRAINT = (
     "type of constraint = UrdfSync.Loops.Constraint; constraint.translations = parameters.translations; "
     "constraint.rotations = parameters.rotations; constraint.childRotations = parameters.childRotations"
 )
-"""What closes a loop."""
+"""The constraint in the model of a loop."""
 VISUALIZER = (
     "extends = UrdfSync.Visualizers.PartialShape; type of parameters = parameterUrdfSync.Records.{kind}; "
     "type of R = finalparameterReal; R = UrdfSync.Functions.rotation(parameters.origin.rpy)"
@@ -117,7 +119,7 @@ DRAWING = (
     "{s}.widthDirection = R[:,{across}]; {s}.length = {length}; {s}.width = {width}; {s}.height = {height}; "
     "{s}.color = parameters.color"
 )
-"""A shape of MSL: it begins at `r_shape`, and its length goes along `lengthDirection`."""
+"""A shape of the Modelica Standard Library begins at `r_shape` and extends along `lengthDirection`."""
 _BALL = {"form": '"sphere"', "along": 3, "across": 1} | dict.fromkeys(
     ("length", "width", "height"), "2*parameters.radius"
 )
@@ -133,11 +135,11 @@ DRAWINGS: Mapping[str, Mapping[str, Mapping[str, object]]] = {
     | {f"{end}End": _BALL | {"shift": _END.format(sign=sign)} for end, sign in (("lower", "-"), ("upper", "+"))},
     "Mesh": {"shape": _PLAIN | {"form": "parameters.uri", "shift": ""} | dict.fromkeys(_SIZE, "1")},
 }
-"""The shapes of MSL by which the library draws a shape of URDF."""
+"""Shapes of URDF, with the shapes of the Modelica Standard Library that draw them."""
 CONTACT = "type of {c} = UrdfSync.Contacts.{kind}; {c}.frame_a = frame_a; {c}.parameters = parameters.{part}"
 
 
 def pairs(text: str, **words: object) -> dict[str, str]:
-    """Return the texts by their paths."""
+    """Return the texts of a pattern by paths."""
     parts = (pair.partition(" = ") for pair in text.format(**words).split("; "))
     return {path: value for path, _, value in parts}

@@ -1,8 +1,8 @@
 """Writes a source as plain URDF: SDFormat's elements become attributes, and joints with several axes become chains.
 
-Joints have the numbers of the catalogue, but for gears, which have no attributes.
+Numbers of the catalogue become attributes of joints, except the numbers of gears.
 
-The second reader and Pinocchio read the result. Only the decoding of bytes is shared with the first reader.
+The second reader and Pinocchio read the result. The first reader shares only the decoding of bytes.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from urdfsync.urdf.parse import xml
 from urdfsync.urdf.second.catalogue import PATHS, read_motors
 
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
-"""Elements whose text has the meaning of an attribute."""
+"""Elements whose text SDFormat uses instead of an attribute."""
 _NAMES = "xyz lower upper effort velocity damping friction multiplier offset ixx ixy ixz iyy iyz izz size radius length"
-"""Elements that mean an attribute of the element around them."""
+"""Elements that SDFormat uses instead of an attribute of the parent element."""
 
 
 def plain_urdf(content: bytes, joints: Collection[str] | None = None) -> bytes:
-    """Return a source as plain URDF; the same bytes if it is plain. See `plain_root`."""
+    """Return a source as plain URDF. A plain URDF is returned unchanged. See `plain_root`."""
     plain = etree.tostring(plain_root(content, joints))
     return content if plain == etree.tostring(_parse(content)) else bytes(plain)
 
@@ -32,7 +32,7 @@ def plain_urdf(content: bytes, joints: Collection[str] | None = None) -> bytes:
 def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
     """Return the root of a source as plain URDF.
 
-    `joints` are the names in the first reading. A ball joint that is not among them becomes a chain of hinges.
+    `joints` are the names of joints in the first reading. A ball joint without such a name becomes a chain of hinges.
     """
     root = _parse(content)
     for joint in [part for part in root if part.tag in ("joint", "drake:joint")]:
@@ -75,21 +75,21 @@ def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
 
 
 def decimal(text: str) -> float:
-    """Return a number. Raises ValueError, also for texts that only Python accepts, such as `1_000`."""
+    """Return a number. Raises ValueError, even for texts that Python accepts but URDF does not, such as `1_000`."""
     if "_" in text or not text.isascii():
         raise ValueError(text)
     return float(text)
 
 
 def _parse(content: bytes) -> Any:
-    """Return the root, without comments and namespaces: tags and attributes keep their prefixes."""
+    """Return the root, without comments and namespaces. Tags and attributes keep their prefixes."""
     text = re.sub(r"""\sxmlns(:\w+)?\s*=\s*("[^"]*"|'[^']*')""", "", xml.parse(content).text)
     parser = etree.XMLParser(recover=True, resolve_entities=False, remove_comments=True, remove_pis=True)
     return etree.fromstring(text.encode(), parser)
 
 
 def _make_chain(root: Any, joint: Any, axes: str, *, has_damping: bool) -> None:
-    """Replace a joint by hinges about some axes, with massless links between them. They are measured, not driven."""
+    """Replace a joint by hinges about the given axes, with massless links between the hinges. No hinge is driven."""
     root.remove(joint)
     damping = joint.xpath("dynamics/@damping") if has_damping else ()
     for part in joint.xpath("axis | limit | dynamics"):

@@ -1,7 +1,7 @@
-"""Reads a URDF a second time, without any code of the first reader, to check the first reading.
+"""Reads a URDF a second time, without code of the first reader, to check the first reading.
 
-Values stand under the paths that they have in the records of a package: `limits.effort`. The first reader has accepted
-the source, so faults are not reported here: a value that can't be read counts as missing.
+Each value has its path in the records of a package, such as `limits.effort`. The first reader reports faults, so this
+reader does not: an unreadable value counts as missing.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from urdfsync.urdf.second.catalogue import PATHS, read_motors
 from urdfsync.urdf.second.gears import Gear, read_gears
 from urdfsync.urdf.second.plain import decimal, plain_root
 
-# yourdfpy raises these for valid files, since it expects optional attributes.
+# yourdfpy raises these for valid files without optional attributes.
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
 INF, ZERO = float("inf"), (0.0, 0.0, 0.0)
 TURNS = ("revolute", "continuous")
@@ -36,7 +36,7 @@ _LOSSES = {
     "planar": ("translation.damping", "translation.friction", "rotation.damping", "rotation.friction"),
     "ball": ("damping",),
 }
-"""Places of damping and friction in the records, by types of joints."""
+"""Paths of damping and friction in the records, by type of joint."""
 _SHAPES = {"box": "size", "cylinder": "radius length", "capsule": "radius length", "sphere": "radius", "mesh": ""}
 _WHEEL = re.compile("(left|right)((Front|Rear)?Joint|_joint)")
 _SENSORS = {
@@ -61,48 +61,48 @@ _CONTACT = {
     "kd kd surface/contact/ode/kd collision/surface/contact/ode/kd, "
     "minDepth minDepth surface/contact/ode/min_depth collision/surface/contact/ode/min_depth",
 }
-"""Fields, each with the places of its number: the first existing one counts."""
+"""Fields, each with the places of its number in the URDF. The first existing place counts."""
 
 
 class Stated(NamedTuple):
-    """A value of the source: numbers, a word or a rotation matrix, and the line of its element."""
+    """A value of the source (numbers, a word or a rotation matrix), and the line of its element."""
 
     value: Any
     line: int
 
 
 class Element(msgspec.Struct):
-    """A link, joint, loop or sensor with its values; the type of a loop or sensor is its kind."""
+    """A link, joint, loop or sensor with its values; `type` is also the kind of a loop or sensor."""
 
     name: str
     line: int
     type: str = ""
     parent: str = ""
-    """The link before a joint or loop; the link or joint of a sensor."""
+    """The parent link of a joint or loop; the link or joint of a sensor."""
     child: str = ""
     values: dict[str, Stated] = {}
     leader: str = ""
     command: str = ""
-    """The quantity that is the input of Run; empty for a joint that Run does not drive."""
+    """The quantity that Run commands; empty for a joint that Run does not drive."""
     is_named: bool = False
     """Whether the source or the configuration names the joint as driven."""
     is_measured: bool = False
     """Whether the source only measures the joint."""
     friction: str = ""
-    """The law of the joint's losses; empty without losses."""
+    """The friction law of the joint; empty without losses."""
     is_elastic: bool = False
     """Whether a spring is between drive and joint."""
     is_saturated: bool = False
-    """Whether the drive keeps the limits of the joint: its spring, or Run if the command is an effort."""
+    """Whether the drive keeps the limits of the joint."""
     in_loop: bool = False
     has_limit: bool = False
     shares: str = ""
-    """Another joint that the same motor turns."""
+    """Another joint that the joint's motor turns."""
     axes: tuple[Any, ...] = ()
-    """A loop's axes, or two flags of a force-torque sensor: it has the parent's axes; it measures parent to child."""
+    """The axes of a loop, or two flags of a force-torque sensor: axes of the parent, measures parent to child."""
 
     def put(self, path: str, value: Any, at: Any) -> None:
-        """State a value at the line of an XML element; a single number becomes a tuple of one."""
+        """Store a value with the line of an XML element. A single number becomes a tuple."""
         self.values[path] = Stated((value,) if isinstance(value, float) else value, getattr(at, "sourceline", 0))
 
     def number(self, path: str) -> float:
@@ -119,15 +119,16 @@ class Reading(msgspec.Struct):
     loops: dict[str, Element] = {}
     sensors: dict[str, Element] = {}
     unread: str = ""
-    """Why yourdfpy read nothing; empty if it did."""
+    """The reason why yourdfpy could not read the source; empty if it could."""
     contradictions: tuple[str, ...] = ()
     """Links and joints that only yourdfpy or only this module reads."""
 
 
 def read_again(content: bytes, options: Options, names: Collection[str] | None = None) -> Reading:
-    """Return the second reading of a source without errors. Raises ValueError or LookupError if it can't be read.
+    """Return the second reading of a source.
 
-    A ball joint becomes a chain of hinges if its name is not in `names`.
+    Raises ValueError or LookupError for an unreadable source. A ball joint whose name is not in `names` becomes a chain
+    of hinges.
     """
     root = plain_root(content, names)
     gears = read_gears(root)
@@ -161,7 +162,7 @@ def read_again(content: bytes, options: Options, names: Collection[str] | None =
 
 
 def rotation(rpy: Sequence[float]) -> Any:
-    """Return the matrix of fixed-axis roll, pitch and yaw angles; a given matrix is returned as it is."""
+    """Return the matrix of fixed-axis roll, pitch and yaw angles. A matrix is returned unchanged."""
     if len(np.shape(rpy)) == 2:
         return rpy
     (a, b, c), (s, t, u) = np.cos(rpy), np.sin(rpy)
@@ -198,7 +199,7 @@ def poses(reading: Reading, positions: Mapping[str, float]) -> dict[str, Any]:
 
 
 def same(ours: Any, theirs: Any) -> bool:
-    """Return whether two values agree: rotations as matrices, numbers to nine digits."""
+    """Return whether two values agree: numbers to nine digits, rotations by their matrices."""
     if isinstance(ours, str) or isinstance(theirs, str) or ours is None:
         return bool(ours == theirs)
     if {np.size(ours), np.size(theirs)} == {3, 9}:
@@ -222,9 +223,9 @@ def _numbers(text: str | None, count: int = 1) -> tuple[float, ...] | None:
 
 
 def _at(element: Any, places: str, count: int = 1, default: Any = None) -> Any:
-    """Return the numbers at the first existing place; the number itself if `count` is 1.
+    """Return the numbers at the first existing place; if `count` is 1, the number itself.
 
-    A place is a path, an attribute behind `@`, or both.
+    A place is a path, `@` with an attribute, or both.
     """
     for place in places.split():
         path, _, attribute = place.partition("@")
@@ -243,7 +244,7 @@ def _put_origin(element: Element, around: Any, version: tuple[int, ...] = (1, 0)
     place = around.find("origin")
     rpy, quaternion = _at(around, "origin@rpy", 3, ZERO), _at(around, "origin@quat_xyzw", 4)
     if version >= (1, 1) and quaternion:
-        unit = np.array(quaternion) / max(map(abs, quaternion))  # else the squares of large numbers overflow
+        unit = np.array(quaternion) / max(map(abs, quaternion))  # without this, the squares of large numbers overflow
         *axis, w = unit / np.linalg.norm(unit)
         rpy = np.eye(3) + 2 * (w * _cross(axis) + _cross(axis) @ _cross(axis))
     element.put(f"{path}.xyz", _at(around, "origin@xyz", 3, ZERO), around if place is None else place)
@@ -328,7 +329,7 @@ def _joints(root: Any, gears: Mapping[str, Gear], options: Options, version: tup
         joints.append(joint)
     has_drives = any(joint.is_named for joint in joints)
     turning = {joint.name for joint in joints if joint.type in TURNS and not joint.leader}
-    for joint in joints:  # a joint without a drive may be driven, too
+    for joint in joints:  # joints without a drive in the source may be driven, too
         is_free = has_drives and joint.type == "continuous" and not joint.has_limit
         is_passive = not joint.is_named and (joint.is_measured or is_free)
         chosen = options.driven
@@ -376,7 +377,7 @@ def _put_axis(joint: Element, element: Any, version: tuple[int, ...]) -> None:
 def _put_drive(
     joint: Element, element: Any, drives: Sequence[Mapping[str, Any]], gear: Gear | None, options: Options
 ) -> None:
-    """State gear, coupling, command and start of a joint: the first one of each counts."""
+    """State gear, coupling, command and start of a joint. The first statement of each counts."""
     first = dict[str, Any]()
     for mimic in element.iterchildren("mimic"):
         numbers = _at(element, "mimic@multiplier", 1, 1.0), _at(element, "mimic@offset", 1, 0.0)
@@ -406,7 +407,7 @@ def _put_drive(
 
 
 def _drives(root: Any) -> Iterator[dict[str, Any]]:
-    """Yield each statement of ros2_control, transmissions and plugins about a joint; the earlier ones count first."""
+    """Yield each statement of ros2_control, transmissions and plugins about a joint. Earlier statements come first."""
     for control in root.iterchildren("ros2_control"):
         for joint in control.iterchildren("joint"):
             names = [part.get("name", "").removesuffix("_pid") for part in joint.iterchildren("command_interface")]
@@ -454,7 +455,7 @@ def _transmission(element: Any) -> Iterator[dict[str, Any]]:
 
 
 def _sensors(root: Any, reading: Reading) -> Iterator[Element]:
-    """Yield the sensors of existing links and joints; of several with one name and place, only the first."""
+    """Yield the sensors of existing links and joints. Of sensors with one name and place, only the first counts."""
     above, placed = {joint.child: name for name, joint in reading.joints.items()}, dict[tuple[str, str], Any]()
     for element, name, kind, place in _find_sensors(root):
         is_wrench = kind == "force_torque"
@@ -485,7 +486,7 @@ def _sensors(root: Any, reading: Reading) -> Iterator[Element]:
 
 
 def _find_sensors(root: Any) -> Iterator[tuple[Any, str, str, str]]:
-    """Yield each sensor of a known kind with its name, its kind, and the name of its link or joint."""
+    """Yield each sensor of a known kind, with its name, its kind, and the name of its link or joint."""
     for around in root.xpath("sensor | link | joint | gazebo"):
         place = "" if around.tag == "sensor" else around.get("reference" if around.tag == "gazebo" else "name", "")
         for element in [around] if around.tag == "sensor" else around.findall("sensor"):
@@ -506,7 +507,7 @@ def _find_sensors(root: Any) -> Iterator[tuple[Any, str, str, str]]:
 
 
 def _loops(root: Any, reading: Reading, options: Options) -> Iterator[Element]:
-    """Yield the loops of the configuration, then those of the source that the configuration does not state."""
+    """Yield the loops of the configuration, then other loops of the source."""
     ends, known = {name: joint.child for name, joint in reading.joints.items()}, set[Any]()
     for option in options.loops:
         frames = [LoopFrame(frame) if isinstance(frame, str) else frame for frame in option.frames]
@@ -520,7 +521,7 @@ def _loops(root: Any, reading: Reading, options: Options) -> Iterator[Element]:
 
 
 def _loop(name: str, kind: str, element: Any, places: Sequence[Any], axis: Any, second: Any) -> Element:
-    """Return a loop between two frames; `places` are the link, position and angles of each."""
+    """Return a loop between two frames; `places` has link, position and angles of each frame."""
     loop = Element(name, getattr(element, "sourceline", 0), kind, places[0][0], places[1][0])
     loop.put("name", name, element)
     for path, (_, xyz, rpy) in zip(("origin", "childOrigin"), places, strict=True):
@@ -546,7 +547,7 @@ def _loops_in(root: Any, reading: Reading) -> Iterator[tuple[Any, ...]]:
                 place = end if own is None else own
                 places.append((end.get("link"), _at(place, "@xyz", 3, ZERO), _at(place, "@rpy", 3, ZERO)))
             (first, _, rpy), (last, xyz, _) = places
-            if element.xpath("child_origin[not(@rpy)]") and {first, last} <= placed.keys():  # the frames are parallel
+            if element.xpath("child_origin[not(@rpy)]") and {first, last} <= placed.keys():  # both frames are parallel
                 places[1] = last, xyz, placed[last][:3, :3].T @ placed[first][:3, :3] @ rotation(rpy)
         elif element.tag == "drake_ball_constraint":
             kind = "ball"
@@ -566,7 +567,7 @@ def _loops_in(root: Any, reading: Reading) -> Iterator[tuple[Any, ...]]:
 
 
 def _loops_by_name(reading: Reading) -> Iterator[tuple[Any, ...]]:
-    """Yield a ball joint for each pair of links that onshape-to-robot names as the ends of a loop."""
+    """Yield a ball joint for each pair of links with onshape-to-robot's names for a loop."""
     for name in reading.links:
         other = f"{name[:-1]}2"
         if re.fullmatch("closing_.+_1", name) and other in reading.links:
@@ -577,7 +578,7 @@ def _loops_by_name(reading: Reading) -> Iterator[tuple[Any, ...]]:
 
 
 def _ask_yourdfpy(reading: Reading, root: Any) -> None:
-    """Replace the values that yourdfpy reads differently by its own."""
+    """Replace values that yourdfpy reads differently by yourdfpy's values."""
     logger = logging.getLogger("yourdfpy.urdf")
     before, logger.disabled = logger.disabled, True
     try:
@@ -598,15 +599,15 @@ def _ask_yourdfpy(reading: Reading, root: Any) -> None:
             own = elements[their.name].values if their.name in elements else {}
             for path, (value, line) in own.items():
                 other = _of_yourdfpy(their, path)
-                # yourdfpy reads no quaternions; here they are matrices
+                # yourdfpy ignores quaternions; this reader makes matrices of them
                 if other is not None and not isinstance(value, np.ndarray) and not same(value, other):
                     own[path] = Stated(other, line)
 
 
 def _of_yourdfpy(their: Any, path: str) -> Any:
-    """Return yourdfpy's value of a link or joint at a path of the records; None if there is nothing to compare.
+    """Return yourdfpy's value of a link or joint at a path of the records; None if yourdfpy has no comparable value.
 
-    Angles are a matrix. yourdfpy's axes may have any length, and its continuous joints have limits: these give None.
+    Angles become a matrix. Axes of any length, and limits of continuous joints, give None.
     """
     if path in ("name", "axis") or (path in ("limits.lower", "limits.upper") and their.type == "continuous"):
         return None

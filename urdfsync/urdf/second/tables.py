@@ -1,4 +1,4 @@
-"""The tables of a whole robot's record, computed again from its elements in the order of the record."""
+"""Computes the tables of a whole robot's record again, from its elements in the order of the record."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FORMS: dict[str, list[tuple[str, int, str, list[str]]]] = {
     "Sphere": [('"sphere"', 3, "-{0}.radius", _BALL)],
     "Mesh": [("{0}.uri", 1, "0", ["1", "1", "1"])],
 }
-"""The parts of each drawn shape: kind, axis of the length, start and sizes."""
+"""The parts of each drawn shape: kind, axis of the length, start, sizes."""
 _FORMS["Capsule"] = [
     *_FORMS["Cylinder"],
     *(('"sphere"', 3, f"{sign}0.5*{{0}}.length-{{0}}.radius", _BALL) for sign in ("-", "")),
@@ -31,9 +31,9 @@ _FORMS["Capsule"] = [
 def expected_tables(
     elements: Sequence[tuple[Element, str]], shapes: Mapping[str, tuple[str, int]]
 ) -> Mapping[str, list[str]]:
-    """Return the items of each table, as texts without blanks, from elements with their components.
+    """Return the items of each table as texts without blanks; `elements` have their components.
 
-    `shapes` are the drawn shapes by component: the type of each, and the number of its link.
+    `shapes` has the type and the link's number of each drawn shape, by component.
     """
     links = [(element, c) for element, c in elements if not element.child]
     joints = [(element, c) for element, c in elements if element.child]
