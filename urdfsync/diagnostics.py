@@ -21,7 +21,7 @@ IGNORABLE = frozenset(
 
 
 _LONGEST = 1000
-"""The most characters of a message, a hint or a detail: a name in the text may have any length."""
+"""The greatest number of characters of a message, a hint or a detail: a name in the text may have any length."""
 
 
 def cut(text: str, longest: int) -> str:

@@ -19,7 +19,7 @@ Stat = tuple[int, int, int, int, int, int]
 YOUNG = 2_000_000_000
 """Nanoseconds after a change during which a file counts as young: its content is compared, not only its stat values."""
 MAX_FILE = 100_000_000
-"""The most bytes of a readable file. A larger file is no source, mesh or output: it may be an attack on the memory."""
+"""The size limit of a readable file, in bytes. A larger file is no source, mesh or output, but perhaps an attack."""
 _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 """Errors of the system for a path without a file; pathlib has the same list."""
 _NONBLOCK = getattr(os, "O_NONBLOCK", 0)

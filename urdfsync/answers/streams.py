@@ -24,7 +24,7 @@ class Stream:
     """A text stream that drops texts that it can't write; `error` is the first failure, None without one."""
 
     def __init__(self, inner: TextIO, name: str = OUTPUT, transcript: Transcript | None = None) -> None:
-        """`transcript` gets all written texts, dropped ones included."""
+        """`transcript` gets every text passed to `write`, also texts that the stream drops."""
         self._inner, self._name, self._transcript = inner, name, transcript
         self.error: OSError | None = None
         if hasattr(inner, "reconfigure"):

@@ -155,7 +155,7 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
 def _sample(package: RobotPackage) -> Sample:
     robot, generation = package.robot, package.generation
     content, imports = package.inputs.source.content, generation.now.imports or {}
-    return Sample(content, shown(robot.source), robot.target, robot.options, imports)
+    return Sample(content, shown(robot.source), robot.target, robot.options, imports, package.on_disk)
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
@@ -242,9 +242,8 @@ def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
     for compilation in compilations:
         for finding in compilation.diagnostics:
             if place(finding) not in shared:
-                findings.append(
-                    msgspec.structs.replace(finding, message=f"{compilation.result.tool} alone: {finding.message}")
-                )
+                message = f"only {compilation.result.tool} reports: {finding.message}"
+                findings.append(msgspec.structs.replace(finding, message=message))
             elif compilation is compilations[0]:
                 findings.append(finding)
     return findings

@@ -46,7 +46,7 @@ WAITING = "waiting for"
 _LEAST_ROBOTS = 6
 """With fewer robots, importing urdfsync in each worker takes longer than it saves."""
 _ATTEMPTS = 5
-"""The most attempts to plan one robot: another build or a save may make a plan outdated."""
+"""The greatest number of attempts to plan one robot: another build or a save may make a plan outdated."""
 
 
 def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:

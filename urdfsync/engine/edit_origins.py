@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from urdfsync.git.revisions import Revision
 
 _MOST = 50
-"""The most branches that are searched, and the most commits that were checked out last."""
+"""The greatest number of branches that are searched, and the most commits that were checked out last."""
 _BACK = 10
-"""The most commits that are searched, counted back from HEAD."""
+"""The greatest number of commits that are searched, counted back from HEAD."""
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
 

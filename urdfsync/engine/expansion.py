@@ -65,7 +65,7 @@ class SourceFiles:
             for package, folder in packages.items():
                 if file.is_relative_to(folder):
                     return f"{_PACKAGE}{package}/{file.relative_to(folder).as_posix()}"
-        # absolute if the top folder differs: no relative path leads to another drive
+        # an absolute path if file and root are on different drives: no relative path leads there
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:

@@ -1,7 +1,7 @@
 """Findings of a build: removed names and connectors, moved or outdated packages, names that mean other parts now.
 
-An export may give a name to another part. A user's file with this name still works, but with the other part. So each
-build warns until the user saves the file. This machine's notes list the files with such names.
+After an export, a known name may stand for another part. A user's file with this name still works, but with the other
+part. So each build warns until the user saves the file. This machine's notes list the files with such names.
 """
 
 from __future__ import annotations
@@ -46,11 +46,11 @@ if TYPE_CHECKING:
 CONNECTORS = "connector-changed"
 """Code of the notes on changed connectors."""
 _FEW = 3
-"""The most files that a message names; it counts further files."""
+"""The greatest number of files that a message names; it counts further files."""
 _LINES = 20
-"""The most lines that a message names for one fault; it counts further lines."""
+"""The greatest number of lines that a message names for one fault; it counts further lines."""
 _NEW = 6
-"""The most new connectors that a message names; it counts further connectors."""
+"""The greatest number of new connectors that a message names; it counts further connectors."""
 _MAYBE = "?"
 """Stands for the new name of a part if the old name may still mean this part."""
 

@@ -132,7 +132,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
     """Yield robots with a record but no configuration, and the key of their folder; None for an unreadable record."""
-    # compare files, not names: a file system that ignores case has one record for `arm` and `Arm`
+    # a robot counts if its record file exists: if the disk ignores case, `arm` and `Arm` share one
     configured = {robot.name.casefold() for robot in config.robots if file_type(store.path(robot.name), follow=False)}
     for name in store.names():
         if name.casefold() not in configured:

@@ -21,7 +21,7 @@ from urdfsync.processes import machine
 from urdfsync.processes.workers import Workers, workers
 
 _AHEAD = 3
-"""The most plans per worker, unfinished or not yet used: each plan holds the texts of a robot."""
+"""The greatest number of plans per worker, unfinished or not yet used: each plan holds the texts of a robot."""
 _CLUSTER_WORKERS = 16
 """Assumed number of a cluster's workers, unless `--jobs` gives it."""
 _PAUSE = 0.1

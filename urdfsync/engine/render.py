@@ -59,11 +59,11 @@ _FILTERS = (
 """The filters; each has the name of its function."""
 
 MAX_MEMORY = 2_000_000_000
-"""The most bytes of memory for rendering one text."""
+"""The greatest number of bytes of memory for rendering one text."""
 MAX_SECONDS = 60.0
-"""The most seconds for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
+"""The greatest number of seconds for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
 MAX_OUTPUT = 200_000_000
-"""The most characters of one text."""
+"""The greatest number of characters of one text."""
 _MARK = re.compile(r"\0([^\0]*)\0([0-9]*)\0")
 """A template's file and line, in front of their text; no text of a model contains NUL."""
 _BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")

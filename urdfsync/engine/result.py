@@ -19,7 +19,7 @@ from urdfsync.files import shown
 from urdfsync.spelling import counted
 
 _NAMED = 3
-"""The most contradictions that a sentence about a file names."""
+"""The greatest number of contradictions that a sentence about a file names."""
 
 
 class Exit(enum.IntEnum):

@@ -100,7 +100,7 @@ def _below(top: Path) -> Iterator[tuple[str, Path]]:
         path = Path(current)
         note_names(path, (*folders, *files))
         for mark in _MARKS.intersection(folders):
-            file_type(path / mark)  # a link may lead to a file later: record its type
+            file_type(path / mark)  # a link to a folder may lead to a file later: record that it is a folder
         if _IGNORED.intersection(files):
             folders.clear()
         elif "package.xml" in files:

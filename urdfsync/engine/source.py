@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from urdfsync.git.revisions import Revision
 
 MAX_TEMPLATE = 10_000_000
-"""The most bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
+"""The greatest number of bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
 
 _COMMENT = re.compile(rb"<!--.*?(?:-->|\Z)", re.DOTALL)
 _XACRO = re.compile(rb"<xacro:(?:macro|if|unless|insert_block|call|element|attribute)\b|\$\{")
@@ -266,7 +266,7 @@ def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path |
 
 
 def _with_lines(source: Source, text: bytes, lines: Sequence[tuple[int, int]], path: Path | None) -> Source:
-    """Return a source with another text; `lines` of this text come from the file at `path`."""
+    """Return a source with another text. `lines` pairs lines of the text with their lines in the file at `path`."""
     if not lines or path is None:
         return source
     own = source.places or [(line, source.name, line) for line in range(1, lines[0][0])]

@@ -15,9 +15,9 @@ from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_th
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
 """Files that mark a folder as another project, or as a virtual environment of Python."""
 _MOST = 20_000
-"""The most folders to search, in about a second: a stranger's configuration may name the whole disk."""
+"""The greatest number of folders to search, in about a second: a stranger's configuration may name the whole disk."""
 _MOST_KEPT = 50_000_000
-"""The most bytes of files in memory; further files are read again each time."""
+"""The greatest number of bytes of files in memory; further files are read again each time."""
 
 
 class _Files(Mapping[Path, bytes]):

@@ -41,7 +41,7 @@ _GRACE = 2
 """Seconds of CPU time beyond the limit, for native code."""
 _PLACE = "place"
 _LONGEST = 500
-"""The most characters of a message: a quoted expression may have any length."""
+"""The greatest number of characters of a message: a quoted expression may have any length."""
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
 """Beginnings of lines in which xacro states its place."""
 

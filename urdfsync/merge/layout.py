@@ -25,9 +25,9 @@ _DIAGRAM, _ICON = frozenset({"transformation", "Line", "Diagram"}), frozenset({"
 _STEP = 20.0
 """Step between candidate places."""
 _REACH = 40
-"""The most steps from the wanted place to a candidate."""
+"""The greatest number of steps from the wanted place to a candidate."""
 _MOST_COMPARISONS = 1_000_000
-"""The most comparisons of two boxes, in about a second. Further new things may overlap other things."""
+"""The greatest number of comparisons of two boxes, in about a second. Further new things may overlap other things."""
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 _PLACEMENTS = {
     place: re.compile(rf"\b{place}\s*\(((?:[^()]|\([^()]*\))*)\)") for place in ("transformation", "iconTransformation")

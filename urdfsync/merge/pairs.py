@@ -16,7 +16,7 @@ from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, is_equation, key_by_w
 _ALIKE = 0.5
 """The least share of common words in an equation and its new version."""
 _MOST_COMPARISONS = 400_000
-"""The most pairs of equations to compare, in about a second."""
+"""The greatest number of pairs of equations to compare, in about a second."""
 
 
 class TooManyPairsError(Exception):

@@ -6,7 +6,7 @@ from urdfsync.merge.lines import Contradiction
 from urdfsync.spelling import same_count
 
 _LONGEST = 60
-"""The most characters of a text that a sentence quotes."""
+"""The greatest number of characters of a text that a sentence quotes."""
 _SILENT = frozenset("body value expression definition import components".split())
 """Parts that sentences do not name, since they contain things with names."""
 _ROLES = {

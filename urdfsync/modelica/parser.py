@@ -23,7 +23,7 @@ _ARRAY = rf"\{{\s*+{_NUMBER}(?:,\s*+{_NUMBER})*+\}}\s*+"
 _NUMBERS = re.compile(rf"{_ARRAY}|\{{\s*+{_ARRAY}(?:,\s*+{_ARRAY})*+\}}")
 """An array of numbers, or of arrays of numbers."""
 _LONGEST = 60
-"""The most characters of a quote."""
+"""The greatest number of characters of a quote."""
 
 SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
 _BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *SECTIONS})

@@ -25,7 +25,7 @@ _SEEN_BY_OTHERS = re.compile(r"\b(?:redeclare|uses)\b")
 
 
 _LONGEST = 1_000_000
-"""The most characters of a text to read: more characters would take longer than 3 s."""
+"""The greatest number of characters of a text to read: more characters would take longer than 3 s."""
 TOO_LONG = StoredText([Fault(f"has more than {_LONGEST:,} characters of yours", 1)])
 """Stands for a parsed text with more characters."""
 

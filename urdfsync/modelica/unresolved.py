@@ -15,7 +15,7 @@ _RATHER_ALIKE, _ALIKE = 0.6, 0.75
 """The least likeness (see `difflib`) of a misspelled name; the second value is for names that a library may have."""
 
 _CALLED = frozenset({"function", "operator function", "record"})
-"""Kinds of classes whose elements are their arguments."""
+"""Kinds of classes that are called with their elements as named arguments."""
 
 
 class UnresolvedKind(enum.Enum):

@@ -20,7 +20,7 @@ import msgspec
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _FEW = 32
-"""The most files that are synced one by one: for 400 files, syncing the whole machine is ten times faster."""
+"""The greatest number of files that are synced one by one. With 400 files, syncing the machine is ten times faster."""
 
 _HERE, _NOREPLACE, _EXCHANGE = -100, 1, 2
 """AT_FDCWD, RENAME_NOREPLACE and RENAME_EXCHANGE of Linux."""

@@ -137,7 +137,7 @@ class Store:
         return self.folder / "robots" / f"{robot}.expanded"
 
     def base_file(self, robot: str, digit: str) -> Path:
-        """The file of the robot's bases with this first digit of their hashes."""
+        """The file with those bases of the robot whose hashes begin with `digit`."""
         return self.folder / "bases" / robot / digit
 
     def base_files(self, robot: str) -> list[Path]:

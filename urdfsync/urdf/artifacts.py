@@ -25,7 +25,7 @@ _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the U
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
     """Return every file of the robot's package but imported meshes.
 
-    Raises KeyError or ValueError for an invalid robot, or for a mesh without facts.
+    Raises KeyError or ValueError if the robot is invalid, or if an imported mesh lacks its hull or bounds.
     """
     assembly = Assembly(robot, options, target)
     tree, package, folders = assembly.tree, target.package, dict[str, list[Artifact]]()

@@ -19,9 +19,9 @@ from urdfsync.spelling import counted
 from urdfsync.versions.comparison import Comparison
 
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
-"""The most lines of changes, files and effects without --verbose."""
+"""The greatest number of lines of changes, files and effects without --verbose."""
 _DOUBTS = 6
-"""The most elements that are named because they may be other parts."""
+"""The greatest number of elements that are named because they may be other parts."""
 _SILENT = frozenset({Reason.KEEP, Reason.FORGET})
 
 

@@ -53,7 +53,7 @@ _PASSIVE = re.compile("passive|unactuated|undriven", re.IGNORECASE)
 _MOTOR = re.compile("motor|actuat|servo|drive(?!n)", re.IGNORECASE)
 _MOST_LOOPS, _MOST_JOINTS = 200, 1000
 _MOST_WORK = 6 * 10**10
-"""The most multiplications to close all loops, which take ten seconds. For comparison: 110 four-bars take 10¹⁰."""
+"""The limit of multiplications to close all loops: they take ten seconds. 110 four-bars take 10¹⁰."""
 
 
 class _Problem(Mechanism):
@@ -90,8 +90,8 @@ class _Problem(Mechanism):
     def close(self, start: Array, rows: Rows, free: Array | None = None, *, bounded: bool = True) -> Array:
         """Return the pose near a start with the least residuals, by Levenberg's method; only the free joints move.
 
-        The `whole` equations depend on each other, and inexact numbers leave residuals. So joints do not move in
-        directions that hardly change these equations.
+        The `whole` equations depend on each other, and inexact numbers leave residuals. So a step leaves out
+        directions that hardly change the residuals of these equations.
         """
         least = _INDEPENDENT**2 if rows is self.whole else 1e-12  # chosen rows are independent
         q, caution, lower, upper = start, 1.0, self.lower, self.upper

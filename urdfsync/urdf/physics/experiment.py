@@ -27,14 +27,14 @@ from urdfsync.urdf.second.reading import read_again
 _ITERATED = 1e-7
 """The least tolerance for robots with loops: compilers close loops by iteration."""
 _MOST_AXES = 20
-"""The most axes in the free motion of a package's robot: for 30 axes, rumoca takes 6 GB."""
+"""The greatest number of axes in the free motion of a package's robot: for 30 axes, rumoca takes 6 GB."""
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     """Return the comparison, see `urdfsync.checks.experiment.Checks`.
 
-    Moving links without a mass get inertias. Raises SourceError for an error in the source, without Pinocchio, or if
-    Pinocchio can't read the source.
+    Moving links without a mass get inertias. Raises SourceError if the source has an error, or if
+    Pinocchio is missing or can't read the source.
     """
     file, options = sample.file, sample.options
     reading = read_robot(sample.content, file, options)
@@ -126,7 +126,11 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     rows = reference.coordinates()
     for k, joint in enumerate(subject.axes, 1):
         unit, row = "m/s²" if MOTION_KINDS.get(joint.type) == "translational" else "rad/s²", rows[joint.name]
-        read = tuple(f"gain{k}[{i}]" for i in (1, 2, 3)) if joint.type == "ball" else (names.accelerations[joint.name],)
+        read = (
+            tuple(f"gain{k}[{i}]" for i in (1, 2, 3))
+            if joint.type == "ball"
+            else (names.accelerations.get(joint.name, f"gain{k}"),)
+        )
         what = Quantity.ACCELERATION, f"joint {joint.name}", unit, read, time, Part.FREE_MOTION
         pairs.append((Compared(*what, least_tolerance=doubt), [gains[row : row + len(read)].tolist()]))
     if is_free:

@@ -46,8 +46,8 @@ class Subject:
     def __init__(self, sample: Sample, robot: Robot) -> None:
         assembly = Assembly(robot, sample.options, sample.target)
         self.tree, self.closed, self.connectors = assembly.tree, assembly.closed, assembly.connectors
-        self.target, self.options, self.content = sample.target, assembly.options, sample.content
-        tree = self.tree
+        self.target, self.options = sample.target, assembly.options
+        self.content, self.texts, tree = sample.content, sample.texts, self.tree
         driven = (joint for joint in motion.driven_axes(tree) if joint.name not in self.closed.dependent)
         self.balls = tuple(joint for joint in tree.joints if joint.type == "ball")
         self.axes = (*driven, *self.balls)
