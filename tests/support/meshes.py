@@ -111,7 +111,7 @@ HOSTILE: dict[str, tuple[str | bytes | Callable[[Path], str | bytes | None], str
     "triangles.stl": (lambda _: bytes(80) + struct.pack("<I", 1_500_000) + bytes(75_000_000), f"{LIMITS}|{TRIANGLES}"),
     "sparse.stl": (_sparse, "more than 100,000,000 bytes"),
     "sparse.dae": (_sparse, "more than 100,000,000 bytes"),
-    "pipe.obj": (os.mkfifo, "no regular file"),
+    "pipe.obj": (os.mkfifo, "not a regular file"),
 }
 """By name: the content, or a function that makes content or file (large contents are not kept); the finding."""
 
