@@ -67,7 +67,7 @@ def test_a_heavy_base_hides_no_lost_damping() -> None:
 
 
 def test_a_floating_base_is_weighed_on_the_bench() -> None:
-    _, free, _ = experiment(ARM, base="floating").trials
+    _, free = experiment(ELBOW, base="floating").trials
     assert "weight" in {name for each in free.compared if each.part is Part.BENCHES for name in each.values}
 
 
