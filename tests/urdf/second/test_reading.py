@@ -47,7 +47,11 @@ COUPLED = robot(
     "<gazebo><plugin><joint>j</joint><mimicJoint>k</mimicJoint><multiplier>-2</multiplier></plugin></gazebo>",
 )
 DIALECTS = {
-    **{"plain": URDF, "SDF": TEXTS, "moving": MOVING, "a quaternion": QUATERNION, "unknown axes": ODD_AXES},
+    "plain": URDF,
+    "SDF": TEXTS,
+    "moving": MOVING,
+    "a quaternion": QUATERNION,
+    "unknown axes": ODD_AXES,
     "a coupling of Gazebo": COUPLED,
 }
 
