@@ -21,7 +21,7 @@ from support.urdfs import joint, limit, link, robot
 
 from urdfsync import config
 from urdfsync.domain import Import
-from urdfsync.engine.actions import FileStatus
+from urdfsync.engine.actions import FileStatus, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
@@ -252,6 +252,22 @@ def test_nothing_wrong_is_in_step_and_nothing_is_lost(
     for path in ("Joints/Elbow.mo", "Links/UpperParameters.mo", "Links/Tool.mo", "Links/Mine.mo", "Resources/mine.csv"):
         assert before[path] in (after.get(path), *after.values()) or before[path] in aside, (done, path)
     assert contents(LEG) == contents(tmp_path / "honest" / LEG)
+
+
+def test_a_recorded_exchange_of_names_moves_no_edit(
+    project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The records on disk are not those of the recorded model: `upper` is still the former `upper`."""
+    monkeypatch.chdir(shutil.copytree(project, tmp_path / "forged"))
+    shutil.rmtree(".urdfsync/notes")
+    record, _ = statefile.loads(STATE.read_text(), "arm.state")
+    assert record is not None
+    text = msgspec.json.encode(record.snapshot).replace(b'"upper"', b'"-"').replace(b'"fore"', b'"upper"')
+    model = msgspec.json.decode(text.replace(b'"-"', b'"fore"'))
+    STATE.write_text(statefile.dumps(msgspec.structs.replace(record, snapshot=model)))
+    actions = {action.path: action.reason for action in build_all(Path.cwd())["arm"].actions}
+    assert actions[f"{ARM.as_posix()}/Links/UpperParameters.mo"] is Reason.ASKED
+    assert "mass = 7" in (ARM / "Links/UpperParameters.mo").read_text()
 
 
 def rebind(folder: Path) -> None:

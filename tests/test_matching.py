@@ -116,6 +116,7 @@ def test_rows_are_found_by_texts_and_by_zeros_and_ones(old: str, new: str, names
     ("A 1, B 0", "A 0, B 1", "AB"),
     ("A 1 pump, B 0 pump", "A 0 pump, B 1 pump", "AB"),
     ("A 600, B 600, C 7", "B 600, C 600, D 7", "B"),
+    ("A 6, B 6", "C 6, A 5", "A"),
     ("A 1 foo, B 1 bar, C 1 baz", "A 1 foo, B 1 baz", "B"),
     ("A 1 foo, B 1 bar, C 1 baz", "B 2 foo, C 3 bar, D 4 baz", "BC"),
 ])  # fmt: skip

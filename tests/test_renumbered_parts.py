@@ -278,11 +278,25 @@ def test_an_edit_moves_into_a_file_that_is_edited_too(folder: Path, execute: Exe
     assert "Real mine" not in Path(LINK.format(1)).read_text()
 
 
-def test_an_answer_names_a_part_that_exists(folder: Path, execute: Execute) -> None:
+def test_an_edit_that_contradicts_the_one_there_does_not_move(folder: Path, execute: Execute) -> None:
     Path("urdfsync.toml").write_text(CONFIGURATION)
     unclear(execute)
-    words = execute("resolve", LINK.format(1), "--moved", "lnk_2", code=Exit.ERROR).words
-    assert f"{LINK.format(1)}: error: the source has no link `lnk_2`; did you mean `link_2`? [wrong-rename]" in words
+    edit(LINK.format(3), "\nequation", MINE.replace("1", "2"))
+    execute("build", code=Exit.CONFLICT)
+    words = execute("resolve", LINK.format(1), "--moved", "link_3", code=Exit.ERROR).words
+    assert "your edit contradicts this file; move the edit by hand, then use --take" in words
+    assert "Real mine = 2;" in Path(LINK.format(3)).read_text()
+
+
+@pytest.mark.parametrize(("name", "message"), [
+    ("lnk_2", "the source has no link `lnk_2`; did you mean `link_2`? [wrong-rename]"),
+    ("link_1", "this file belongs to link `link_1` already; name the part that the edit belongs to: --moved NAME"),
+])  # fmt: skip
+def test_an_answer_names_another_part_that_exists(folder: Path, execute: Execute, name: str, message: str) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    unclear(execute)
+    words = execute("resolve", LINK.format(1), "--moved", name, code=Exit.ERROR).words
+    assert f"{LINK.format(1)}: error: {message}" in words
     assert "Real mine" in Path(LINK.format(1)).read_text()
 
 
@@ -346,6 +360,8 @@ def test_a_class_made_a_folder_is_asked_about(edited: Path, execute: Execute) ->
     file.rename(file.with_suffix("") / "package.mo")
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
     assert "`link_2` is another part now" in execute("build", code=Exit.CONFLICT).words
+    words = execute("resolve", LINK.format(2), "--moved", "link_3", code=Exit.ERROR).words
+    assert "one of the two classes is a folder; move the edit by hand, then use --keep" in words
 
 
 def test_a_model_that_extends_the_robot_uses_names_alone(edited: Path, execute: Execute) -> None:

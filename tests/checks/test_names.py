@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 from collections.abc import Sequence
@@ -76,6 +77,19 @@ def test_only_models_whose_names_mean_the_package_are_compiled_with_it(
     result = check()
     assert (result.diagnostics, result.gaps) == ((), ())
     assert [one.model for one in result.compiled if one.is_users] == ["Cell", "Line"]
+
+
+def test_a_library_of_the_users_models_is_not_loaded_for_the_package(
+    arm: Path, modelica_library: Path, compiler: Compiling, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """If it cannot be read, the package is compiled all the same."""
+    (tmp_path / "Rig").mkdir()
+    (tmp_path / "Rig/package.mo").write_text("package Rig\n  model Part\n  end Part;\nend Rig;\n")
+    monkeypatch.setenv("MODELICAPATH", f"{modelica_library}{os.pathsep}{tmp_path}")
+    write({"Cell.mo": "model Cell\n  Arm.Arm a;\n  Rig.Part p;\nend Cell;\n"})
+    assert not check().diagnostics
+    loaded = {model: "Rig" in " ".join(roots) for model, roots in compiler.roots_of.items()}
+    assert {model for model, has_rig in loaded.items() if has_rig} == {"Cell"}
 
 
 def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, without_library: None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import errno
 from pathlib import Path
 
@@ -31,12 +32,13 @@ def test_a_robot_joins(project: Path, execute: Execute) -> None:
     assert (project / "modelica/Ladder2/package.mo").is_file()
 
 
-def test_line_ends_stay(project: Path, execute: Execute) -> None:
+def test_line_ends_and_a_byte_order_mark_stay(project: Path, execute: Execute) -> None:
     file = project / "urdfsync.toml"
-    file.write_bytes(file.read_bytes().replace(b"\n", b"\r\n"))
+    file.write_bytes(codecs.BOM_UTF8 + file.read_bytes().replace(b"\n", b"\r\n"))
     (project / "other.json").write_text((project / "ladder.json").read_text())
     execute(*ADD, "other.json", "-q")
     assert file.read_bytes().count(b"\n") == file.read_bytes().count(b"\r\n")
+    assert file.read_bytes().startswith(codecs.BOM_UTF8)
 
 
 def test_what_does_not_fit_changes_nothing(project: Path, execute: Execute) -> None:

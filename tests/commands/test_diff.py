@@ -12,7 +12,7 @@ from support.commands import Execute
 from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.meshes import stl
-from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, rename, resistor
+from support.networks import LADDER, MANIFEST, RECORD, ROBOT, add_resistor, configure, edit, rename, resistor
 
 from urdfsync.engine.result import Exit
 
@@ -324,3 +324,10 @@ def test_a_removed_element_stands_before_numbers(project: Path, execute: Execute
             standing = execute("status", code=1).lines
         built = execute("build").lines
     assert built[1:4] == standing[1:4] == [f"  {counts}", f"  {removed}: removed", "  R10: ohm 1 → 2 Ω (+100 %)"]
+
+
+def test_files_that_are_too_many_are_counted(project: Path, execute: Execute) -> None:
+    execute("build")
+    for number in range(20):
+        add_resistor(f"Shunt{number}")
+    assert execute("diff", code=Exit.OUT_OF_STEP).lines[-1].endswith(" more files; --verbose shows them")

@@ -307,7 +307,9 @@ def test_unmerged_files_are_an_error(repo: Repository, capsys: Capture) -> None:
 
 def test_without_a_working_tree(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(project.parent))
-    assert "error: git failed: not a git repository" in said(capsys, "check", code=2)[0]
+    line = said(capsys, "check", code=2)[0]
+    assert "error: git failed: not a git repository" in line
+    assert line.endswith("[git]")
 
 
 def test_a_further_working_tree_has_an_index_of_its_own(

@@ -14,6 +14,8 @@ from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
 from support.networks import configure
 
+import urdfsync
+
 NEEDS_SCRIPTS = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for omc is a script")
 
 
@@ -147,6 +149,9 @@ def test_a_configuration_that_chooses_openmodelica_needs_the_users_word(asked: P
     assert "use --trust" in said
     assert "[untrusted-command]" in execute("check", code=2).err
     assert "[untrusted-command]" in execute("simulate", code=2).err
+    assert [finding.code for finding in urdfsync.check()[0].diagnostics] == ["untrusted-command"]
+    with pytest.raises(urdfsync.UrdfsyncError, match="OpenModelica was not run"):
+        urdfsync.simulate()
     Path("urdfsync.toml").write_text(Path("urdfsync.toml").read_text().replace('"omc"', '"both"'))
     assert "[untrusted-command]" in execute("check", code=2).err
     assert not asked.exists()

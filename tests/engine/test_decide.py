@@ -34,6 +34,7 @@ from support.networks import (
     source,
 )
 from support.replay import contents
+from support.urdfs import joint, links, robot
 
 from urdfsync import cli
 from urdfsync.engine.actions import Choice, Reason
@@ -666,3 +667,16 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
     assert inner_kinds(resolved)["Elements/R3.mo"] is Reason.CREATE
     assert not (project / LADDER / "Elements/R2.mo").exists()
     assert run().in_step
+
+
+def test_a_conflict_about_a_number_holds_no_new_file_back(folder: Path) -> None:
+    (folder / "urdfsync.toml").write_text('[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n')
+    (folder / "bot.urdf").write_text(robot(*links(base=1.0, arm=2.0), joint("elbow", "continuous", "base", "arm")))
+    run()
+    edit("modelica/Bot/Links/ArmParameters.mo", "mass = 2", "mass = 2.5")
+    more = [*links(base=1.0, arm=3.0, hand=1.0), joint("elbow", "continuous", "base", "arm")]
+    (folder / "bot.urdf").write_text(robot(*more, joint("wrist", "continuous", "arm", "hand")))
+    result = run()
+    assert [action.path for action in result.actions if action.is_conflict] == ["modelica/Bot/Links/ArmParameters.mo"]
+    assert not any(action.is_waiting for action in result.actions)
+    assert Path("modelica/Bot/Links/Hand.mo").is_file()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 import time
 from pathlib import Path
@@ -36,6 +37,17 @@ def test_the_line_that_takes_too_long_is_told(folder: Path, monkeypatch: pytest.
     endless = value("[0 for i in range(10**15) if i == -1]")
     (folder / "more.xacro").write_text(f"{xacros.HEAD.format('more')}\n\n{endless}</robot>")
     assert problem(inputs).startswith("more.xacro:4: error: expanding it takes more than 0.5 s")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no such limits")
+def test_a_machine_that_has_all_files_does_not_use_the_recorded_source(
+    folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    xacros.write(folder)
+    execute("build")
+    shutil.rmtree(".urdfsync/notes")
+    monkeypatch.setattr(expansion, "WALL_SECONDS", 0.0)
+    assert "expanding it takes more than" in execute("build", "--check", code=2).err
 
 
 def test_what_it_prints_nothing_of_is_no_robot(folder: Path, execute: Execute) -> None:

@@ -88,6 +88,8 @@ def test_a_name_is_that_of_the_link_and_of_the_joint(built: Path, execute: Execu
 
 
 WRONG = {
+    ('left_hip = "left_hip"',): "6: error: robot `dog`: `left_hip` can't be renamed to `left_hip`: "
+    "both names are equal; correct it, or take it out",
     ('left_hip = "l_hop"',): "6: error: robot `dog`: `left_hip` can't be renamed to `l_hop`: "
     "the source has no `l_hop`; did you mean `l_hip`?",
     ('left_hop = "l_hip"',): "6: error: robot `dog`: `left_hop` can't be renamed to `l_hip`: "

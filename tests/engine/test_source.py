@@ -630,7 +630,9 @@ def test_a_command_is_run_only_with_the_users_word(
     commanded: Path, execute: Execute, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with unchanged(commanded):
-        assert "urdfsync.toml:3: error: robot `arm`: its `command` was not run" in execute("build", code=2).err
+        printed = execute("build", code=2).words
+        assert "urdfsync.toml:3: error: robot `arm`: its `command` was not run" in printed
+        assert "[untrusted-command]" in printed
         assert execute("status", code=1).lines[:2] == [
             "arm: not expanded, so its files were not compared",
             "  no expansion is recorded",

@@ -59,7 +59,8 @@ def test_six_joints_of_one_unit_share_a_column() -> None:
 def test_a_model_without_joints_has_its_series_in_one_panel() -> None:
     assert count_panels() == 1
     assert {"q", "w"} <= set(texts())
-    many = msgspec.structs.replace(result(), series={f"x{number}": (0.0,) for number in range(13)})
+    names = ["time", *(f"x{number}" for number in range(13))]
+    many = msgspec.structs.replace(result(), series=dict.fromkeys(names, (0.0,)))
     with pytest.raises(ConfigError, match="no joints, and 13 variables: a picture has at most 12; name some"):
         draw(many, "svg")
 

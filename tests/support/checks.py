@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -126,6 +126,7 @@ class Compiling:
 
     def __init__(self) -> None:
         self.problem, self.models, self.roots = "", list[str](), list[str]()
+        self.roots_of: dict[str, Sequence[str]] = {}
         self.problems: dict[str, str] = {}
         """Of single models."""
 
@@ -134,6 +135,7 @@ class Compiling:
     ) -> list[CompileResult]:
         """Return a result for each task."""
         self.roots += job.roots
+        self.roots_of |= dict.fromkeys([task.title for task in job.tasks], job.roots)
         self.models += [task.title for task in job.tasks]
         return [CompileResult(self.problems.get(task.title, self.problem), 7) for task in job.tasks]
 

@@ -87,3 +87,10 @@ def test_a_bug_of_a_domain_is_one_error_and_the_daemon_goes_on(
     assert "ZeroDivisionError in test_faults.py" in found.message
     assert "by nothing" in found.message
     assert daemon.after(lambda: save(331), events.Built).recovered
+
+
+def test_a_fault_that_is_saved_again_is_reported_again(running: list[Daemons]) -> None:
+    daemon = Daemons(rescan=NEVER, give_up_after=0.1)
+    running.append(daemon)
+    assert not daemon.after(lambda: Path("ladder.json").write_text('{"a" 1}'), events.Failed).again
+    assert daemon.after(lambda: Path("ladder.json").write_text('{"a" 2}'), events.Failed).again

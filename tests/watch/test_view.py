@@ -165,6 +165,8 @@ def test_a_page_hears_of_builds_and_problems_and_keeps_its_picture(view: View, s
     source.write_text(BOT)
     make(view)
     assert hear() == [2, "", {}]
+    view.take(events.Started(FILE, ("bot-1", "two")))
+    assert hear() == [2, "", {"two": "/two/"}]
     view.take(events.Started(FILE, ()))
     assert list(heard) == []
 

@@ -109,8 +109,6 @@ def _si(text: str, registry: Any) -> str:
 
 
 def _without_prefix(symbol: str, registry: Any) -> str:
-    if symbol in _COHERENT:
-        return symbol
     names = [name for prefix, name, _ in registry.parse_unit_name(symbol) if prefix]
     plain = "Ohm" if names and names[0] == "ohm" else str(registry.get_symbol(names[0])) if names else symbol
     return plain if plain in _COHERENT else symbol

@@ -241,6 +241,12 @@ def test_what_is_recognised_is_true(random: Random, others: int) -> None:
     assert found.items() <= names.items()
 
 
+def test_a_declared_exchange_is_done_where_the_old_version_has_it() -> None:
+    exchange = {"upper": "lower", "lower": "upper"}
+    old, new = snapshot(*ARM), snapshot(*ARM, link("tool", 5.0), joint("mount", "base", "tool"))
+    assert find_matching(DOMAIN, model(old), model(new), exchange).renames == {}
+
+
 def test_elements_have_their_new_names_wherever_they_are_mentioned() -> None:
     old = {
         **snapshot(*ARM, link("tip"), joint("wrist", "lower", "tip", mimic="elbow"), loop("rod", "base", "lower")),

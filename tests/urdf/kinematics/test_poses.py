@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from support.robots import SCALAR, robots, urdf
 
-from urdfsync.urdf.kinematics.poses import Pose, link_poses, own_range, pose, roll_pitch_yaw, start_positions
+from urdfsync.urdf.kinematics.poses import Pose, across, link_poses, own_range, pose, roll_pitch_yaw, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Mimic, Origin, Robot
 
@@ -135,3 +135,10 @@ def test_angles_of_a_quaternion(numbers: tuple[float, float, float, float], leng
     expected = pin.Quaternion(np.array(numbers) / np.linalg.norm(numbers)).matrix()
     rotation, _ = pose(Origin(rpy=roll_pitch_yaw([length * number for number in numbers])))
     assert np.abs(np.array(rotation) - expected).max() < 1e-14
+
+
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (2 / 7, -3 / 7, 6 / 7), (-0.8, 0.0, 0.6)])
+def test_two_vectors_across_an_axis_complete_a_frame(axis: tuple[float, float, float]) -> None:
+    frame = np.array([axis, *across(axis)])
+    assert frame @ frame.T == pytest.approx(np.eye(3))
+    assert np.linalg.det(frame) == pytest.approx(1)

@@ -75,6 +75,11 @@ def test_exporters_write_the_ends_of_a_loop_joint_in_several_ways(
     assert differences(robot(*BARS, source).encode()) == []
 
 
+@pytest.mark.parametrize("elements", [[DRAKE], [GAZEBO], FRAMES], ids=["Drake", "Gazebo", "onshape-to-robot"])
+def test_the_second_reader_reads_the_same_loops(elements: list[str]) -> None:
+    assert differences(robot(*BARS, *elements).encode()) == []
+
+
 def test_a_ball_of_drake_is_a_point_on_each_body() -> None:
     (loop,) = loops(DRAKE)
     assert (loop.kind, loop.origin, loop.child_origin) == ("ball", Origin((0.4, 0.2, 0.0)), Origin())

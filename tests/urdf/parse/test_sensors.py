@@ -6,6 +6,7 @@ import math
 
 import pytest
 from support import urdfs
+from support.numbers import differences
 
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import Camera, Lidar, Origin, Sensor
@@ -110,6 +111,7 @@ def test_forms(element: str, expected: list[Sensor]) -> None:
     assert sorted(sensors(reading), key=lambda sensor: sensor.name) == expected
     assert not reading.diagnostics
     assert not expected or not reading.unmodelled, "a sensor that is modelled is in no note"
+    assert differences(urdfs.robot(*BASE, element).encode()) == [], "the second reading"
 
 
 @pytest.mark.parametrize(("element", "message"), [

@@ -515,3 +515,5 @@ def test_limits_of_urdf_1_2() -> None:
     older = read(with_joint(limit)).robot
     assert older is not None
     assert older.joints[0].limit == Limit(0.0, 1.0)
+    joint = only_joint('<limit lower="0" upper="1" effort="1" velocity="1" drake:acceleration="2"/>')
+    assert joint.limit == Limit(0.0, 1.0, 1.0, 1.0, acceleration=2.0)

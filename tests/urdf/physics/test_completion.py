@@ -52,7 +52,7 @@ def test_what_pinocchio_asks_for_is_added(added: str, urdf: str) -> None:
 
 
 TREE = robot(
-    *links(base=3.0, sensor=None, carrier=None, load=1.0, gripper=None, tip=None),
+    *links(base=3.0, sensor=None, carrier=None, load=1.0, gripper=None, tip=0.0),
     joint("mount", "fixed", "base", "sensor"),
     joint("lift", "prismatic", "base", "carrier"),
     joint("bolt", "fixed", "carrier", "load"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from support.urdfs import parsed, robot
@@ -39,6 +41,21 @@ def test_points_share_the_weight(shape: str, lowest: float, points: int) -> None
     assert feet is not None
     assert (feet.lowest, feet.depth) == pytest.approx((lowest, DEPTH / points))
     assert feet.wrench() == pytest.approx([0, 0, WEIGHT, 0, 0, 0])
+
+
+def test_a_lying_capsule_stands_on_both_ends() -> None:
+    feet = standing(f'capsule radius="0.1" length="0.4" at 0 0 0" rpy="0 {math.pi / 2} 0')
+    assert feet is not None
+    assert (feet.lowest, feet.depth) == pytest.approx((-0.1, DEPTH / 2))
+    assert feet.wrench() == pytest.approx([0, 0, WEIGHT, 0, 0, 0], abs=1e-9)
+
+
+@pytest.mark.parametrize(("sine", "weight"), [(0.2, 0.0), (0.075, 0.75)])
+def test_a_tilted_cylinder_moves_from_its_end_to_its_rim(sine: float, weight: float) -> None:
+    """The lowest point of the rim counts once for the rim, and with this weight for the end."""
+    feet = standing(f'cylinder radius="0.1" length="0.4" at 0 0 0" rpy="0 {math.asin(sine)} 0')
+    assert feet is not None
+    assert feet.depth == pytest.approx(DEPTH / (1 + weight), rel=1e-2)
 
 
 def test_a_higher_point_carries_less() -> None:

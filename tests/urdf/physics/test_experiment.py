@@ -67,6 +67,11 @@ def test_a_heavy_base_hides_no_lost_damping() -> None:
     assert elbow.difference < TOLERANCE * max(each.size for each in found if each.quantity is Quantity.REACTION)
 
 
+def test_a_floating_base_is_weighed_on_the_bench() -> None:
+    _, free, _ = experiment(ELBOW, base="floating").trials
+    assert "weight" in {name for each in free.compared if each.part is Part.BENCHES for name in each.values}
+
+
 def test_what_is_made_up_is_said_and_read_by_both_sides() -> None:
     one = experiment(BARE)
     assert one.notes == (
@@ -108,7 +113,9 @@ def test_a_ball_turns_as_prescribed_and_freely_and_its_whole_torque_is_compared(
     torques = [each for each in motion.compared if each.element == "joint elbow" and each.quantity is Quantity.EFFORT]
     assert [len(each.values) for each in torques] == [3, 3]
     spins = [each for each in free.compared if each.element == "joint elbow"]
-    assert [(each.quantity, len(each.values)) for each in spins] == [(Quantity.ACCELERATION, 3)]
+    assert [(each.quantity, each.values) for each in spins] == [
+        (Quantity.ACCELERATION, ("gain2[1]", "gain2[2]", "gain2[3]"))
+    ]
     assert "the record, which has no tables for robots with ball joints" in one.unchecked
     load = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo></robot>'
     sensed = experiment(ball.replace("</robot>", load))

@@ -15,6 +15,7 @@ import trimesh
 from msgspec.structs import replace
 from support import corpus
 from support.cases import sampled
+from support.loops import HINGE, UNIVERSAL, WELD, to_options, to_urdf
 from support.numbers import BOT, compare, differences, of_package
 from support.packages import Package, generate, generate_robot, proposed_base, read
 from support.urdfs import dynamics, joint, limit, link, mimic
@@ -386,6 +387,34 @@ def test_a_loop_that_closes_otherwise_is_found(old: str, new: str, file: str, qu
 
     numbers = compare(FOUR_BAR.source, change, **msgspec.structs.asdict(FOUR_BAR.options))
     assert (file, quantity) in {(each.file, each.quantity) for each in numbers.differences}
+
+
+@pytest.mark.parametrize(("robot", "old", "new"), [
+    (HINGE, "otations = [1, 0, 0; 0, 0.96, -0.28]", "otations = [1, 0, 0; 0, 1, 0]"),
+    (HINGE, "[0, 0.28, 0.96; 0, 0.28, 0.96]", "[0, 0.28, 0.96; 1, 0, 0]"),
+    (UNIVERSAL, "otations = [0, 0, 1]", "otations = [1, 0, 0]"),
+    (UNIVERSAL, "otations = [0, 1, 0]", "otations = [1, 0, 0]"),
+    (WELD, "otations = [0, 1, 0]", "otations = [1, 0, 0]"),
+])  # fmt: skip
+def test_a_wrong_axis_of_a_loop_is_found(robot: Robot, old: str, new: str) -> None:
+    """Only loops in space state directions: a loop in a plane has no equations about them."""
+
+    def change(texts: Any) -> Any:
+        changed = {path: text.replace(old, new) for path, text in texts.items()}
+        assert changed != texts
+        return changed
+
+    source, options = to_urdf(robot).encode(), to_options(robot)
+    assert compare(source, **options).differences == ()
+    assert "rotations" in {each.quantity for each in compare(source, change, **options).differences}
+
+
+def test_the_axis_of_a_loop_joint_is_read_alike() -> None:
+    closing = f"""<loop_joint name="rocker_pivot" type="revolute">
+<link1 link="ground" xyz="0.6 0 0"
+rpy="{np.pi / 2} 0 0"/><link2 link="rocker" xyz="0.4 0 0"/><axis xyz="0 0.28 0.96"/></loop_joint></robot>"""
+    source = to_urdf(HINGE).replace("</robot>", closing).encode()
+    assert compare(source, **{**to_options(HINGE), "loops": ()}).differences == ()
 
 
 def test_a_record_alone_has_no_loops() -> None:

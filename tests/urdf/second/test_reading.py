@@ -40,7 +40,20 @@ MOVING = robot(
 
 QUATERNION = URDF.replace("<robot", '<robot version="1.1"').replace("<parent", '<origin quat_xyzw="0 0 3 4"/><parent')
 ODD_AXES = URDF.replace("</robot>", '<joint_axes joint="j" axes="q"/><joint_axes joint="k" axes="x"/></robot>')
-DIALECTS = {"plain": URDF, "SDF": TEXTS, "moving": MOVING, "a quaternion": QUATERNION, "unknown axes": ODD_AXES}
+COUPLED = robot(
+    *links(a=1.0, b=1.0, c=1.0),
+    joint("j", "continuous", "a", "b"),
+    joint("k", "continuous", "b", "c"),
+    "<gazebo><plugin><joint>j</joint><mimicJoint>k</mimicJoint><multiplier>-2</multiplier></plugin></gazebo>",
+)
+DIALECTS = {
+    "plain": URDF,
+    "SDF": TEXTS,
+    "moving": MOVING,
+    "a quaternion": QUATERNION,
+    "unknown axes": ODD_AXES,
+    "a coupling of Gazebo": COUPLED,
+}
 
 
 @pytest.mark.parametrize("text", DIALECTS.values(), ids=DIALECTS)

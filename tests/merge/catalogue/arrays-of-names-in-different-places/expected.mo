@@ -1,3 +1,3 @@
 model A
-  R r(v = {c.x, a.x, b.x, mine});
+  R r(v = {c.x, a.x, mine, b.x});
 end A;

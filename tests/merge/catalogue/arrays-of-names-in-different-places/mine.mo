@@ -1,3 +1,3 @@
 model A
-  R r(v = {a.x, b.x, mine});
+  R r(v = {a.x, mine, b.x});
 end A;

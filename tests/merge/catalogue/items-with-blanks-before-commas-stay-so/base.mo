@@ -1,0 +1,3 @@
+model A
+  B b(x = 1, y = 2);
+end A;

@@ -1,0 +1,3 @@
+model A
+  extends B(x = 1, break connect(a, b), y = 2);
+end A;
