@@ -436,14 +436,14 @@ def test_a_package_whose_record_was_deleted_is_compared() -> None:
         return {path: text for path, text in texts.items() if path != "BotParameters.mo"}
 
     found = compare(URDF.encode(), change, inputs="vector").differences
-    assert {each.file for each in found} == {"BotRun.mo", "BotGeneric.mo"}
+    assert {each.file for each in found} == {"BotGeneric.mo"}
 
 
 OPTIONS: dict[str, dict[str, Any]] = {
     "commands": {"commands": {"shoulder": "effort", "slide": "position"}},
     "start": {"start": {"shoulder": 0.5}},
     "driven": {"driven": ("slide",)},
-    "a vector of inputs": {"inputs": "vector"},
+    "a vector of inputs": {"inputs": "vector", "approach": ("package",)},
     "drives that keep their limits": {"saturated": "all", "commands": {"shoulder": "effort"}},
     "no collisions": {"collisions": False},
     "flanges of motors": {"drives": "motor"},

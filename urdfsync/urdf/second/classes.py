@@ -47,8 +47,8 @@ class Classes:
         start = read.get(f"{self.name}Start.mo", Values([], {}, []))
         self.begun = {value.path for value in start.values}
         """Components of the joints in the start record."""
-        model = read.get(f"{self.name}.mo", Values([], {}, []))
-        self.ends = _ends(model.values)
+        self.model = read.get(f"{self.name}.mo", Values([], {}, []))
+        self.ends = _ends(self.model.values)
         """Connections in the robot model."""
 
     def of(self, kind: str, name: str) -> str:
@@ -215,7 +215,7 @@ class Classes:
         start = f"{own}.{words['q']}_start" if command == "position" and component in self.begun else ""
         if self.options.inputs == "vector":
             driven = self.read[f"{self.name}Run.mo"].titles
-            order = [each.path for each in self.record.types if f"{each.path}Drive" in driven]
+            order = [each.path for each in self.model.types if f"{each.path}Drive" in driven]
             vectors = (value.path.partition("[")[0] for value in texts.values() if value.type.endswith("RealInput"))
             place = f"{next(vectors, '')}[{order.index(component) + 1 if component in order else 0}]"
             start = start or "0" * bool(self.begun)
