@@ -17,7 +17,7 @@ from support import corpus
 from support.cases import sampled
 from support.numbers import BOT, compare, differences, of_package
 from support.packages import Package, generate, generate_robot, proposed_base, read
-from support.urdfs import dynamics, joint, limit, link, mimic
+from support.urdfs import dynamics, joint, limit, link, links, mimic
 from support.urdfs import robot as urdf
 
 from urdfsync import config
@@ -466,6 +466,9 @@ LAWS = (
     ("Bend", "limits = parameters.limits", "limits(effort = 1, velocity = 1)", "elasticity.limits"),
     ("Slide", "Modelica.Mechanics.Translational.Components.SpringDamper elasticity", "Other elasticity",
      "type of elasticity"),
+    ("Glide", "cross(parameters.axis, n_x)", "cross(n_x, parameters.axis)", "prismatic_y.n"),
+    ("Glide", "friction_y(parameters = parameters.translation)", "friction_y", "friction_y.parameters"),
+    ("Drift", "connect(frame_a, origin.frame_a)", "connect(frame_a, freeMotion.frame_a)", "frame_a"),
 )  # fmt: skip
 
 
@@ -473,9 +476,11 @@ LAWS = (
 def test_another_law_than_the_configuration_says_is_found(fault: tuple[str, str, str, str]) -> None:
     file, old, new, quantity = fault
     source = urdf(
-        *(link("base", 3.0), link("arm", 2.0), link("hand", 0.7)),
+        *links(base=3.0, arm=2.0, hand=0.7, cart=1.0, buoy=1.0),
         joint("bend", "revolute", "base", "arm", inside=[dynamics(0.5, 0.2)]),
         joint("slide", "prismatic", "arm", "hand", inside=[dynamics(0.5, 0.2)]),
+        joint("glide", "planar", "base", "cart", axis="0 0 1", inside=[dynamics(0.5, 0.2)]),
+        joint("drift", "floating", "base", "buoy"),
     )
 
     def change(texts: Any) -> Any:

@@ -178,6 +178,18 @@ class Classes:
         texts = {path: value for path, value in self.statements(file).items() if own.match(path)}
         return file, texts, {f"loop {loop.name}": (loop.line, pairs(models.CONSTRAINT))}
 
+    def free(self, joint: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
+        """Return the file of a planar or floating joint's model, its texts, and the expected texts."""
+        file, has_losses = f"Joints/{_class(component)}.mo", "translation.damping" in joint.values
+        if file not in self.read:
+            return file, {}, {}
+        expected = pairs(f"{models.FREE[joint.type]}; {models.PLACED}", C=_class(component))
+        for j, (n, k, f, of) in models.FREEDOMS.items() if joint.type == "planar" else ():
+            words = WORDS[j == "revolute"] | {"j": j, "n": n, "k": k, "f": f, "of": of, "axis": str(has_losses).lower()}
+            words |= {"Joint": j.partition("_")[0].title(), "kind": f"{of.title()}al"}
+            expected |= pairs(models.FREEDOM + models.LOSS * has_losses, **words)
+        return file, self.texts(file), {f"joint {joint.name}": (joint.line, expected)}
+
     def texts(self, file: str) -> dict[str, Value]:
         """Return all texts of a class by paths: see `models`. A vector of inputs has a path for each item."""
         ends = {end: Value(end, "", *others[0]) for end, others in _ends(self.read[file].values).items()}

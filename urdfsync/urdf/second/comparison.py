@@ -17,6 +17,7 @@ from urdfsync.modelica.literals import string
 from urdfsync.modelica.values import Value, literals, read_values
 from urdfsync.spelling import counted
 from urdfsync.urdf.second.classes import Classes, RobotModel, Texts, groups
+from urdfsync.urdf.second.models import FREE
 from urdfsync.urdf.second.reading import (
     INF,
     MOVES,
@@ -66,9 +67,9 @@ class _Comparison:
         needed |= {path for path in texts if path.startswith("Links/") and path != "Links/package.mo"}
         needed |= {path for path in texts if path.startswith("Joints/") and path.endswith("Parameters.mo")}
         joints = reading.joints.values()
-        # Pinocchio compares joints with smooth friction and rigid drives, the second reading all others
+        # Pinocchio compares joints with one axis, smooth friction and rigid drives, the second reading all others
         self.has_laws = any(joint.friction not in ("", "smooth") or joint.is_elastic for joint in joints)
-        if self.has_laws or reading.loops:
+        if self.has_laws or reading.loops or any(joint.type in FREE for joint in joints):
             needed |= {path for path in texts if path.startswith("Joints/") and path != "Joints/package.mo"}
         self.read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
         self.values = {path: each.values for path, each in self.read.items()}
@@ -104,6 +105,8 @@ class _Comparison:
                 self._complete(*own.shapes(part, component))
             elif kind == "joint" and part.type in MOVES and self.has_laws:
                 self._complete(*own.laws(part, component))
+            elif kind == "joint" and part.type in FREE:
+                self._complete(*own.free(part, component))
             elif kind == "loop":
                 self._complete(*own.closing(part, component))
         for drawing in own.drawings():
