@@ -228,6 +228,8 @@ class Sample(msgspec.Struct, frozen=True):
     target: Target
     options: Any
     imports: Mapping[str, Import]
+    parts: tuple[bytes, ...] = ()
+    """The text of the source before others were joined with it, and these; empty if there are none."""
 
 
 class Checks(Protocol):

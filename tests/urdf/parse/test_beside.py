@@ -7,9 +7,11 @@ from support.numbers import differences
 from support.urdfs import joint, link, robot
 
 from urdfsync.diagnostics import SourceError
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.beside import join
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.urdf.second.beside import join_again
 
 URDF = robot(
     *(link("base"), link("a", 1.0), link("b", 1.0), link("c", 1.0)),
@@ -49,7 +51,9 @@ def test_loops_motors_and_joints_are_as_the_yaml_says() -> None:
 
 def test_the_second_reader_finds_the_joints_of_the_yaml() -> None:
     for kind in (b"SPHERICAL", b"FIXED", b"UJOINT_YX"):
-        text, _ = join(URDF, YAML.replace(b"SPHERICAL", kind), "a.yaml")
+        yaml = YAML.replace(b"SPHERICAL", kind)
+        text, _ = join(URDF, yaml, "a.yaml")
+        assert join_again((URDF, yaml), Options()) == text
         assert differences(text, allow=()) == []
 
 

@@ -48,7 +48,12 @@ def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> 
     """Compare records, robot model and benches of packages. Raises SourceError if the second reader fails."""
     with np.errstate(all="ignore"):  # source or edits may have infinite numbers
         try:
-            reading = read_again(sample.content, sample.options)
+            content = sample.content
+            if sample.parts:
+                from urdfsync.urdf.second.beside import join_again  # saves most robots 40 ms
+
+                content = join_again(sample.parts, sample.options)
+            reading = read_again(content, sample.options)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
             message = f"the second reader fails: {type(error).__name__}: {error}"
             raise SourceError.of("second-reader", message, sample.file) from None
