@@ -7,13 +7,13 @@ code.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import get_args
 from xml.sax.saxutils import quoteattr
 
 import yaml
 
 from urdfsync.table.formats import read_sheets
-from urdfsync.urdf.options import Options
-from urdfsync.urdf.second.catalogue import PATHS
+from urdfsync.urdf.options import MotorNumber, Options
 
 
 def join_again(parts: Sequence[bytes], options: Options) -> bytes:
@@ -52,7 +52,7 @@ def _rows(content: bytes, options: Options) -> Iterator[str]:
     }
     for joint, motor in options.motors.items():
         words = [f"joint={quoteattr(joint)}", f"motor={quoteattr(motor)}"]
-        for number in PATHS:
+        for number in get_args(MotorNumber):
             named = options.motor_columns.get(number, number)
             places = [columns[name] for name in ([named] if isinstance(named, str) else named) if name in columns]
             texts = [f"{rows[motor][k]} [{unit}]" for k, unit in places if rows[motor][k]]

@@ -186,6 +186,15 @@ class _Comparison:
         for k, value in enumerate(given):
             if literals(value.text) in uris.get(value.path, ()):  # a mesh may have several parts
                 given[k] = value._replace(text=string(uris[value.path][0]))
+        ends = {value.path: literals(value.text) for value in given if value.path.endswith((".lower", ".upper"))}
+        for k, value in enumerate(given):  # the corners of a mesh have its bounds, to six digits
+            shape = value.path.removesuffix("Corners")
+            bounds = *(ends.get(f"{shape}.lower") or ()), *(ends.get(f"{shape}.upper") or ())
+            if shape != value.path and len(bounds) == 6:
+                box = _bounds(value)
+                given[k] = value._replace(text=f"{{{', '.join(map(repr, box))}}}" if box else '"no numbers"')
+                is_near = box and np.allclose(box, bounds, rtol=0, atol=1e-6)
+                expected[value.path] = Stated(box if is_near else bounds, element.line)
         self._compare(file, f"{kind} {name}", given, expected)
 
     def _uris(self, mesh: tuple[str, Sequence[float]]) -> Sequence[str]:
@@ -372,6 +381,15 @@ def _read(text: str) -> Any:
     """Return the value of a literal, or an expression without blanks."""
     value = literals(text)
     return re.sub(r"\s", "", text) if value is None else value
+
+
+def _bounds(corners: Value) -> tuple[float, ...]:
+    """Return the least and the greatest coordinates of corners; empty if the text has other numbers."""
+    numbers = literals(corners.text)
+    if not isinstance(numbers, tuple) or not numbers or len(numbers) % 3:
+        return ()
+    points = np.reshape(numbers, (-1, 3))
+    return tuple(map(float, (*points.min(axis=0), *points.max(axis=0))))
 
 
 def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
