@@ -338,21 +338,25 @@ def test_what_a_template_writes_wrongly_is_found(fault: str, sound: Package) -> 
     ("Sphere", "enableAnimation and animation", "enableAnimation and not animation", "condition of shape"),
     ("Capsule", "+ 0.5*parameters.length", "- 0.5*parameters.length", "upperEnd.r_shape"),
     ("Mesh", "widthDirection = R[:, 2]", "widthDirection = R[:, 3]", "shape.widthDirection"),
+    ("normalTo", "e - (e*n)/(n*n)*n", "e - (e*n)*n", "p"),
 ])  # fmt: skip
-def test_a_shape_that_the_library_draws_otherwise_is_found(
+def test_a_library_that_draws_or_moves_otherwise_is_found(
     kind: str, old: str, new: str, quantity: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
+    folder = "Functions" if kind == "normalTo" else "Visualizers"
     numbers = {"Box": 'size="1 2 3"', "Mesh": 'filename="cube.stl"'}.get(kind, 'length="2" radius="0.2"')
     shape = f"<visual><geometry><{kind.lower()} {numbers}/></geometry></visual></link>"
-    source = urdf(link("base", 3.0).replace("</link>", shape)).encode()
+    source = urdf(
+        link("base", 3.0).replace("</link>", shape), link("cart", 1.0), joint("glide", "planar", "base", "cart")
+    ).encode()
     shutil.copytree(corpus.REPOSITORY / "modelica", tmp_path / "modelica")
-    file = tmp_path / "modelica" / "UrdfSync" / "Visualizers" / f"{kind}.mo"
+    file = tmp_path / "modelica" / "UrdfSync" / folder / f"{kind}.mo"
     monkeypatch.setattr("urdfsync.urdf.second.classes.library_folder", lambda: tmp_path / "modelica")
     assert compare(source).differences == ()
     assert old in file.read_text()
     file.write_text(file.read_text().replace(old, new))
     found = {(each.file, each.element, each.quantity) for each in compare(source).differences}
-    assert found == {(str(file), f"UrdfSync.Visualizers.{kind}", quantity)}
+    assert found == {(str(file), f"UrdfSync.{folder}.{kind}", quantity)}
 
 
 # Loops, and options

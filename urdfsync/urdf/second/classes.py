@@ -140,17 +140,24 @@ class Classes:
         texts = {path: value for path, value in self.texts(file).items() if own.match(path)}
         return file, texts, {f"link {link.name}": (link.line, expected)}
 
-    def drawings(self) -> Iterable[tuple[str, dict[str, Value], Texts]]:
-        """Yield the file, the texts and the expected texts of each library model that draws shapes of this robot."""
+    def library(self) -> Iterable[tuple[str, dict[str, Value], Texts]]:
+        """Yield the file, the texts and the expected texts of each library class that only this comparison looks at.
+
+        Such classes draw the shapes of this robot, or give a planar joint its directions.
+        """
         every = (stated for link in self.reading.links.values() for stated in link.values.items())
         kinds = {stated.value.capitalize() for path, stated in every if path.endswith(".shape")}
+        classes = dict[str, dict[str, str]]()
         for kind in sorted(kinds if self.options.visualizer == "standard" else ()):
-            path = library_folder() / LIBRARY / "Visualizers" / f"{kind}.mo"
-            self.read[file := str(path)] = read_values(path.read_text("utf-8"))
-            expected = pairs(models.VISUALIZER, kind=kind)
+            expected = classes[f"Visualizers.{kind}"] = pairs(models.VISUALIZER, kind=kind)
             for s, words in models.DRAWINGS[kind].items():
                 expected |= pairs(models.DRAWING, s=s, **words)
-            yield file, self.statements(file), {f"{LIBRARY}.Visualizers.{kind}": (0, expected)}
+        if any(joint.type == "planar" for joint in self.reading.joints.values()):
+            classes["Functions.normalTo"] = pairs(models.NORMAL)
+        for name, expected in classes.items():
+            path = library_folder() / LIBRARY / f"{name.replace('.', '/')}.mo"
+            self.read[file := str(path)] = read_values(path.read_text("utf-8"))
+            yield file, self.statements(file), {f"{LIBRARY}.{name}": (0, expected)}
 
     def laws(self, joint: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
         """Return the file of a joint's model, its texts about friction and spring, and the expected texts."""

@@ -114,8 +114,8 @@ class _Comparison:
                 self._complete(*own.free(part, component))
             elif kind == "loop":
                 self._complete(*own.closing(part, component))
-        for drawing in own.drawings():
-            self._complete(*drawing)
+        for class_ in own.library():
+            self._complete(*class_)
         for kind, elements in self.elements.items():
             for name in sorted(elements.keys() - {name for of, name in self.components if of == kind}):
                 if kind in ("link", "joint") or "package" in self.sample.options.approach:

@@ -141,6 +141,11 @@ FREEDOMS = {
     "revolute": ("parameters.axis", "", "friction", "rotation"),
 }
 """The freedoms of a planar joint: axis, index of the start, friction, and the numbers of the friction."""
+NORMAL = (
+    "type of normalTo = function; type of n = inputReal; type of u = outputReal; type of e = Real; type of p = Real; "
+    'n.unit = "1"; u.unit = "1"; e = ifabs(n[1])<0.9*sqrt(n*n)then{{1,0,0}}else{{0,1,0}}; p = e-(e*n)/(n*n)*n'
+)
+"""The function of the first direction of a planar joint."""
 VISUALIZER = (
     "extends = UrdfSync.Visualizers.PartialShape; type of parameters = parameterUrdfSync.Records.{kind}; "
     "type of R = finalparameterReal; R = UrdfSync.Functions.rotation(parameters.origin.rpy)"
