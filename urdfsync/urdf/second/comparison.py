@@ -187,13 +187,13 @@ class _Comparison:
             if literals(value.text) in uris.get(value.path, ()):  # a mesh may have several parts
                 given[k] = value._replace(text=string(uris[value.path][0]))
         ends = {value.path: literals(value.text) for value in given if value.path.endswith((".lower", ".upper"))}
-        for k, value in enumerate(given):  # the corners of a mesh have its bounds, to six digits
+        for k, value in enumerate(given):  # the corners of a mesh have its bounds, to 1e-6 m and eight digits
             shape = value.path.removesuffix("Corners")
             bounds = *(ends.get(f"{shape}.lower") or ()), *(ends.get(f"{shape}.upper") or ())
             if shape != value.path and len(bounds) == 6:
                 box = _bounds(value)
                 given[k] = value._replace(text=f"{{{', '.join(map(repr, box))}}}" if box else '"no numbers"')
-                is_near = box and np.allclose(box, bounds, rtol=0, atol=1e-6)
+                is_near = box and np.allclose(box, bounds, rtol=0, atol=1e-6 + 1e-8 * max(map(abs, bounds)))
                 expected[value.path] = Stated(box if is_near else bounds, element.line)
         self._compare(file, f"{kind} {name}", given, expected)
 
