@@ -30,7 +30,8 @@ def join_again(parts: Sequence[bytes], options: Options) -> bytes:
 def _loops(content: bytes) -> Iterator[str]:
     """Yield the loops, the motors and the joints of several axes in a YAML."""
     document = yaml.load(content, yaml.BaseLoader)  # noqa: S506 - it makes only strings, lists and mappings
-    lists = {key: document.get(key) or () for key in ("closed_loop", "type", "name_mot", "joint_name", "joint_type")}
+    keys = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
+    lists = {key: document[key] if isinstance(document.get(key), list) else () for key in keys}
     for (first, second), kind in zip(lists["closed_loop"], lists["type"], strict=True):
         name, ends = quoteattr(f"{first}_{second}"), (quoteattr(first), quoteattr(second))
         kind = {"3d": "ball", "6d": "fixed"}[kind.lower()]
