@@ -25,7 +25,7 @@ def test_the_configuration_is_found_or_named(
     execute("build", "--config", "project/urdfsync.toml")
     assert execute("build", code=2).err.startswith("error: no urdfsync.toml in ")
     os.mkfifo("urdfsync.toml")
-    assert "the configuration can't be read: it is no regular file" in execute("build", code=2).err
+    assert "the configuration can't be read: it is not a regular file" in execute("build", code=2).err
     assert execute("build", "--config", "nothing.toml", code=2).err.startswith(
         "nothing.toml: error: the configuration does not exist"
     )

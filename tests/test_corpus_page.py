@@ -18,8 +18,7 @@ from support.corpus import ABSENT, FOLDER, REPOSITORY
 from support.packages import read
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.options import LeftOut, Options
 
 PAGE = REPOSITORY / "tests" / "golden" / "corpus.md"
@@ -46,9 +45,7 @@ def rows(file: str) -> Iterator[str]:
     note = next((one.message for one in reading.diagnostics if one.code == "not-modelled"), "")
     counts = note.removeprefix("not modelled: ")
     allowed = ", ".join(f"{count_of(one)} {one.code}" for one in reading.diagnostics if one.code in get_args(LeftOut))
-    inputs = Counter(
-        drive.command or "free" for drive in connector_names(KinematicTree.of(robot), Options()).drives.values()
-    )
+    inputs = Counter(drive.command or "free" for drive in Assembly(robot, Options()).connectors.drives.values())
     drives = ", ".join(f"{count} {command}" for command, count in inputs.items())
     contacts = sum(link.contact is not None for link in robot.links)
     if has or counts:

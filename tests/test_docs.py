@@ -120,7 +120,7 @@ def test_numbers_of_the_check_are_those_in_use() -> None:
     defaults = CheckOptions()
     assert f"no more than {TOLERANCE:.0e} of the largest value" in page
     assert f"The cache stays below {LIMIT / 2**30:.0f} GiB" in page
-    assert f"A library may have {MOST_BYTES // 2**20} MB at most" in page
+    assert f"A library may have at most {MOST_BYTES // 2**20} MB" in page
     oldest, following = (".".join(map(str, version)) for version in (OLDEST, NEXT))
     assert f"has to be {oldest}.0 or later, below {following}." in page
     assert MOST_SINGLE_EDITS == 6

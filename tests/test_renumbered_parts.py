@@ -159,7 +159,7 @@ def test_models_and_configuration_that_use_another_part_are_told_until_they_are_
     execute("build")
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
     told = (
-        "Mine.mo:3: warning: `link_2` names another part now; the former one is called `link_3`",
+        "Mine.mo:3: warning: `link_2` names another part now; the former part is called `link_3`",
         "urdfsync.toml:5: warning: `joint_2` names another part now",
     )
     for command in ("build", "build", "status"):
@@ -238,7 +238,7 @@ def test_an_edit_of_a_common_file_that_names_what_may_be_another_part_is_asked_a
     edit("modelica/Arm/Arm.mo", "\nequation", "\n  Real mine = link_1.m;\n\nequation")
     assert "It uses `link_1`, which may be another part now" in execute("build", code=Exit.CONFLICT).words
     words = execute("resolve", "modelica/Arm/Arm.mo", "--moved", "link_2", code=Exit.ERROR).words
-    assert "it belongs to no single part" in words
+    assert "this file belongs to no single part" in words
     execute("resolve", "modelica/Arm/Arm.mo", "--keep")
     execute("build", "--check")
 
@@ -370,7 +370,7 @@ def test_edits_that_git_left_with_exchanged_names_change_places_together(
     repository.merge("export")
     execute("build", code=Exit.CONFLICT)
     words = execute("resolve", LINK.format(2), "--moved", "link_3", code=Exit.ERROR).words
-    assert "its edit may belong to another part, too" in words
+    assert "your edit in this file may belong to another part, too" in words
     execute("resolve", LINK.format(2), LINK.format(3), "--moved")
     for number, other in ((2, 3), (3, 2)):
         assert f"Real mine = {other};" in Path(LINK.format(number)).read_text()

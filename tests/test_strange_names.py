@@ -62,5 +62,5 @@ def test_a_folder_that_xacro_can_not_name_is_an_error_of_its_robot(
     Path("other.urdf").write_text(URDF.format("other", ""))
     Path("urdfsync.toml").write_text(CONFIG.replace("one.urdf", "one.xacro"))
     said = execute("build", code=2)
-    assert "one.xacro: error: a text or a path that it works with is not UTF-8; give its folders" in said.err
+    assert "one.xacro: error: a text or a path that it works with is not UTF-8; rename its folders" in said.err
     assert "other: 9 files written" in said.out

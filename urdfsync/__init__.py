@@ -1,6 +1,6 @@
 """Keep Modelica models in step with URDF sources."""
 
-# ruff: noqa: F403, F405 - checkers of types find the names below in `api`
+# ruff: noqa: F403, F405 - type checkers find the names below in `api`
 __version__ = "0.1.0"
 __all__ = ["Results", "UrdfsyncError", "build", "check", "diff", "edits", "library_folder", "load", "record"]
 __all__ += ["simulate", "status"]
@@ -13,7 +13,7 @@ else:
     def __getattr__(name: str) -> object:
         """Load a name of the API when it is needed: importing `api` takes 200 ms."""
         if name in __all__:
-            import importlib  # the up-to-date check does not need it
+            import importlib  # saves the up-to-date check an import
 
             return getattr(importlib.import_module("urdfsync.api"), name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,7 +1,7 @@
-"""The functions behind the commands, for scripts and notebooks: `urdfsync.build` and the others (docs/api.md).
+"""The functions behind the commands, for scripts and notebooks: `urdfsync.build` and further functions (docs/api.md).
 
-They print nothing, and raise the errors of the commands. Each function imports its own modules: the checks take 100 ms
-to load, the merge 20 ms, and a build has to be quick.
+They print nothing, and raise the errors of the commands. Each function imports its own modules, so that builds are
+quick: loading the checks takes 100 ms, the merge 20 ms.
 """
 
 from __future__ import annotations
@@ -36,13 +36,12 @@ if TYPE_CHECKING:
 
 R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
 Place: TypeAlias = Config | Path | str | None
-"""A configuration, or its file; None for `urdfsync.toml` in the working folder or the nearest one above."""
+"""A configuration, or its file; None for the nearest `urdfsync.toml` in the working folder or above."""
 
 Recorder: TypeAlias = Callable[[Reading, str, Target, Any], tuple[Artifact, Sequence[Diagnostic]]]
-"""Returns a model as one record that stands alone, with its own findings; the attribute `record` of a domain.
-
-Its arguments are a reading without errors, the source's name in diagnostics, the class and the package of the record,
-and options. No files are imported for the record. Pure.
+"""Returns a model as one record without a package, and the findings about it; the attribute `record` of a domain. Its
+arguments are a reading without errors, the source's name in diagnostics, the record's class and package, and options.
+No files are imported for the record. Pure.
 """
 
 
@@ -53,7 +52,7 @@ def ignore(_result: object) -> None:
 class Results(list[R]):
     """The results of a call, one for each robot, in the order of the configuration.
 
-    As text, and in a notebook, they look as the command shows them.
+    `str` and notebooks show the results as the command does.
     """
 
     def __init__(
@@ -62,7 +61,7 @@ class Results(list[R]):
         lines: Callable[[R], Iterable[StyledLine]],
         on_result: Callable[[R], object] = ignore,
     ) -> None:
-        """`lines` shows a result; `on_result` gets each as soon as it is there."""
+        """`lines` returns the text of a result; `on_result` gets each result as soon as it is known."""
         super().__init__()
         self._lines = lines
         for result in results:
@@ -92,16 +91,16 @@ class WholeRecord(msgspec.Struct, frozen=True):
     file: Path | None = None
     """The file of `urdfsync record --output`."""
     is_written: bool = False
-    """Whether the file was written; False if it held the record already."""
+    """Whether the file was written; False if the file already had this text."""
 
     def _repr_html_(self) -> str:
         return html([*findings(self.diagnostics), *(line((text, "")) for text in self.text.splitlines())])
 
 
 def load(config: Place = None) -> Config:
-    """Return the configuration in a file, or a loaded configuration itself.
+    """Return the configuration in a file; return a loaded configuration as it is.
 
-    Its `robots` have their names, sources and packages. Raises ConfigError with all faults of the file.
+    Its field `robots` has the robots with names, sources and packages. Raises ConfigError with all faults of the file.
     """
     if isinstance(config, Config):
         return config
@@ -119,7 +118,7 @@ def build(
 
     `robots` are names, sources or outputs; without any, all robots are built. With `merge`, changes are merged into
     edited files. `given` are fields of `BuildOptions`, such as `dry` for a dry run. A robot that can't be built has
-    `failed` and `diagnostics`; the others are built. `on_result` gets each result as soon as it is there. Raises
+    `failed` and `diagnostics`; the others are built. `on_result` gets each result as soon as it is known. Raises
     UrdfsyncError for a bad configuration, and for an unknown robot.
     """
     loaded = load(config)
@@ -135,7 +134,7 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], options: Buil
     results = build_robots(config, robots, options)
     if options.dry or not any(robot.on_build == "check" for robot in robots):
         return results
-    dependencies.mark_incomplete()  # checks read files that are not recorded
+    dependencies.mark_incomplete()  # the reads of a check are not recorded
     from urdfsync.checks import afterbuild
 
     return afterbuild.with_checks(config, options, results)
@@ -158,7 +157,7 @@ def diff(
     on_result: Callable[[Comparison], object] = ignore,
     **given: Any,
 ) -> Results[Comparison]:
-    """Show what changed in sources since the last build, or since the version `against`: a git revision, else a file.
+    """Return the changes of sources since the last build, or since the version `against`: a git revision, else a file.
 
     `sources` are files or robots; without any, all sources are compared. Comparing a file with `against` needs no
     configuration. Raises UrdfsyncError if there is nothing to compare. If a version can't be read, the `result` of its
@@ -181,9 +180,9 @@ def edits(
     on_result: Callable[[RobotEdits], object] = ignore,
     **given: Any,
 ) -> Results[RobotEdits]:
-    """Show what the user edited in packages: everything, or the edits in `paths`, which are robots, files or folders.
+    """Return the user's edits in packages: all edits, or those in `paths`, which are robots, files or folders.
 
-    Raises ConfigError for a path that means no robot.
+    Raises ConfigError for a path that belongs to no robot.
     """
     from urdfsync.engine.edits import find_edits
     from urdfsync.output.edits import to_section
@@ -201,7 +200,7 @@ def check(
     on_result: Callable[[CheckResult], object] = ignore,
     **given: Any,
 ) -> Results[CheckResult]:
-    """Check packages as they are on disk, as `urdfsync check` does; `result.status` is the verdict.
+    """Check the packages on disk, as `urdfsync check` does; `result.status` is the verdict.
 
     `given` are fields of `CheckOptions`, such as `physics`. Raises UrdfsyncError for a bad configuration, an unknown
     robot, an untrusted compiler, and a cache that can't be written.
@@ -225,10 +224,10 @@ def simulate(
     progress: Progress = no_progress,
     **given: Any,
 ) -> Simulation:
-    """Simulate a robot, as `urdfsync simulate` does; `robots` is one, or none if there is only one.
+    """Simulate a robot, as `urdfsync simulate` does. Without `robots`, the configuration must have only one robot.
 
-    `given` are fields of `SimulateOptions`, such as `model` and `stop` (s). The result has `series`, times (s) and the
-    values of each variable, and `joints` with their ranges and limits. It writes `files`: `csv` or `plot`. Raises
+    `given` are fields of `SimulateOptions`, such as `model` and `stop` (s). The result has `series` (times in s, and
+    the values of each variable) and `joints` (with ranges and limits). It writes `files`: `csv` or `plot`. Raises
     UrdfsyncError for faults of the model, its inputs, the compiler or files.
     """
     from urdfsync.checks import compilers
@@ -256,8 +255,8 @@ def record(
 ) -> WholeRecord:
     """Return the record of a source, as `urdfsync record` writes it; for xacro, with its `arguments`.
 
-    The record's name is `class_`, or follows from the source. Raises SourceError for a source that can't be read, and
-    ConfigError for a name that can't be used.
+    The record's name is `class_`; without it, the name follows from the source. Raises SourceError for a source that
+    can't be read, and ConfigError for a name that can't be used.
     """
     from urdfsync import registry
     from urdfsync.engine import source as sources
@@ -278,10 +277,10 @@ def record(
 
 
 def _target(name: str, within: str, source: Path) -> Target:
-    """Return the class: the chosen one, else one named after the source. Raises ConfigError."""
+    """Return the record's class: the chosen name, else a name from the source. Raises ConfigError."""
     if name and not is_class_name(name):
-        hint = "choose one that begins with a capital and is not reserved by Modelica or urdfsync"
+        hint = "choose a name that begins with a capital and is not reserved by Modelica or urdfsync"
         raise ConfigError.of("modelica-name", f"{name!r} can't be a class", hint=hint)
     if within and not configuration.is_package(within):
-        raise ConfigError.of("modelica-name", f"{within!r} can't be a package", hint="name one like Plant.Robots")
+        raise ConfigError.of("modelica-name", f"{within!r} can't be a package", hint="name a package like Plant.Robots")
     return Target(within, name or class_name(source.name.partition(".")[0]) + "Parameters")

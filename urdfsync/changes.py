@@ -1,4 +1,4 @@
-"""Compares two versions of a model: classifies changes, and finds their files. Works for any domain."""
+"""Compares two versions of a model: finds and classifies the changes, and finds moved files. Works for any domain."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ _KINDS = {
 
 
 class Difference(msgspec.Struct, frozen=True):
-    """One place at which two versions differ; `old` is None for what was added, `new` for what was removed."""
+    """One place at which two versions differ; `old` is None for an addition, `new` for a removal."""
 
     path: tuple[str | int, ...]
-    """Keys and indices (from 0) to the value in plain data; `("imports", key)` for an imported file."""
+    """Keys and indices (from 0) that lead to the value in plain data; `("imports", key)` for an imported file."""
     kind: ChangeKind
     old: Any
     new: Any
@@ -46,22 +46,22 @@ class Difference(msgspec.Struct, frozen=True):
     def change(self, path: tuple[str, ...], change_class: ChangeClass, unit: str = "") -> Change:
         """Return the difference in the domain's words: `("joint elbow", "origin", "xyz[2]")` begins with the element.
 
-        `unit` is the unit of both values, or `old → new` if the units differ; empty for a value without unit.
+        `unit` is the unit of both values, or `old → new` for two units; empty for a value without unit.
         """
         return Change(path, self.kind, change_class, self.old, self.new, unit)
 
 
 class Effect(msgspec.Struct, frozen=True):
-    """A property of the whole model in both versions; None where it does not exist."""
+    """A property of the whole model in both versions; None for a version without it."""
 
     path: tuple[str, ...]
     old: Any
     new: Any
     unit: str = ""
     hint: str = ""
-    """Order to the user; empty if there is nothing to do."""
+    """What the user should do; empty if there is nothing to do."""
     limit: float | None = None
-    """The greatest allowed value of the new version."""
+    """The greatest allowed value in the new version."""
 
 
 class Effects(Protocol):
@@ -72,15 +72,15 @@ class Effects(Protocol):
         ...
 
     def loads(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
-        """Return the greatest load of each element of the new version, with its limit; old is None for a new one."""
+        """Return each element's greatest load in the new version, with its limit; `old` is None for a new element."""
         ...
 
     def interface(
         self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
     ) -> Sequence[Effect]:
-        """Return changed names that users may have connected to; old is None for a new name, new for a removed one.
+        """Return changed names of connectors and variables; `old` is None for a new name, `new` for a removed name.
 
-        `options` are those of the new version, and of the old one unless it has its own.
+        `options` belong to the new version, and to an old version without `options`.
         """
         ...
 
@@ -89,7 +89,7 @@ class Effects(Protocol):
     ) -> Iterable[tuple[str, Diagnostic]]:
         """Return warnings about differences that look like mistakes of the export: a path, and a warning without place.
 
-        The core adds the line of the path in the source, as `Reading` has it.
+        The core adds the place: file and line of the path, from `Reading.lines`.
         """
         ...
 
@@ -104,7 +104,7 @@ class Change(msgspec.Struct, frozen=True):
     new: Any
     unit: str = ""
     noise: bool = False
-    """Whether only the rounding of a number may have changed. Builds apply it all the same."""
+    """Whether only the rounding of a number may have changed. Builds apply such a change, too."""
 
     def __post_init__(self) -> None:
         """Set `noise`, which follows from the values."""
@@ -118,15 +118,15 @@ class Change(msgspec.Struct, frozen=True):
         return self.path[0]
 
     def __str__(self) -> str:
-        """Return the path as people read it: `joint elbow / origin / xyz[2]`."""
+        """Return the path for people: `joint elbow / origin / xyz[2]`."""
         return " / ".join(self.path)
 
 
 Describe: TypeAlias = Callable[[Version, Version, Mapping[ElementKey, str], Any], Iterable[Change]]
-"""Returns the changes from one version to another, given the new names of elements and options of the new version.
+"""Returns the changes from one version to another. Further arguments: new names by old elements, the new options.
 
-The attribute `describe` of a domain. Without it, additions and removals are structural changes. A changed value is
-structural if the text of a model follows it, see `by_texts`, and otherwise a parameter change.
+The attribute `describe` of a domain. Without it, additions and removals are structural changes. A value is a structural
+change if the text of a model changes (see `by_texts`), else a parameter change.
 """
 
 
@@ -136,18 +136,18 @@ class Changes(msgspec.Struct, frozen=True):
     KEYS = ("change_class", "generator", "options", "changes", "doubts")
 
     changes: tuple[Change, ...] = ()
-    """Structure first, then numbers, then rounding and unmodelled parts."""
+    """Structural changes first, then changed numbers, then rounding and unmodelled parts."""
     renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
     doubts: tuple[Doubt, ...] = ()
-    """Elements that have the name of an old element and may be other parts."""
+    """Elements that have the name of an old element, but may be other parts."""
     generator: bool = False
-    """Whether templates, options or the release of urdfsync differ."""
+    """Whether templates, options, or the version of urdfsync differ."""
     options: tuple[str, ...] = ()
-    """The options that differ, if templates and release do not."""
+    """The changed options; empty if templates or the version of urdfsync differ."""
 
     @property
     def change_class(self) -> ChangeClass:
-        """The class of the differences: of several, the one with the farthest reach."""
+        """The class with the farthest reach among all differences."""
         if self.generator:
             return ChangeClass.GENERATOR
         return max((change.change_class for change in self.changes), key=lambda c: c.rank, default=ChangeClass.NONE)
@@ -158,7 +158,7 @@ class Changes(msgspec.Struct, frozen=True):
         return bool(self.changes) and not self.generator and all(change.noise for change in self.changes)
 
     def by_element(self) -> Mapping[str, Sequence[Change]]:
-        """Return the changes of each element that has any, in their order."""
+        """Return the changes of each changed element, in order."""
         result: dict[str, list[Change]] = {}
         for change in self.changes:
             result.setdefault(change.element, []).append(change)
@@ -166,9 +166,9 @@ class Changes(msgspec.Struct, frozen=True):
 
 
 def compare(old: Version, new: Version, domain: Domain, options: Any, matching: Matching | None = None) -> Changes:
-    """Return the changes from one version to another, with the domain's options of the new one.
+    """Return the changes from one version to another; `options` are the domain's, in the new version.
 
-    `matching` pairs elements; None to find the pairs.
+    `matching` pairs elements; if it is None, this finds the pairs.
     """
     if matching is None:
         is_same = old.snapshot == new.snapshot
@@ -185,9 +185,9 @@ def compare(old: Version, new: Version, domain: Domain, options: Any, matching: 
 
 
 def by_texts(changes: Changes, owners: Collection[str]) -> Changes:
-    """Return the changes of a domain without `describe`; `owners` are the elements of models with another text.
+    """Reclassify the changes of a domain without `describe`; `owners` are the elements of models whose text changed.
 
-    Their changes are structural. If only a model of the whole has another text, any change may be the reason.
+    Changes of these elements become structural. If only a model of the whole has another text, all changes do.
     """
     is_whole = not changes.generator and changes.change_class.rank < ChangeClass.STRUCTURAL.rank
     is_whole = is_whole and bool(owners - changes.by_element().keys())
@@ -208,7 +208,7 @@ def _describe(
     *,
     unit: Callable[[Any, Sequence[str]], str],
 ) -> Iterator[Change]:
-    """Yield the changes of a domain without words of its own: `("parts", "motor", "mass")` is `part motor / mass`."""
+    """Yield the changes of a domain without `describe`: `("parts", "motor", "mass")` is `part motor / mass`."""
     before = _under_new_names(plain(old.snapshot), renames)
     for difference in find_differences(old, new, before, plain(new.snapshot)):
         kind, *path = map(str, difference.path)
@@ -219,7 +219,7 @@ def _describe(
 
 
 def _under_new_names(data: Mapping[str, Any], renames: Mapping[ElementKey, str]) -> Mapping[str, Any]:
-    """Return plain data by kind and name with the new names of its elements, and without `displaced` ones."""
+    """Return plain data by kind and name, with new names of elements, and without `displaced` elements."""
     gone, moved = displaced(renames), dict[str, Any]()
     for part, elements in data.items():
         kind = part.removesuffix("s")
@@ -242,11 +242,11 @@ def _weight(change: Change) -> tuple[bool, ...]:
 def moved_files(
     old: Mapping[str, tuple[str, str]], new: Mapping[str, tuple[str, str]], renames: Mapping[ElementKey, str]
 ) -> Mapping[str, str]:
-    """Return old path → new path of each file that belongs to the same element as before, but is at another place.
+    """Return old path → new path of each file that belongs to the same element, but has another path.
 
-    Both mappings have the owner and the template of files by their path. A file moves with its element's new name, or
-    with its new identifier. If several files of one element and template have moved, they are not matched. The files
-    of a removed element whose name another element has now are left out.
+    `old` and `new` map a file's path to its owner and template. A file moves with its element's new name, or with its
+    new identifier. If several files of one element and template have moved, the result has none of them. If another
+    element has a removed element's name, the removed element's files are left out.
     """
     if old == new and not renames:
         return {}
@@ -270,16 +270,16 @@ def moved_files(
 
 
 def is_number(value: object) -> bool:
-    """Return whether a value is a number, and no truth value."""
+    """Return whether a value is a number; True and False are not."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def find_differences(
     old: Version, new: Version, old_data: Mapping[str, Any], new_data: Mapping[str, Any]
 ) -> Iterator[Difference]:
-    """Yield the differences of two versions: of their snapshots as plain data by kind and name, and of their imports.
+    """Yield the differences of two versions: of their snapshots, then of their imports.
 
-    Equal elements cost one comparison each; callers may leave them out.
+    The snapshots are given as plain data by kind and name; callers may leave out equal elements.
     """
     yield from _of_snapshots(old_data, new_data)
     if old.imports is not None and new.imports is not None:
@@ -314,8 +314,8 @@ def _of_values(path: tuple[str, ...], old: Any, new: Any) -> list[Difference]:
 def of_leaves(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference] | None:
     """Return the differences of two values with the same keys and lengths; None for other values.
 
-    Loading deepdiff takes 110 ms, more than the row "one mass changed, whole process, 100 links" of docs/speed.md has
-    left. A property test holds both to the same answer.
+    Loading deepdiff takes 110 ms: too long for the row "one mass changed, whole process, 100 links" of docs/speed.md. A
+    property test compares the results of this function and of deepdiff.
     """
     if isinstance(old, dict) and isinstance(new, dict):
         if old.keys() != new.keys():
@@ -346,7 +346,7 @@ def by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:
         old,
         new,
         view="tree",
-        zip_ordered_iterables=True,  # else a changed number of a vector counts as one removed and one added
+        zip_ordered_iterables=True,  # else a changed number of a vector counts as a removal and an addition
         threshold_to_diff_deeper=0,  # else mappings with few common keys are compared as a whole
         ignore_private_variables=False,
     )
@@ -359,12 +359,12 @@ def by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:
         )
         for report, levels in tree.items()
         for level in levels
-        if level.t1 != level.t2  # 1 and 1.0 are of two types
+        if level.t1 != level.t2  # deepdiff reports 1 → 1.0 as a change of type
     ]
 
 
 def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterator[Difference]:
-    """Yield the differences of imported files; the hash of the content stands for it."""
+    """Yield the differences of imported files, as hashes of their contents."""
     for key in sorted(old.keys() | new.keys()):
         before, after = old.get(key), new.get(key)
         if before is None or after is None:
@@ -372,6 +372,6 @@ def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterato
             yield Difference(("imports", key), kind, before and before.target_hash, after and after.target_hash)
         elif (before.target_hash, before.facts) != (after.target_hash, after.facts):
             hashes = before.target_hash, after.target_hash
-            if before.target_hash == after.target_hash:  # only facts differ, such as colours
+            if before.target_hash == after.target_hash:  # the contents are equal; only facts differ, such as colours
                 hashes = before.source_hash, after.source_hash
             yield Difference(("imports", key), ChangeKind.CHANGED, *hashes)

@@ -24,11 +24,12 @@ _COMMANDS = (
     "init add remove adopt build diff report status watch check simulate fmu resolve record hook merge-driver library "
     "schema completion"
 ).split()
-"""The commands in the order of the help. Each is a module of `commands`, which is loaded only if it may be needed."""
+"""The commands in the order of the help. Each command is a module of `commands`; other commands' modules are not
+loaded."""
 
 
 def main(given: Sequence[str] | None = None) -> int:
-    """Run a command; returns the exit code. An unforeseen error is one line that names the file of its traceback."""
+    """Run a command; returns the exit code. An internal error is one line that names a file with the traceback."""
     given = sys.argv[1:] if given is None else list(given)
     try:
         config_file = uptodate.find_config(given) if given and given[0] in uptodate.COMMANDS else None
@@ -53,13 +54,13 @@ def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
 
 
 def tell_unwritten(trouble: str) -> int:
-    """Say that not all of the output could be written; returns the exit code."""
+    """Report that the output is incomplete; returns the exit code."""
     problem = Diagnostic(Severity.ERROR, "output", f"the output can't be written: {trouble}")
     return Console().end(Exit.ERROR, [problem])
 
 
 def _main(given: list[str]) -> int:
-    """Run a command. This is the one place that turns exceptions into exit codes."""
+    """Run a command. Only this function turns exceptions into exit codes."""
     command = _command(given)
     console = Console(command, format="json" if arguments.wants_json(given) else "text")
     try:
@@ -84,7 +85,7 @@ def _main(given: list[str]) -> int:
 
 
 def _arguments(given: list[str]) -> argparse.Namespace:
-    """Return the arguments of a command. Raises UsageError, with the likely intention as hint."""
+    """Return the arguments of a command. Raises UsageError; its hint has the most similar valid word."""
     parser = _parser(given)
     if given and not (given[0].startswith("-") or given[0] in _COMMANDS):
         raise arguments.UsageError(parser, f"no command `{given[0]}`", _meant(given[0], _COMMANDS))
@@ -101,7 +102,7 @@ def _meant(name: str, known: Iterable[str]) -> str:
 
 
 def _call(args: argparse.Namespace, console: Console) -> int:
-    """Run the command. An error during the clean-up after an interruption counts as the interruption."""
+    """Run the command. After Ctrl-C, an error of the clean-up counts as Ctrl-C."""
     try:
         return int(_module(args.command).run(args, console))
     except Exception as error:
@@ -114,7 +115,7 @@ def _call(args: argparse.Namespace, console: Console) -> int:
 
 
 def _for_git(given: Sequence[str], error: int) -> int:
-    """Return the exit code of an error for git's merge driver: smaller codes count conflicts."""
+    """Return the exit code of an error; for the merge driver, a large one: git takes small codes for conflicts."""
     return arguments.DRIVER_ERROR if _command(given) == "merge-driver" and "--install" not in given else error
 
 
@@ -136,7 +137,7 @@ def _terminated_as_interrupted() -> Iterator[None]:
 
 
 class _ProgramParser(arguments.Parser):
-    """The parser of what precedes a command."""
+    """The parser of the arguments before a command."""
 
     def format_help(self) -> str:
         return overview.help_text()

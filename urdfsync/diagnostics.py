@@ -17,11 +17,11 @@ IGNORABLE = frozenset(
     "renamed-robot repeated same-but-for-case stray-state stray-template terminated too-long too-many-folders "
     "units unknown-build unused-argument unresolved wrong-kind wrong-within xacro-said".split()
 )
-"""Codes of warnings and notes that a configuration may ignore, beside those of the robot's domain."""
+"""Codes of warnings and notes that a configuration may ignore, beside the codes of the robot's domain."""
 
 
 _LONGEST = 1000
-"""The most characters of a message, a hint or a detail: names in them may have any length."""
+"""The greatest number of characters of a message, a hint or a detail: a name in the text may have any length."""
 
 
 def cut(text: str, longest: int) -> str:
@@ -43,9 +43,9 @@ class Severity(enum.StrEnum):
 class Diagnostic(msgspec.Struct, frozen=True):
     """One finding about one place of the user's input.
 
-    `code` is a stable, lower-case slug such as `duplicate-link`; `message` is one sentence without
-    a full stop that names the culprit; `hint` says what to do. `file` is shown as it is given;
-    `line` and `column` count from 1, and 0 stands for unknown.
+    `code` is a stable, lower-case word such as `duplicate-link`. `message` is a sentence without a full stop that names
+    the faulty thing. `hint` says what to do. `file` is shown as it is given; `line` and `column` count from 1, and 0
+    stands for unknown.
     """
 
     severity: Severity
@@ -56,7 +56,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
     column: int = 0
     hint: str = ""
     details: tuple[str, ...] = ()
-    """Lines that only `--verbose` shows."""
+    """Details: lines that only `--verbose` shows."""
 
     def __post_init__(self) -> None:
         """Cut texts that are too long for a line."""
@@ -79,8 +79,8 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
 
 def internal_error(error: Exception, what: str = "") -> Diagnostic:
-    """Return the finding for a mistake in urdfsync: its place, and the file with its traceback."""
-    import traceback  # 4 ms, rarely needed
+    """Return the finding for a bug in urdfsync: the place of the exception, and a file with the traceback."""
+    import traceback  # takes 4 ms, and is rarely needed
 
     frame = traceback.extract_tb(error.__traceback__)[-1]
     place = f"{os.path.basename(frame.filename)}, line {frame.lineno}"  # noqa: PTH119 - no pathlib for this alone
@@ -92,9 +92,9 @@ def internal_error(error: Exception, what: str = "") -> Diagnostic:
     return Diagnostic(Severity.ERROR, "internal", message, hint=hint)
 
 
-@functools.lru_cache(maxsize=16)  # the daemon may meet the same mistake at each build
+@functools.lru_cache(maxsize=16)  # the daemon may hit the same bug in each build
 def _save_traceback(text: str) -> str:
-    """Write a traceback to a temporary file, and return its path; empty if that fails."""
+    """Write a traceback to a temporary file and return the file's path; empty if the file can't be written."""
     import tempfile
 
     try:
@@ -107,10 +107,10 @@ def _save_traceback(text: str) -> str:
 
 
 class UrdfsyncError(Exception):
-    """Base of all errors that a user can cause; carries the diagnostics that explain it."""
+    """Base of all errors that a user can cause; its `diagnostics` explain the error."""
 
     is_locked = False
-    """Whether another process works on the same robots; then the exit code is 4, not 2."""
+    """Whether another process builds the same robots: the exit code is 4, not 2."""
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
         super().__init__(*diagnostics)  # pickle needs these arguments when a worker raises it
@@ -139,13 +139,13 @@ class StateError(UrdfsyncError):
 
 
 class OutputError(UrdfsyncError):
-    """The outputs can't be written to their configured place."""
+    """The outputs can't be written."""
 
 
 def findings_of(error: Exception) -> tuple[Diagnostic, ...]:
-    """Return the findings of an exception: for a mistake in urdfsync the internal error.
+    """Return the diagnostics of an exception; for a bug in urdfsync, a diagnostic about an internal error.
 
-    Loops over robots catch every exception and call this, so one robot never stops the others.
+    Loops over robots catch every exception and call this function, so one robot never stops the others.
     """
     if isinstance(error, UrdfsyncError):
         return error.diagnostics

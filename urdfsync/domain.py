@@ -1,8 +1,8 @@
-"""The interface of a domain (URDF, or another data format), and the values that it exchanges with the core.
+"""The interface of a domain (URDF, or another data format), and the values that core and domain exchange.
 
-The core reads bytes and asks the domain for a *snapshot* of the model. It imports the files that the model depends on.
-It asks for the *artifacts* that follow from snapshot, imports and options. It renders, plans and writes them. This
-module depends on no domain and does no IO.
+The core reads the source, and asks the domain for a *snapshot* of the model. The core imports the files that the model
+refers to. Then the core asks for the *artifacts* that follow from snapshot, imports and options. The core renders,
+plans and writes these files. This module depends on no domain and does no IO.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from urdfsync.diagnostics import Diagnostic
 Snapshot: TypeAlias = Any
 """A model as its domain reads it: a frozen msgspec.Struct, `Domain.model`, with all data of artifacts.
 
-Lists of named elements are sorted by name, so that a recorded snapshot is equal when it is read again.
+Lists of named elements are sorted by name: a snapshot equals itself after it was recorded and read again.
 """
 
 ElementKey: TypeAlias = tuple[str, str]
@@ -27,21 +27,21 @@ ElementKey: TypeAlias = tuple[str, str]
 
 
 class Features(msgspec.Struct, frozen=True):
-    """Contents and neighbours of an element, by which it is found again under another name."""
+    """Contents and neighbours of an element: they identify the element if its name changes."""
 
     contents: Mapping[str, Any]
-    """Plain data by words such as `mass`; without names and without absent values."""
+    """Plain data by words such as `mass`; names and absent values are left out."""
     neighbours: Mapping[str, ElementKey]
     """Neighbours by relation, such as `parent`."""
     files: tuple[str, ...] = ()
-    """Files of the element. They are not in `contents`, since exporters name files after elements."""
+    """Files of the element. Files are not in `contents`, since exporters name files after elements."""
 
 
 class Role(enum.StrEnum):
-    """Role of a generated file in the decision about it."""
+    """Role of a generated file; the decision about the file depends on it."""
 
     RECORD = "record"
-    """Numbers and strings only: it may be written while models wait for a conflict to be resolved."""
+    """A record has only numbers and strings: it may be written while models wait for a conflict to be resolved."""
     MODEL = "model"
     PACKAGE = "package"
     ORDER = "order"
@@ -59,7 +59,7 @@ class Artifact(msgspec.Struct, frozen=True):
     data: Mapping[str, Any]
     """Variables of the template: plain data and structs that JSON can hold."""
     owner: str
-    """The element that it belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
+    """The element that the file belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
 
 
 class Order(msgspec.Struct, frozen=True):
@@ -76,26 +76,26 @@ class Dependency(msgspec.Struct, frozen=True):
     """Identity within the model: its URI in the source, and its conversion."""
     uri: str
     candidates: tuple[Path, ...]
-    """Paths where it may be, best first."""
+    """Paths where the file may be, best first."""
     target: str
     """POSIX path of the imported file below the package folder; no other dependency has it."""
     noun: str
-    """Its kind in one lower-case word, for messages and the codes of diagnostics."""
+    """The kind of the file in one lower-case word, for messages and the codes of diagnostics."""
     line: int = 0
     """Line of the source that first refers to it; 0 if unknown."""
     guessed: bool = False
-    """Whether it was found only in a folder with another name than its package."""
+    """Whether the file was found only in a folder with another name than its package."""
     facts: tuple[str, ...] = ()
-    """Names of the facts that artifacts need, if they differ between conversions."""
+    """Names of the facts that artifacts need, if different conversions have different facts."""
 
 
 class Conversion(msgspec.Struct, frozen=True):
-    """A dependency's content as the package needs it, and `facts` (plain data) that artifacts need of it."""
+    """A dependency's content for the package, and the `facts` (plain data) about it that artifacts need."""
 
     content: bytes
     facts: Mapping[str, Any]
     more: tuple[Conversion, ...] = ()
-    """Further files of the package that it becomes; each is an import of its own, see `further_key`."""
+    """Further files of the package that the dependency becomes; each is an import of its own (see `further_key`)."""
 
 
 def further_key(key: str, number: int) -> str:
@@ -104,16 +104,16 @@ def further_key(key: str, number: int) -> str:
 
 
 class Import(msgspec.Struct, frozen=True, omit_defaults=True):
-    """A dependency in the package; its file may come from an earlier build that had the source."""
+    """A dependency in the package; if its source is missing now, its file comes from an earlier build."""
 
     target: str
     source_hash: str
-    """SHA-256 (hex) of the dependency's bytes, and of those of `others`."""
+    """SHA-256 (hex) of the dependency's bytes and of the bytes of `others`."""
     target_hash: str
     """SHA-256 (hex) of the imported bytes."""
     facts: Mapping[str, Any]
     others: tuple[str, ...] = ()
-    """Other files that it was made from, found or not: paths from the folder of the dependency's file."""
+    """Other files that the conversion asked for, found or not: paths from the folder of the dependency's file."""
 
 
 class ChangeKind(enum.StrEnum):
@@ -131,41 +131,41 @@ class ChangeClass(enum.StrEnum):
     NONE = "none"
     """Nothing differs."""
     UNMODELLED = "unmodelled"
-    """No file of the package depends on it."""
+    """No file of the package changes."""
     PARAMETER = "parameter"
-    """Records and imported files depend on it."""
+    """Only records and imported files change."""
     STRUCTURAL = "structural"
-    """Models, packages or their order depend on it."""
+    """Models, packages or their order change."""
     GENERATOR = "generator"
-    """The templates, the options or the release of urdfsync differ; they turn the model into files."""
+    """The templates, the options or the version of urdfsync differ: any file may change."""
 
     @property
     def rank(self) -> int:
-        """The number of this class in the order above; the first class has 0."""
+        """The position of this class in the order above, from 0."""
         return list(ChangeClass).index(self)
 
 
 class Version(msgspec.Struct, frozen=True):
-    """A model as a build sees it."""
+    """A model with its imports and options."""
 
     snapshot: Snapshot
     imports: Mapping[str, Import] | None = None
-    """The found files of the model; None if they were not looked for: then each file counts as found."""
+    """The found files of the model; None if nobody looked for files: then each file counts as found."""
     options: Any = None
-    """The domain's options of its build; None if unknown, or if they equal those of the other version."""
+    """The domain's options; None if they are unknown, or if the other version has the same."""
 
 
 class Reading(msgspec.Struct, frozen=True):
-    """A source as it was read: the snapshot, unless a diagnostic is an error, and the diagnostics."""
+    """The result of reading a source: the snapshot, unless a diagnostic is an error, and the diagnostics."""
 
     snapshot: Snapshot
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int] = msgspec.field(default_factory=dict)
-    """Line of each element, by the domain's own keys; they are passed to `Domain.dependencies`."""
+    """Line of each element, by the domain's own keys; the core passes these lines to `Domain.dependencies`."""
     option_findings: tuple[tuple[str, Diagnostic], ...] = ()
-    """Findings about options for this model: each option, with a diagnostic without place.
+    """Findings about options for this model: each option, with a diagnostic without file and line.
 
-    An error stops the build of the robot. The core adds the line of the configuration.
+    An error stops the build of the robot. The core adds the option's line in the configuration.
     """
 
 
@@ -177,11 +177,11 @@ class Lookup(msgspec.Struct, frozen=True):
     package_paths: tuple[Path, ...] = ()
     """Folders whose children are packages, from the configuration and the environment, best first."""
     packages: Mapping[str, Path] = msgspec.field(default_factory=dict)
-    """Folders of packages by name, in any place; filled only if a file was not found otherwise."""
+    """Folders of all ROS packages by name; filled only if a file was not found elsewhere."""
     libraries: Mapping[str, Path] = msgspec.field(default_factory=dict)
-    """Folders of the Modelica libraries on MODELICAPATH by name; filled only if the source refers to one."""
+    """Folders of the Modelica libraries on MODELICAPATH by name; filled only if the source refers to a library."""
     guess: bool = False
-    """Whether a missing package may be a folder of another name around the source."""
+    """Whether a folder around the source may stand for a missing package of another name."""
 
 
 class Target(msgspec.Struct, frozen=True):
@@ -194,16 +194,16 @@ class Target(msgspec.Struct, frozen=True):
 
 
 class Domain(Protocol):
-    """A data format and the Modelica package that follows from it; registered as entry point `urdfsync.domains`.
+    """A data format and its Modelica package; registered as entry point `urdfsync.domains`.
 
-    A domain that inherits from this class defines `name`, `model`, `options`, `read`, `names` and `artifacts`. It
-    overrides the defaults that do not suit it. docs/domains.md has an example.
+    A domain that inherits from this class defines `name`, `model`, `options`, `read`, `names` and `artifacts`. It may
+    override all other methods and attributes. docs/domains.md has an example.
     """
 
     name: str
-    """Name in the configuration; also the folder below `templates/`, unless `templates` names another."""
+    """Name in the configuration, and of the folder in urdfsync's `templates/`."""
     templates: Path | None = None
-    """Folder with the domain's templates; None for the folder of its name in urdfsync's own."""
+    """Folder with the domain's templates; None for the folder `name` in urdfsync's `templates/`."""
     warnings: Collection[str] = ()
     """Codes of the domain's warnings and notes; a configuration may ignore these."""
     model: type[Any]
@@ -212,11 +212,12 @@ class Domain(Protocol):
     """A frozen msgspec.Struct with the domain's options and their defaults; the core refuses unknown keys."""
 
     permissive_options: Any = None
-    """The options for sources outside of a project; None for the defaults."""
+    """The options for sources that no configuration names; None for the defaults."""
     cured: Collection[str] = ()
-    """Codes of errors that `Advice.propose` cures by an option; outside of a project they are warnings."""
+    """Codes of errors that an option from `Advice.propose` avoids; for sources that no configuration names, they are
+    warnings."""
 
-    # Optional features. Each Protocol stands beside the code that uses it; a module may implement it, too.
+    # Optional features. Each Protocol is defined beside the code that uses it; an object or a module implements it.
     advice: Any = None  # `urdfsync.config.advice.Advice`
     starter: Any = None  # `urdfsync.config.advice.Starter`
     beside: Any = None  # `urdfsync.engine.source.Beside`
@@ -231,17 +232,17 @@ class Domain(Protocol):
     pictures: Any = None  # `urdfsync.pages.scene.Pictures`
 
     def read(self, content: bytes, file: str, options: Any) -> Reading:
-        """Read a source; `file` is its name in diagnostics. Pure, and raises nothing for bad input: see `Reading`."""
+        """Read a source; `file` is its name in diagnostics. Pure. Errors of the input are in the `Reading`."""
         ...
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
-        """Return the Modelica identifiers by kind of element, in the plural, and by name in the source."""
+        """Return the Modelica identifiers by kind of element (such as `links`), then by name in the source."""
         ...
 
     def artifacts(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
     ) -> Iterable[Artifact | Order]:
-        """Return all files of the package but the imported ones. Pure."""
+        """Return all files of the package except imported files. Pure."""
         ...
 
     def unit(self, snapshot: Snapshot, path: Sequence[str]) -> str:
@@ -255,29 +256,29 @@ class Domain(Protocol):
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
-        """Return the files that the model refers to, each once. Pure: no file is looked for."""
+        """Return each file that the model refers to, once. Pure: it looks for no file."""
         return ()
 
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
         """Convert a dependency found at `file` for the package. Raises SourceError if it can't be read.
 
-        `others` has the contents of the files that `Mentions.mentioned` named; empty for unreadable ones.
+        `others` has the contents of the files that `Mentions.mentioned` named; an unreadable file has an empty content.
         """
         return Conversion(content, {})
 
     def features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
-        """Return the elements that may be found again under another name; by default, elements match by name alone."""
+        """Return the features of elements; by default, elements have none and match by name alone."""
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
 
 
 def displaced(renames: Mapping[ElementKey, str]) -> set[ElementKey]:
-    """Return the removed elements whose names renamed elements have now."""
+    """Return the removed elements whose names now belong to renamed elements."""
     return {(kind, name) for (kind, _), name in renames.items()} - renames.keys()
 
 
 def plain(value: Any) -> Any:
-    """Return a value as JSON data, with sorted keys and without None."""
+    """Return a value as JSON data, with sorted keys, and without keys that are None."""
     return _without_none(msgspec.json.decode(msgspec.json.encode(value, order="sorted")))
 
 

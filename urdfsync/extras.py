@@ -1,4 +1,4 @@
-"""The optional extras of urdfsync, as commands that install them wherever urdfsync itself was installed from."""
+"""The optional extras of urdfsync, and the commands that install them, whatever urdfsync was installed from."""
 
 PACKAGES = {
     "check": "rumoca scipy",

@@ -1,4 +1,4 @@
-"""Reads files: computes hashes, refuses links and irregular files, and words errors."""
+"""Reads files: computes hashes, refuses links and irregular files, and describes errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from urdfsync.answers.facts import LSTAT, read_unrecorded
 from urdfsync.diagnostics import OutputError
 
 TEMPORARY = ".urdfsync-tmp"
-"""Suffix of new files before they replace their targets."""
+"""Suffix of new files that will replace their targets."""
 
 _HINTS = {
     **dict.fromkeys((errno.EACCES, errno.EPERM), "check the permissions of the file and of its folder"),
@@ -28,10 +28,10 @@ _HINTS = {
 
 
 def shown(path: Path) -> str:
-    """Return a path for messages as a user would type it: relative to the working folder if that is shorter."""
+    """Return a path for messages, as a user would type it: relative to the working folder if that is shorter."""
     text = str(path)
     try:
-        current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
+        current = os.getcwd()  # noqa: PTH109 - every message calls this, and a Path takes five times as long
     except FileNotFoundError:  # it was deleted
         return text
     inside = os.path.join(current, "")  # noqa: PTH118
@@ -66,14 +66,14 @@ def put(file: Path, content: bytes) -> None:
             new.write(content)
         temporary.replace(file)
     finally:
-        with contextlib.suppress(OSError):  # it may not have been made
+        with contextlib.suppress(OSError):  # the file may not exist
             temporary.unlink(missing_ok=True)
 
 
 class Templates(NamedTuple):
-    """Folders that templates are taken from, best first, and the hash of their contents.
+    """Folders of templates, best first, and the hash of their contents.
 
-    The last folder is the domain's own; one before it is the user's.
+    The last folder is the domain's; other folders are the user's.
     """
 
     folders: tuple[Path, ...]
@@ -81,9 +81,9 @@ class Templates(NamedTuple):
 
 
 def templates_digest(folders: Sequence[Path]) -> str:
-    """Return the SHA-256 (hex) of the templates in use, by name and content; earlier folders hide names of later ones.
+    """Return the SHA-256 (hex) of names and contents of the templates in use; hidden files are left out.
 
-    The last folder is the program's. Hidden files are left out.
+    A template hides templates of the same name in later folders. The last folder is the program's.
     """
     templates: dict[str, str] = {}
     for folder in reversed(folders):
@@ -110,18 +110,18 @@ def kind_of(mode: int) -> str:
 
 
 def placed(prefix: str, key: str) -> str:
-    """Return the path of a file by its POSIX path from a folder; `prefix` is the folder with a separator at its end.
+    """Return a file's path by its POSIX path from a folder; `prefix` is the folder with a final separator.
 
-    Faster than pathlib for thousands of paths: hardly any has `.` or `..` in it.
+    This is faster than pathlib for thousands of paths: hardly any path contains `.` or `..`.
     """
     path = prefix + key
     return os.path.normpath(path) if ".." in key or os.sep != "/" else path
 
 
 class Tree:
-    """The files below `root`; no path may leave it, not even through a symbolic link.
+    """The files below `root`; no path may leave `root`, not even through a symbolic link.
 
-    Each folder is looked at once: only another `Tree` finds a folder that is made later.
+    This looks at each folder once: only another `Tree` finds folders that are made later.
     """
 
     def __init__(self, root: Path) -> None:
@@ -130,13 +130,13 @@ class Tree:
         self._checked = {str(root): True}
 
     def covers(self, path: str | os.PathLike[str]) -> bool:
-        """Whether a path is below the root; absolute, and without `..` if it is a string."""
+        """Whether a path is below the root; a string must be absolute, without `..`."""
         return os.fspath(path).startswith(self._below)
 
     def read(self, path: str | os.PathLike[str]) -> bytes | None:
         """Read a file below the root; None if there is none.
 
-        A path that is a string is absolute and has no `..`.
+        A string as path must be absolute, without `..`.
 
         Raises OutputError for a link, for another irregular file, and for an unreadable one.
         """
@@ -152,7 +152,7 @@ class Tree:
                 note_content(LSTAT, path, content)
                 return content
         except (FileNotFoundError, NotADirectoryError):
-            return None  # it was deleted meanwhile
+            return None  # somebody deleted the file meanwhile
         except OSError as error:
             hint = _HINTS.get(error.errno or 0, "")
             raise _refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None

@@ -2,18 +2,19 @@
 
 All elements are matched at once, by their contents, places and names:
 
-1. Declared matches hold. A content is one aspect of an element, such as its shapes, or all its aspects. If a content is
-   unique in both versions, its two elements match, whatever their names are. If aspects disagree, they prove nothing;
-   but if one aspect stays with a name, the elements of this name match. If an element keeps its name and its unchanged
-   neighbours, a content that moved to it is only a change of numbers.
-2. Neighbours of matched elements match if they are at the same place and have equal contents.
+1. Declared matches hold. A content is one aspect of an element, such as its shapes, or all aspects together. If a
+content is unique in both versions, its two elements match, whatever their names are. If an element's aspects match
+different elements, they prove nothing. But if one of these aspects stays with a name, the elements of this name match.
+If an element keeps its name and its neighbours, its numbers changed, whatever content it has now. 2.
+Neighbours of matched elements match if they are at the same place and have equal contents.
 3. Then names win: elements of the same name match.
-4. The remaining elements have other names. Two of them at the same place match if no other element has their content,
-   or if another element has the old name now.
+4. The remaining elements have other names. Two of these at the same place match if no other element has their content.
+They also match if another element has the old name now.
 
-Rows of a table are a kind without neighbours: they have no places. So a whole content counts whatever is in it; but if
-only zeros and ones changed under a name, the row may have been switched on or off. A text in a single column lets an
-element keep its name, or is a doubt. After step 3, rows of equal content match if only these two have other names.
+Rows of a table are a kind without neighbours: they have no places. So a whole content counts, whatever its values are.
+But if only zeros and ones changed under a name, somebody may have switched the row on or off. A unique text in one
+column proves no new name: the element keeps its name, or there is a doubt. After step 3, two rows of equal content
+match if all other rows of this content have kept their names.
 
 Numbers are equal if they differ by `NOISE` at most. If the place or a part of the content contradicts a match of step
 3, this is a `Doubt`. The time is linear in the number of elements.
@@ -37,27 +38,27 @@ Elements: TypeAlias = Mapping[ElementKey, Features]
 
 
 class Doubt(msgspec.Struct, frozen=True):
-    """The reason why an element with an old name is, or may be, another part."""
+    """The reason why an element with the name of an old element is, or may be, another part."""
 
     element: str
     """Kind and name: `link hand`."""
     former: str = ""
-    """The likely old name of this element; empty for a new element."""
+    """The likely former name of this element; empty for a new element."""
     aspects: tuple[str, ...] = ()
-    """The aspects that it shares with the element of that name."""
+    """The aspects that it shares with the old element of the former name."""
     moved_to: str = ""
-    """The likely new name of the element that had this name before; empty if unknown."""
+    """The likely new name of the old element with this name; empty if unknown."""
     is_certain: bool = False
-    """Whether the element that had the name is gone."""
+    """Whether the old element with this name is gone."""
 
 
 class Matching(msgspec.Struct, frozen=True):
-    """The renamed elements, and the doubts about elements whose name may have been another element's."""
+    """The renamed elements, and the doubts about elements that have an old name, but may be other parts."""
 
     renames: Mapping[ElementKey, str] = {}
-    """New names by old elements, in order."""
+    """New names by old elements, in the order of the old elements."""
     doubts: Mapping[ElementKey, Doubt] = {}
-    """Doubts by new elements; each has the name of an old element."""
+    """Doubts by new elements; each of these has the name of an old element."""
 
 
 def without_exchanges(matching: Matching, old: Elements) -> Matching:
@@ -72,7 +73,7 @@ def without_exchanges(matching: Matching, old: Elements) -> Matching:
 
 
 def match(old: Elements, new: Elements, declared: Mapping[ElementKey, ElementKey] = {}) -> Matching:
-    """Match the elements of two versions; `declared` has new elements by old ones."""
+    """Match the elements of two versions; `declared` has new elements by old elements."""
     if not declared and old.keys() == new.keys() and not _has_moved(old, new):
         return Matching()
     return _Matcher(old, new, declared).run()
@@ -99,13 +100,13 @@ class _Matcher:
         self._pairs: dict[ElementKey, ElementKey] = {}
         self._taken: dict[ElementKey, ElementKey] = {}
         self._places = defaultdict[ElementKey, dict[ElementKey, None]](dict)
-        """New elements at the places of old ones, next to matched elements."""
+        """New elements at the places of old elements, next to matched elements."""
         self._removed, self._added = set[Hashable](), set[Hashable]()
         """Contents of old and of new elements that have no match."""
         self._take(declared.items())
 
     def run(self) -> Matching:
-        """Go through the steps above."""
+        """Go through the steps of the module's docstring."""
         votes = self._votes()
         self._take(self._proved(votes).items())
         self._spread(self._pairs, is_late=False)
@@ -137,9 +138,9 @@ class _Matcher:
         return taken
 
     def _votes(self) -> dict[ElementKey, dict[ElementKey, bool]]:
-        """Return, for each old element, the new ones that share an aspect with it which no other element has.
+        """Return, for each old element, the new elements that share a unique aspect with it.
 
-        The value tells whether this may prove another name. A text alone can't: another pump may have the same maker.
+        The value tells whether the aspect may prove a new name. A text alone can't: two pumps may have one maker.
         """
         votes = defaultdict[ElementKey, dict[ElementKey, bool]](dict)
         holders = defaultdict[tuple[str, Any], tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
@@ -179,9 +180,9 @@ class _Matcher:
         }
 
     def _stays(self, key: ElementKey, proved: Mapping[ElementKey, ElementKey]) -> bool:
-        """Whether an element keeps its name and its neighbours, which contents prove to be the same.
+        """Whether an element keeps its name and its neighbours, judged by contents.
 
-        If its kind has no neighbours, it keeps its aspects that can identify it: only zeros and ones differ.
+        An element of a kind without neighbours must keep all aspects that can identify it: only zeros and ones differ.
         """
         if key in self._new and key[0] not in self._placed:
             return self._telling & {*self._before[key]} == self._telling & {*self._after[key]}
@@ -190,7 +191,7 @@ class _Matcher:
         return bool(before) and before == after and all(proved.get(one) == one for one in before.values())
 
     def _is_contested(self, key: ElementKey, match_: ElementKey) -> bool:
-        """Whether a new name took the old place, or a removed name left the new place."""
+        """Whether a new name's element has the old place, or a removed name's element had the new place."""
         for relation, one in self._old[key].neighbours.items():
             if self._before[one] == self._after.get(one) and one not in self._new[match_].neighbours.values():
                 heirs = self._children[1].get(one, {}).get(relation, ())
@@ -224,7 +225,7 @@ class _Matcher:
                 frontier = self._take(self._between())
 
     def _roots(self) -> list[tuple[ElementKey, ElementKey]]:
-        """Return the two roots, if each version has a single one and their contents are equal."""
+        """Return the two roots, if each version has a single root and their contents are equal."""
         tops = [
             [key for key, features in elements.items() if not features.neighbours]
             for elements in (self._old, self._new)
@@ -234,7 +235,7 @@ class _Matcher:
         return [(tops[0][0], tops[1][0])] if is_one else []
 
     def _around(self, matches: Mapping[ElementKey, ElementKey]) -> Iterator[tuple[ElementKey, ElementKey]]:
-        """Yield pairs of an old and a new element at the same place next to a match."""
+        """Yield pairs of an old and a new element at the same place, next to a matched pair."""
         for old, new in matches.items():
             after = self._new[new].neighbours
             yield from (
@@ -254,7 +255,7 @@ class _Matcher:
                         yield from ((key, key) for key in olds if key in news)
 
     def _likeness(self, key: ElementKey, side: int) -> Hashable:
-        """Return the content of an element, with its matched neighbours and the contents of the others."""
+        """Return the content of an element, with its matched neighbours and the contents of other neighbours."""
         elements, contents, matched = (
             (self._new, self._after, self._taken) if side else (self._old, self._before, self._pairs)
         )
@@ -269,12 +270,12 @@ class _Matcher:
         is_named = old in self._new and old not in self._taken
         if self._is_equal(old, new):
             return old == new or not is_named or not self._is_equal(old, old) or self._has_another_place(old)
-        # in step 4, the old name is gone or another element has it, and no other unmatched element has these contents
+        # step 4: the old name is gone or another element's, and no other unmatched element has these contents
         is_unique = (old[0], self._before[old]) not in self._added and (new[0], self._after[new]) not in self._removed
         return is_late and not is_named and is_unique
 
     def _is_equal(self, old: ElementKey, new: ElementKey) -> bool:
-        """Whether two elements have equal contents, and the same files or files named after them."""
+        """Whether two elements have equal contents, and either the same files or files named after the elements."""
         if self._before[old] != self._after[new]:
             return False
         files, others = self._old[old].files, self._new[new].files
@@ -287,7 +288,7 @@ class _Matcher:
         )
 
     def _has_another_place(self, key: ElementKey) -> bool:
-        """Whether the new element of this name has other neighbours than the old one."""
+        """Whether the new element of this name has other neighbours than the old element."""
         for relation, one in self._old[key].neighbours.items():
             if one in self._pairs and self._new[key].neighbours.get(relation) != self._pairs[one]:
                 return True
@@ -297,7 +298,7 @@ class _Matcher:
         return False
 
     def _remaining(self) -> Iterator[tuple[ElementKey, ElementKey]]:
-        """Yield pairs of elements without places: of all elements with their content, only they have other names."""
+        """Yield pairs of elements without places: all other elements of the same content keep their names."""
         holders = defaultdict[Hashable, tuple[set[ElementKey], set[ElementKey]]](lambda: (set(), set()))
         for side, elements in enumerate((self._before, self._after)):
             for key, aspects in elements.items():
@@ -307,11 +308,11 @@ class _Matcher:
             removed, added = olds - news, news - olds
             if len(removed) == len(added) == 1:
                 (old,), (new,) = removed, added
-                if len(olds) == 1 or not (old in self._new or new in self._old):  # else it may be any of them
+                if len(olds) == 1 or not (old in self._new or new in self._old):  # else any may be the same
                     yield old, new
 
     def _between(self) -> Iterator[tuple[ElementKey, ElementKey]]:
-        """Yield pairs of elements: each is the only unmatched one of its kind between the same matched neighbours."""
+        """Yield pairs of elements, each the only unmatched element of its kind between the same matched neighbours."""
         ends = defaultdict[Hashable, tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
         for key, features in self._old.items():
             around = [self._pairs.get(one) for one in features.neighbours.values()]
@@ -332,7 +333,7 @@ class _Matcher:
                 shuffled.add((key[0], aspects))
             if self._taken.get(key, key) == key and self._before.get(key) != aspects:
                 changed[key[0], aspects].append(key)
-        has_moved = any(old != new for old, new in self._pairs.items())  # else another place does not mean another part
+        has_moved = any(old != new for old, new in self._pairs.items())  # if nothing moved, places tell nothing
         removed = {
             (key[0], aspects)
             for key, aspects in self._before.items()
@@ -367,9 +368,9 @@ class _Matcher:
         return doubts
 
     def _contradicts(self, key: ElementKey) -> bool:
-        """Whether an element has other neighbours than before: the only neighbour of a relation differs, or all do.
+        """Whether an element has other neighbours: all differ, or one that has this element as its neighbour.
 
-        A neighbour that is gone counts if another element has its name now.
+        A removed neighbour counts only if the new neighbour matches another old element.
         """
         before, after = self._old[key].neighbours, self._new[key].neighbours
         others = [
@@ -394,12 +395,12 @@ def _comparable(
 ) -> tuple[dict[ElementKey, Aspects], dict[ElementKey, Aspects], set[tuple[str, Hashable]]]:
     """Return the aspects of all elements as keys that ignore noise, and the aspects that can identify an element.
 
-    Zeros and ones can't: many origins and axes have them. Texts can if places can't.
+    Zeros and ones can't: many origins and axes have them. Texts can if the kind has no places.
     """
     placed = _placed(old, new)
     values = [features.contents for elements in (old, new) for features in elements.values()]
     numbers = _clusters({number for value in values for number in _numbers(value)})
-    order = dict.fromkeys(itertools.chain.from_iterable(values))  # a record may have another order than a source
+    order = dict.fromkeys(itertools.chain.from_iterable(values))  # a record may have another order than the source
     telling, sides = set[tuple[str, Hashable]](), list[dict[ElementKey, Aspects]]()
     for elements in (old, new):
         aspects_of = dict[ElementKey, Aspects]()
@@ -445,7 +446,7 @@ def _numbers(value: Any) -> Iterator[float]:
 
 
 def _clusters(numbers: Collection[float]) -> dict[float, int]:
-    """Return the cluster of each number: numbers that differ from the next one only by noise share it."""
+    """Return the cluster of each number: numbers share a cluster if they differ from the next number only by noise."""
     clusters, last, cluster = dict[float, int](), 0.0, 0
     for number in sorted(numbers):
         if number - last > NOISE * max(abs(number), abs(last)):
@@ -467,7 +468,7 @@ def _frozen(value: Any, numbers: Mapping[float, int]) -> Hashable:
 
 
 def _children(elements: Elements) -> dict[ElementKey, dict[str, list[ElementKey]]]:
-    """Return, for each element, those that name it as their neighbour, by relation."""
+    """Return, for each element, the elements that have it as a neighbour, by relation."""
     children = defaultdict[ElementKey, defaultdict[str, list[ElementKey]]](lambda: defaultdict(list))
     for key, features in elements.items():
         for relation, one in features.neighbours.items():

@@ -1,4 +1,4 @@
-"""The help of the whole program, from the table for shells: parsers of all commands would take 200 ms to load."""
+"""The program's help, from the table of the shells: loading the parsers of all commands takes 200 ms."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ VERSION = f"urdfsync {__version__}"
 
 
 def answer(option: str) -> str:
-    """Print the version or the help; returns why the output is incomplete, an empty string if it is complete."""
+    """Print the version or the help. Returns why the output is incomplete; empty if it is complete."""
     with streams.SafeStreams() as output:
         output.write(f"{VERSION}\n" if option == "--version" else help_text())
         return output.trouble

@@ -15,16 +15,15 @@ from urdfsync.domain import Domain
 from urdfsync.spelling import nearest
 
 _OWN = {"table": "urdfsync.table.domain:DOMAIN", "urdf": "urdfsync.urdf.domain:DOMAIN"}
-"""Our own domains, also entry points: the search for entry points would cost every build 20 ms of imports."""
+"""Our own domains, which are entry points, too: searching entry points would cost every build 20 ms of imports."""
 _places: dict[tuple[str, ...], tuple[str, Dependencies]] = {}
-"""Found domains by name and Python's path, with the files that were read: a process keeps the code that it has loaded.
-
-A build asks three times, and each search takes 5 of its 50 ms.
+"""Found domains by name and Python's path, with the files that were read. A process keeps its loaded code, so these
+stay valid. A build asks three times, and each search takes 5 of its 50 ms.
 """
 
 
 def domain(name: str) -> Domain:
-    """Load the domain of this name. Raises ConfigError, without file and line, for a missing or broken one."""
+    """Load the domain of this name. Raises ConfigError, without file and line, for a missing or broken domain."""
     place = _place(name)
     if not place:
         near = nearest(name, names())
@@ -71,16 +70,17 @@ def _installed() -> dict[str, str]:
     with Dependencies(is_program=True):
         for folder in sys.path:
             names = list[str]()
-            with contextlib.suppress(OSError):  # the path may be missing, or an archive
+            with contextlib.suppress(OSError):  # an entry of Python's path may be missing, or an archive
                 names = list_folder(folder or ".")
             for name in names:
-                # strings take a third of the time of paths: there are hundreds of distributions
+                # strings are three times as fast as paths: there are hundreds of distributions
                 file = f"{folder or '.'}/{name}/entry_points.txt"
                 if not name.endswith("-info") or not os.path.isfile(file):  # noqa: PTH113
                     continue
-                with contextlib.suppress(OSError):  # Python ignores such a distribution, too
+                with contextlib.suppress(OSError):  # Python ignores such distributions, too
                     if b"[urdfsync.domains]" in read_file(file):  # parsing all distributions takes 15 ms
                         entries = PathDistribution(Path(file).parent).entry_points.select(group="urdfsync.domains")
-                        # an entry's name is the domain's, its value `module:object`; the first on the path counts
+                        # the entry's name is the domain's name, its value `module:object`; the first entry on the path
+                        # counts
                         domains = {entry.name: entry.value for entry in entries} | domains
     return domains

@@ -14,7 +14,7 @@ def nearest(name: str, candidates: Iterable[str], likeness: float = 0.6) -> str:
 
 
 def same_count(old: Sequence[str], new: Sequence[str]) -> int:
-    """Return the number of equal characters, or lines, at the beginning."""
+    """Return the number of equal characters, or lines, at the beginning of both texts."""
     return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))
 
 
@@ -24,7 +24,7 @@ def counted(count: int, noun: str) -> str:
 
 
 def visible(text: str) -> str:
-    """Return the text with control characters of terminals escaped."""
+    """Return the text with terminals' control characters escaped."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -255,7 +255,7 @@ def edited(capsys: Capture, effect: EditEffect) -> str:
 @pytest.mark.parametrize(
     ("files", "deviations", "said"),
     [
-        (["a.mo"], [], "a.mo (edited) changes no compared quantity"),
+        (["a.mo"], [], "a.mo (edited) changes no compared motion or force"),
         (["a.mo", "b.mo"], [ELBOW], f"a.mo and b.mo (edited) change {AT_ELBOW}"),
         (
             ["a.mo", "b.mo", "c.mo", "d.mo"],

@@ -63,7 +63,7 @@ def test_markers_of_a_conflict_are_the_cause_of_what_does_not_parse() -> None:
     (found,) = findings(edits)
     place = f"{ELBOW}:{arm.line('equation')}"
     assert found.startswith(
-        f"{place}: error: joint elbow: the file has the conflict marker `<<<<<<<`; correct it first"
+        f"{place}: error: joint elbow: the file has the conflict marker `<<<<<<<`; correct this first"
     )
 
 
@@ -99,12 +99,12 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         (
             {"Joints/package.mo": INSIDE},
             "Joints/package.mo:3: error: `Elbow` is declared here, and also has the file Joints/Elbow.mo; "
-            "put all of it into one file, and delete the other [class-twice]",
+            "put the whole class into one file, and delete the other file [class-twice]",
         ),
         (
             {ORDER: arm.text(ORDER).replace("Turret\n", "")},
-            f"{ORDER}: warning: `Turret` is not named; add a line for it: without one, tools put it last, or warn "
-            "[order-lacks]",
+            f"{ORDER}: warning: `Turret` is not named; add a line for this class: without a line, tools list the "
+            "class last, or warn [order-lacks]",
         ),
         (
             {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},

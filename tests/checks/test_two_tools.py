@@ -138,7 +138,10 @@ def test_a_finding_of_both_is_said_once_and_one_of_one_alone_names_it() -> None:
     assert [one.severity for one in both.diagnostics] == [Severity.WARNING, Severity.ERROR], "an error is never hidden"
     assert check(numbers, said={"rumoca": LOST, "omc": in_its_words}).diagnostics == (LOST,)
     alone = [one.message for one in check(numbers, said={"rumoca": LOST, "omc": elsewhere}).diagnostics]
-    assert alone == ["rumoca 0.10.2 alone: `elbo` is unknown", "OpenModelica 1.27.0 alone: units do not fit"]
+    assert alone == [
+        "only rumoca 0.10.2 reports: `elbo` is unknown",
+        "only OpenModelica 1.27.0 reports: units do not fit",
+    ]
 
 
 def test_what_only_one_of_two_could_move_is_told_with_its_element(capsys: pytest.CaptureFixture[str]) -> None:

@@ -130,6 +130,6 @@ def test_a_save_in_between_stays(project: Path, execute: Execute, operation: str
 
     with before_each(save):
         error = execute(*ADD, "other.json", code=2).err
-    assert "urdfsync.toml: error: it has changed meanwhile, and stays as it is now; run the command again" in error
+    assert "urdfsync.toml: error: somebody saved this file meanwhile: it stays unchanged; run the command" in error
     assert file.read_text() == saved
     assert not list(project.glob(".*urdfsync-tmp*"))

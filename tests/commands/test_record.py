@@ -130,12 +130,12 @@ def test_a_link_stays_a_link(execute: Execute, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["lost.urdf"], "lost.urdf: error: the source can't be read: No such file or directory; name a file that is"),
+        (["lost.urdf"], "lost.urdf: error: the source can't be read: No such file or directory; name an existing"),
         ([TWIG, "-o", "lost/Twig.mo"], "lost/Twig.mo: error: there is no such folder; make it first"),
         ([TWIG, "-o", "."], ".: error: a folder is in its place; name a file"),
-        ([TWIG, "--class", "twig"], "error: 'twig' can't be a class; choose one that begins with a capital"),
-        ([TWIG, "--within", "Plant.end"], "error: 'Plant.end' can't be a package; name one like Plant.Robots"),
-        ([TWIG, "--within", "Modelica"], "error: 'Modelica' can't be a package; name one like Plant.Robots"),
+        ([TWIG, "--class", "twig"], "error: 'twig' can't be a class; choose a name that begins with a capital"),
+        ([TWIG, "--within", "Plant.end"], "error: 'Plant.end' can't be a package; name a package like Plant.Robots"),
+        ([TWIG, "--within", "Modelica"], "error: 'Modelica' can't be a package; name a package like Plant.Robots"),
         ([TWIG, "--domain", "urfd"], "error: "),
     ],
 )

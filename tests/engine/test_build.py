@@ -60,9 +60,9 @@ def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(pro
     assert (project / "modelica/Filter/Filter.mo").read_text().endswith("// mine, too\nend Filter;\n")
     assert (project / LADDER / "package.order").read_text() == "Bench\n"
     assert said(result) == [
-        "urdfsync.toml:1: warning: the package moved from modelica/Ladder to modelica/Filter; these files are "
-        "not deleted, since urdfsync did not write them: modelica/Ladder/Bench.mo, modelica/Ladder/package.mo, "
-        "modelica/Ladder/package.order; take over what you need, then delete the old folder [left-behind]"
+        "urdfsync.toml:1: warning: the package moved from modelica/Ladder to modelica/Filter; these files stay "
+        "there, since urdfsync did not write them: modelica/Ladder/Bench.mo, modelica/Ladder/package.mo, "
+        "modelica/Ladder/package.order; move the files that you need, then delete the old folder [left-behind]"
     ]
     assert run().in_step
     assert run().diagnostics == ()

@@ -127,7 +127,7 @@ def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
     assert kinds(result) == {"Elements/R1.mo": Reason.KEEP, "Elements/C2Parameters.mo": Reason.UPDATE}
     assert said(result) == [
         "urdfsync.toml:1: note: robot `filter` was called `ladder`; "
-        "its recorded state goes on under the new name [renamed-robot]"
+        "its recorded state continues under the new name [renamed-robot]"
     ]
     states = {path.name for path in (project / ".urdfsync/robots").iterdir()}
     assert states == {"filter.state"}
@@ -140,8 +140,8 @@ def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path)
     for dry in (True, False, False):
         first, second = run_all(dry=dry)
         assert said(first) == [
-            "urdfsync.toml: note: the state of `ladder` is still there, but the configuration has no such robot; "
-            "bring the robot back, or delete .urdfsync/robots/ladder.* and what is left of its package [stray-state]"
+            "urdfsync.toml: note: the recorded state of `ladder` exists, but the configuration has no such robot; "
+            "add the robot again, or delete .urdfsync/robots/ladder.* and its package [stray-state]"
         ]
         assert second.diagnostics == ()
         assert (project / LADDER / "package.mo").exists()

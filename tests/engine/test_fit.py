@@ -58,7 +58,7 @@ BROKEN: dict[str, tuple[Callable[[Execute], object], str]] = {
     "another within": (lambda _: edit(ELBOW, "within Arm.Joints", "within Arm"), "the file says `within Arm;`"),
     "nowhere": (
         lambda _: edit(ELBOW, "extends UrdfSync.Icons", "extends Nowhere.To.Be;\n  extends UrdfSync.Icons"),
-        "there is no class `Nowhere.To.Be`; name the library in `uses` if `Nowhere` is one",
+        "there is no class `Nowhere.To.Be`; if `Nowhere` is a library, name it in `uses`",
     ),
     "itself": (
         lambda _: edit(ELBOW, "extends UrdfSync.Icons", "extends Elbow;\n  extends UrdfSync.Icons"),
@@ -73,7 +73,7 @@ BROKEN: dict[str, tuple[Callable[[Execute], object], str]] = {
     ),
     "another kind of class": (lambda _: edit(ELBOW, "model Elbow", "function Elbow"), "but used as `model`"),
     "a class with two files": (make_folder, "`Elbow` has two files, this one and Joints/Elbow/package.mo"),
-    "package.order": (lambda _: edit(ARM / "package.order", "Arm\n", "Arm\nNosuch\n"), "`Nosuch` is named, but is no"),
+    "package.order": (lambda _: edit(ARM / "package.order", "Arm\n", "Arm\nNosuch\n"), "`Nosuch` is named, but the"),
 }
 
 
@@ -120,7 +120,7 @@ def test_a_class_whose_file_waits_is_no_misspelled_one(arm: Path, execute: Execu
     hint = execute("status", code=3).lines[-1]
     assert hint.endswith("(or --keep, --take); --merge settles 1 of 2")
     found = execute("resolve", "--all", "--merge", code=3).words
-    assert "there is no class `Links.Limp`; settle the conflicts; its file waits for that" in found
+    assert "there is no class `Links.Limp`; settle the conflicts: the file of this class waits until then" in found
     execute("resolve", "--all", "--merge", "--prefer", "mine")
 
 
@@ -143,7 +143,7 @@ def test_models_of_the_users_are_warnings_as_long_as_they_are_true(arm: Path, ex
 def test_a_library_that_uses_names_may_have_anything(arm: Path, execute: Execute) -> None:
     cell = "model Cell\n  extends Plant.Cells.Cell;\n  Arm.Arm robot;\n  Real y = x;\n{}end Cell;\n"
     Path("Cell.mo").write_text(cell.format(""))
-    assert "there is no class `Plant.Cells.Cell`; name the library in `uses`" in execute("build").err
+    assert "there is no class `Plant.Cells.Cell`; if `Plant` is a library" in execute("build").err
     Path("Cell.mo").write_text(cell.format('  annotation (uses(Plant(version="1.0.0")));\n'))
     assert execute("build").err == ""
 
@@ -231,7 +231,7 @@ def test_the_kind_of_a_class_may_be_another_legal_one(arm: Path, execute: Execut
 
 def test_a_class_may_be_partial_where_the_package_instantiates_another(arm: Path, execute: Execute) -> None:
     edit(ELBOW, "model Elbow", "partial model Elbow")
-    assert "`Elbow` is partial, but used by modelica/Arm/Arm.mo:" in execute("build", code=3).err
+    assert "`Elbow` is partial, but modelica/Arm/Arm.mo:" in execute("build", code=3).err
     (ARM / "Joints/Soft.mo").write_text("within Arm.Joints;\nmodel Soft\n  extends Elbow;\nend Soft;\n")
     edit(MODEL, "replaceable Joints.Elbow elbow", "replaceable Joints.Soft elbow")
     assert execute("build").err == ""

@@ -21,7 +21,7 @@ from urdfsync.files import Templates
     "path", [*"../evil.mo a/../../evil.mo /etc/x /x a//b ./a a/. a\\b C:/x a. a?".split(), "", "a\nb", "a\0b", "b /c"]
 )
 def test_paths_that_leave_the_package_or_are_none_everywhere(path: str) -> None:
-    with pytest.raises(OutputError, match="is no path inside the package"):
+    with pytest.raises(OutputError, match="is not a path inside the package"):
         check_paths((path,))
 
 
@@ -98,7 +98,7 @@ def test_a_template_of_the_users_is_named_with_line_and_what_to_do(own: Path, te
     place = f"own/element/model.mo.jinja:{line}" if line else "own/element/model.mo.jinja"
     assert message.startswith(f"{place}: error: ")
     assert words in message
-    assert message.endswith("; correct the template, or delete it to use that of urdfsync [template]")
+    assert message.endswith("; correct the template, or delete it to use urdfsync's template [template]")
 
 
 def test_a_template_that_is_not_utf8_is_named_even_if_another_includes_it(own: Path) -> None:
@@ -141,7 +141,7 @@ def test_a_text_that_is_no_modelica_is_an_error_at_the_line_of_the_template(
     message = failure()
     assert message.startswith(f"{MODEL}:{line}: error: the text for `Elements/C1.mo` is wrong: ")
     assert words in message
-    assert message.endswith("; correct the template, or delete it to use that of urdfsync [template]")
+    assert message.endswith("; correct the template, or delete it to use urdfsync's template [template]")
     assert contents(Path()) == before
 
 

@@ -52,7 +52,7 @@ def test_a_dependency_that_cant_be_opened_is_not_called_missing(project: Path) -
     Path("step.csv").unlink()
     os.mkfifo("step.csv")
     assert said(run()) == [
-        "ladder.json:3: warning: table `step.csv` can't be read: it is no regular file; left out; "
+        "ladder.json:3: warning: table `step.csv` can't be read: it is not a regular file; left out; "
         "replace it by a table that can be read [table-unreadable]"
     ]
 
@@ -170,7 +170,7 @@ def test_a_file_that_cant_be_converted_is_told(project: Path, before: bool, bad:
         ("tables/step.csv", "add the folder that holds it to `package_paths`"),
         ("file:///opt/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
         ("D:/tables/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
-        ("HTTPS://host/step.csv", "urdfsync does not look on the network: download it, and let the source refer to it"),
+        ("HTTPS://host/step.csv", "urdfsync downloads no files: download it, and let the source refer to your copy"),
     ],
 )
 def test_what_to_do_about_a_file_that_is_not_found_goes_by_its_reference(project: Path, uri: str, hint: str) -> None:

@@ -14,7 +14,7 @@ REFUSED: dict[str, tuple[dict[str, str], Callable[[], object]]] = {
     "urdfsync.toml:5: error: robot `ladder`: the output folder … does not exist; create it": (
         *({"output": '"../elsewhere"'}, Path),
     ),
-    "urdfsync.toml:5: error: robot `ladder`: the output folder lib can't be made: lib is no folder": (
+    "urdfsync.toml:5: error: robot `ladder`: the output folder lib can't be created: lib is not a folder": (
         *({"output": '"lib"'}, lambda: Path("lib").write_text("")),
     ),
     "urdfsync.toml:5: error: robot `ladder`: the output folder modelica/Plant is a Modelica package itself": (

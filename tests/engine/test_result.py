@@ -50,13 +50,13 @@ def result(*reasons: Reason, **fields: Any) -> Result:
         (result(Reason.UNCHANGED, stale=("a",)), "inputs changed since the last build"),
         (
             result(Reason.KEEP, is_broken=True),
-            "broken: a file that you edited does not fit, 1 kept because you edited it",
+            "broken: a file that you edited does not fit the package, 1 kept because you edited it",
         ),
         (result(Reason.UNCHANGED, checked=Checked.RIGHT), "in step, 1 file; checked: compiles"),
         (result(Reason.UNCHANGED, checked=Checked.INCOMPLETE), "in step, 1 file; checked in part"),
         (result(checked=Checked.WRONG, diagnostics=(FAULT, HINT, FAULT)), "in step, 0 files; checked: 2 errors"),
         (result(failed=True, diagnostics=(HINT, FAULT)), "1 error, nothing was changed"),
-        (result(failed=True, unfinished=True, diagnostics=(FAULT,)), "1 error, the next build finishes it"),
+        (result(failed=True, unfinished=True, diagnostics=(FAULT,)), "1 error, the next build finishes the changes"),
     ],
 )
 def test_what_happened_is_said_in_a_line(build: Result, summary: str) -> None:

@@ -67,7 +67,7 @@ def test_an_expression_gets_at_nothing_but_values(folder: Path, call: str) -> No
         ("xacro.load_yaml('numbers.yaml')['nested'].format('')", "`{0.__class__}` reads an attribute"),
         ("xacro.load_yaml('numbers.yaml')['key'] % dict()", "'__class__'"),
         ("xacro.load_yaml('numbers.yaml')['binary'].hex()", "may not read `hex` of a bytes"),
-        ("xacro.load_yaml(xacro.load_yaml('numbers.yaml')['binary'])", "the name of a file is text, not b'/a'"),
+        ("xacro.load_yaml(xacro.load_yaml('numbers.yaml')['binary'])", "the name of a file must be text, not b'/a'"),
         ("xacro.load_yaml('unit.yaml')", "the attribute `__class__` is not allowed"),
         ("xacro.load_yaml('string.yaml')", "not allowed in an expression: JoinedStr"),
         ("xacro.load_yaml(0)", "expected str, bytes or os.PathLike object, not int"),

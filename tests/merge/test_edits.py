@@ -31,7 +31,7 @@ EDITS = {
     ),
     "a type": (("Body b", "Ball b"), [("component `b`", "type Body → Ball")]),
     "a term": (("b.m + c.m", "b.m + d.m + c.m"), [("component `m`", "d.m added")]),
-    "a place": (("{20, 20}", "{30, 30}"), [("layout", "1 element placed or drawn in another way")]),
+    "a place": (("{20, 20}", "{30, 30}"), [("layout", "1 element placed or drawn differently")]),
     "a connection": (("connect(frame_a", "connect(frame_b"), [
         ("`connect(b.frame_a, frame_b)`", "added"), ("`connect(b.frame_a, frame_a)`", "removed"),
     ]),

@@ -10,7 +10,7 @@ import pytest
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.modelica.layout import check_class_file, check_order, check_places, with_within
 
-ALONE = "move it to a file of its own: a file in a package holds one class [second-class]"
+ALONE = "move this class to a file of its own: a file in a package holds one class [second-class]"
 ELBOW = "within Arm.Joints;\nmodel Elbow\nend Elbow;\n"
 FAULTS = {
     "nothing": (ELBOW.replace("\n", "\r\n"), []),
@@ -18,7 +18,7 @@ FAULTS = {
         "2: error: the file says `within Arm;`, but stands in `Arm.Joints`; write `within Arm.Joints;` [wrong-within]",
     ]),
     "no within": (ELBOW.partition("\n")[2], [
-        "1: error: the file lacks `within Arm.Joints;`; put it into the first line [wrong-within]",
+        "1: error: the file lacks `within Arm.Joints;`; add it as the first line [wrong-within]",
     ]),
     "another name": (ELBOW.replace("Elbow", "Elbw"), [
         "2: error: the class is called `Elbw`, but its file `Elbow`; give class and file the same name [wrong-name]",
@@ -33,12 +33,12 @@ FAULTS = {
         "0: error: the file holds no class; write the class `Elbow`, or delete the file [no-class]",
     ]),
     "byte order mark": (f"\ufeff{ELBOW}", [
-        "1: warning: the file begins with a byte order mark; save it without: some compilers refuse it "
+        "1: warning: the file begins with a byte order mark; save the file without this mark: some compilers refuse it "
         "[byte-order-mark]",
     ]),
     "fault": (ELBOW.replace("\nend", "\n Real;\nend"), ["3: error: the file lacks a name before `;` [syntax]"]),
     "two faults": (ELBOW.replace("\nend", "\n Real;\n Real;\nend"), [
-        "3: error: the file lacks a name before `;`; correct it first: other errors in the file may follow from it "
+        "3: error: the file lacks a name before `;`; correct this first: other errors in the file may follow from it "
         "[syntax]",
     ]),
     "marker of a conflict": (ELBOW.replace("\nend", "\n Real\n=======\nend"), [
@@ -86,7 +86,7 @@ def test_the_within_clause_follows_the_class(text: str, name: str, expected: str
 def test_a_class_has_one_place() -> None:
     paths = ["Joints/package.mo", "Joints/Elbow.mo", "Joints.mo", "package.mo", "package.order"]
     declared = {"Joints/package.mo": {"Elbow": 3, "Other": 5}, "package.mo": {"Other": 2}}
-    hint = "put all of it into one file, and delete the other [class-twice]"
+    hint = "put the whole class into one file, and delete the other file [class-twice]"
     assert [(path, *lines([one])) for path, one in check_places(paths, declared)] == [
         ("Joints.mo", f"0: error: `Joints` has two files, this one and Joints/package.mo; {hint}"),
         ("Joints/package.mo", f"3: error: `Elbow` is declared here, and also has the file Joints/Elbow.mo; {hint}"),
@@ -96,11 +96,12 @@ def test_a_class_has_one_place() -> None:
 def test_the_order_names_what_is_there_once() -> None:
     text = "\ufeffElbow\n pi \r\n\nElbow\nTuret\nWheel\n"
     found = lines(check_order(text, {"Elbow", "Turret"}, {"pi", "e"}))
-    unknown = "is named, but is no class and no constant of the package"
+    unknown = "is named, but the package has no such class or constant"
     assert found == [
-        "0: warning: `Turret` is not named; add a line for it: without one, tools put it last, or warn [order-lacks]",
-        "4: warning: `Elbow` is named twice, first in line 1; take one of the lines out [order-twice]",
+        "0: warning: `Turret` is not named; add a line for this class: without a line, tools list "
+        "the class last, or warn [order-lacks]",
+        "4: warning: `Elbow` is named twice, first in line 1; delete one of the lines [order-twice]",
         f"5: error: `Turet` {unknown}; did you mean `Turret`? [order-unknown]",
-        f"6: error: `Wheel` {unknown}; take the line out, or bring the class back [order-unknown]",
+        f"6: error: `Wheel` {unknown}; delete the line, or restore the class [order-unknown]",
     ]
     assert lines(check_order(text, {"Elbow", "Turret"}, None)) == found[:2]

@@ -40,7 +40,7 @@ def test_what_has_no_end_is_told_at_its_beginning(text: str, kind: str, line: in
 
 def test_escapes_without_a_meaning() -> None:
     lexer = Lexer('a "\\n\\"\\?";\n"\n \\e" \'\\z\'').read_all()
-    words = "has the escape `{}`, which Modelica does not know"
+    words = "has the escape `{}`, which Modelica does not define"
     assert [(one.reason, one.line) for one in lexer.strange_escapes()] == [
         (words.format("\\e"), 3), (words.format("\\z"), 3),
     ]  # fmt: skip

@@ -22,7 +22,7 @@ ELBOW = "modelica/Arm/Elbow.mo"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
 EDITED = BASE.replace("a = 1;", "a = 1; // measured")
 EXPORTED = BASE.replace("b = 2;", "b = 3;")
-FOLDER = "you made a folder of the class"
+FOLDER = "you turned the class into a folder"
 CHANGED = "You edited it, and its generated text changed too."
 OPPOSED = BASE.replace("a = 1;", "a = 7;"), BASE.replace("a = 1;", "a = 9;")
 
@@ -179,7 +179,7 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         ),
         (
             *(rejected(None, FOLDER), Reason.CONFLICT),
-            f"{CHANGED} You made a folder of the class.",
+            f"{CHANGED} You turned the class into a folder.",
             f"urdfsync resolve {ELBOW} --keep --keep your file as it is",
         ),
     ],

@@ -151,7 +151,7 @@ def test_a_line_that_can_not_be_read_is_passed_over_and_told(line: str) -> None:
     [
         (TEXT.replace("\nfolder ", "\n# "), "it has no folder"),
         ("", "it is empty"),
-        (TEXT.replace("modelica/Plant/Arm", "modelica/Plant/Leg"), "is no folder of the package `Plant.Arm`"),
+        (TEXT.replace("modelica/Plant/Arm", "modelica/Plant/Leg"), "is not a folder of the package `Plant.Arm`"),
     ],
 )
 def test_a_state_without_its_heading_is_none(text: str, words: str) -> None:

@@ -223,7 +223,7 @@ def test_a_file_that_no_build_owns_is_not_lost_either(
                 file.write_text("saved")
 
     file.write_text("old")
-    with before_each(save_before), pytest.raises(OutputError, match="it has changed meanwhile"):
+    with before_each(save_before), pytest.raises(OutputError, match="somebody saved this file meanwhile"):
         save(file, b"old", b"new")
     assert file.read_text() == "saved"
     save(file, b"saved", b"new")

@@ -11,7 +11,9 @@ from xml.sax.saxutils import quoteattr
 import msgspec
 from hypothesis import strategies as st
 
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     MOTION_KINDS,
     Box,
@@ -51,6 +53,11 @@ def tree(*joints: Joint, links: tuple[Link, ...] = ()) -> KinematicTree:
     known = {link.name: link for link in links}
     every = tuple(known.get(name, Link(name)) for name in names) or links
     return KinematicTree.of(Robot("r", every, joints))
+
+
+def assembly(robot: KinematicTree | Robot, **options: Any) -> Assembly:
+    """Return a robot put together, without loops."""
+    return Assembly(Robot("r", robot.links, robot.joints, sensors=robot.sensors), Options(**options))
 
 
 def few(random: Random) -> float:

@@ -154,7 +154,7 @@ def test_an_emptied_cell_that_a_template_needs_is_an_error(project: Path, execut
     Path("templates/motors/model.mo.jinja").write_text(MODEL.replace("row.torque > 5", "true"))
     found = execute("build", code=Exit.ERROR).words
     assert "record.mo.jinja:6: error: the template can't be rendered for `Records/MX_64.mo`" in found
-    assert "`torque` has no value here: ask for it by `is defined`" in found
+    assert "`torque` has no value here: test it by `is defined`" in found
 
 
 def test_a_wrong_kind_is_told_before_all_connections(project: Path, execute: Execute) -> None:

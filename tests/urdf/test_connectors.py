@@ -8,11 +8,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from msgspec.structs import replace
-from support.robots import robots, tree
+from support.robots import assembly, robots, tree
 
-from urdfsync.urdf.connectors import connector_names, connector_options
+from urdfsync.urdf.assembly import connector_options
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Link, Mimic, Robot, Transmission
 
 HAND = tree(
@@ -32,7 +31,7 @@ HAND = tree(
 def test_frames_are_those_of_leaves_and_what_is_asked_for_in_canonical_order(
     frames: Literal["leaves", "all"] | tuple[str, ...], names: list[str]
 ) -> None:
-    assert [*connector_names(HAND, Options(frames=frames)).frames] == names
+    assert [*assembly(HAND, frames=frames).connectors.frames] == names
 
 
 def test_a_connector_gives_way_to_an_element_which_keeps_its_file() -> None:
@@ -44,7 +43,7 @@ def test_a_connector_gives_way_to_an_element_which_keeps_its_file() -> None:
         Joint("rotational", "continuous", "handFrame", "wheel"),
     )
     assert (robot.joint("elbow").type, robot.link("elbowAxis").type) == ("Elbow", "ElbowAxis")
-    names = connector_names(robot, Options(frames=("hand", "handFrame")))
+    names = assembly(robot, frames=("hand", "handFrame")).connectors
     assert {name: drive.axis for name, drive in names.drives.items()} == {
         "elbow": "elbowAxis_3",
         "wrist": "wristAxis",
@@ -63,10 +62,10 @@ def test_a_motor_has_a_flange_where_a_joint_that_can_be_driven_has_a_gear() -> N
         Joint("follow", "revolute", "hand", "tip", mimic=Mimic("elbow"), transmission=gear),
         Joint("bolt", "fixed", "hand", "plate", transmission=gear),
     )
-    motors = {name: drive.motor for name, drive in connector_names(robot, Options(drives="motor")).drives.items()}
+    motors = {name: drive.motor for name, drive in assembly(robot, drives="motor").connectors.drives.items()}
     assert motors == {"elbow": "elbowMotor_2", "wrist": None}
-    assert {drive.motor for drive in connector_names(robot, Options()).drives.values()} == {None}
-    assert connector_options(robot, Options())["elbowMotor_2"] == 'drives = "motor"'
+    assert {drive.motor for drive in assembly(robot).connectors.drives.values()} == {None}
+    assert connector_options(assembly(robot))["elbowMotor_2"] == 'drives = "motor"'
 
 
 def test_a_motor_of_two_joints_has_a_gear_in_the_robot_if_it_has_a_flange_or_a_rotor() -> None:
@@ -75,7 +74,7 @@ def test_a_motor_of_two_joints_has_a_gear_in_the_robot_if_it_has_a_flange_or_a_r
         Joint("roll", "revolute", "hand", "rollGear", transmission=Transmission(60.0, 0.0, 1e-4, "flex", 50.0)),
     )
     gears = {
-        drives: [(drive.gear, drive.other) for drive in connector_names(robot, Options(drives=drives)).drives.values()]
+        drives: [(drive.gear, drive.other) for drive in assembly(robot, drives=drives).connectors.drives.values()]
         for drives in ("joint", "motor")
     }
     assert gears == {
@@ -87,7 +86,7 @@ def test_a_motor_of_two_joints_has_a_gear_in_the_robot_if_it_has_a_flange_or_a_r
 @given(robots())
 def test_no_two_components_have_one_name(robot: Robot) -> None:
     skeleton = KinematicTree.of(robot)
-    names = connector_names(skeleton, Options(frames="all"))
+    names = assembly(skeleton, frames="all").connectors
     assert len(names.frames) == len(robot.links)
     connectors = [*names.frames.values(), *names.couplings.values()]
     connectors += [name for drive in names.drives.values() for name in (drive.axis, drive.support)]
@@ -100,7 +99,7 @@ def test_a_new_leaf_makes_no_connector_mean_another_element(robot: Robot, name: 
     assume(name not in {link.name for link in robot.links} | {joint.name for joint in robot.joints})
     joint = Joint("zz", "revolute", robot.links[0].name, name)
     grown = replace(robot, links=(*robot.links, Link(name)), joints=(*robot.joints, joint))
-    before, after = (connector_names(KinematicTree.of(each), Options(frames="all")) for each in (robot, grown))
+    before, after = (assembly(each, frames="all").connectors for each in (robot, grown))
     owners = {frame: link for link, frame in before.frames.items()}
     assert all(owners.get(frame, link) == link for link, frame in after.frames.items())
     axes = {drive.axis: joint for joint, drive in before.drives.items()}

@@ -1,8 +1,8 @@
-"""Lists all files and folders that are read, with facts about each, to find changes later.
+"""Lists all files and folders that a command reads, with facts about each, to find changes later.
 
 A saved answer holds while the files in its list are unchanged. The daemon watches the list of each robot, and the hook
-requires that these files are staged. Code that decides about work reads only through these functions. Code that reads
-in other ways calls `depend_on` or `mark_incomplete`.
+requires that these files are staged. Code that decides about work reads only through this module. If other code reads
+files, the caller calls `depend_on` or `mark_incomplete`.
 """
 
 from __future__ import annotations
@@ -37,23 +37,23 @@ from urdfsync.answers.facts import (
 
 
 class Dependencies:
-    """All that this thread reads through this module inside a `with` block, and inside nested blocks.
+    """The list of all that this thread reads through this module inside a `with` block, and inside nested blocks.
 
-    With `is_program`, the files count as part of the program, in the block around as well.
+    With `is_program`, the files count as part of the program.
     """
 
     def __init__(self, *, is_program: bool = False) -> None:
         self._is_program = is_program
         self._token: Token[Dependencies | None] | None = None
         self.entries: dict[Entry, tuple[int, ...]] = {}
-        """The facts about each path: a `Stat`, a tuple of the file type, a checksum of names, `NOTHING`, or a negative
-        error number."""
+        """The facts about each path: a `Stat`, the file type, a checksum of names, `NOTHING`, or a negative error
+        number."""
         self.hashes: dict[Entry, str] = {}
         """Hash of the content of each file that was young when it was read; empty if unknown."""
         self.modules: dict[Entry, tuple[int, ...]] = {}
-        """The facts about files of the program itself; these are no inputs of a robot."""
+        """The facts about files of the program itself; these files are no inputs of a robot."""
         self.complete = True
-        """Whether the list is complete, and no path changed or failed during the reading."""
+        """Whether the list has all reads, and no path changed between two reads."""
 
     def __enter__(self) -> Dependencies:
         self._token = _current.set(self)
@@ -71,21 +71,18 @@ class Dependencies:
         """Record the facts about a path, before its content is read."""
         entry = check, os.fspath(path)
         if self.entries.setdefault(entry, facts) != facts:
-            self.complete = False  # it changed between two reads
+            self.complete = False  # the path changed between two reads
         elif check in CONTENTS and is_young(facts, time.time_ns()):
             self.hashes.setdefault(entry, "")
 
     def add_hash(self, entry: Entry, sha256: str) -> None:
         """Record the hash of a young file."""
         if self.hashes.get(entry) and self.hashes[entry] != sha256:
-            self.complete = False  # it changed between two reads with the same stat values
+            self.complete = False  # the file changed between two reads, and its stat values did not
         self.hashes[entry] = self.hashes.get(entry) or sha256
 
     def renew(self, written: Mapping[str, bytes | None]) -> None:
-        """Replace the entries of files that a build has written; None for a deleted one.
-
-        The folders around them are read again.
-        """
+        """Renew the entries of written files (None for a deleted file), and of the folders around them."""
         changed = set(written)
         for path in written:
             while (path := os.path.dirname(path)) not in changed:
@@ -111,7 +108,7 @@ _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=N
 
 
 def mark_incomplete() -> None:
-    """Mark the list as incomplete: then the answer can't be saved."""
+    """Mark the list as incomplete: the command's answer is not saved."""
     if (dependencies := _current.get()) is not None:
         dependencies.complete = False
 
@@ -128,7 +125,7 @@ def include(other: Dependencies) -> None:
 
 
 def _look(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return the facts about a path now, and record them. Raises OSError if the system does not tell."""
+    """Return the facts about a path now, and record them. Raises OSError if the path can't be accessed."""
     try:
         facts = facts_of(check, path)
     except OSError as error:
@@ -145,17 +142,17 @@ def _record(check: str, path: str | os.PathLike[str], facts: tuple[int, ...]) ->
 
 
 def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
-    """Return the file type (see `stat.S_IFMT`) at a path; 0 for none. Raises OSError if the system does not tell."""
+    """Return the file type (see `stat.S_IFMT`) at a path; 0 for none. Raises OSError if the path can't be accessed."""
     return _look(STAT_TYPE if follow else LSTAT_TYPE, path)[0]
 
 
 def is_file(path: str | os.PathLike[str]) -> bool:
-    """Whether a regular file, or a link to one, is at a path. Raises OSError if the system does not tell."""
+    """Whether a regular file, or a link to such a file, is at a path. Raises OSError if that is unknown."""
     return file_type(path) == stat.S_IFREG
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a folder, or a link to one, is at a path. Raises OSError if the system does not tell."""
+    """Whether a folder, or a link to a folder, is at a path. Raises OSError if that is unknown."""
     return file_type(path) == stat.S_IFDIR
 
 
@@ -181,10 +178,7 @@ def note_content(check: str, path: str | os.PathLike[str], content: bytes) -> No
 
 
 def read_stat(path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return the stat values of a path before its content is read, links not followed; `(0,)` for none.
-
-    Raises OSError.
-    """
+    """Return the stat values of a path, links not followed; `(0,)` for none. Call it before reading. Raises OSError."""
     return _look(LSTAT, path)
 
 
@@ -194,7 +188,7 @@ def list_folder(folder: str | os.PathLike[str]) -> list[str]:
 
 
 def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
-    """Return the entries of a folder, in no order; its folders and Modelica files are recorded. Raises OSError."""
+    """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError."""
     return _scan(MODELICA, folder)
 
 
@@ -210,12 +204,12 @@ def _scan(check: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
 
 
 def note_names(folder: str | os.PathLike[str], names: Iterable[str]) -> None:
-    """Record the names in a folder that was listed by other means."""
+    """Record the names in a folder that other code has listed."""
     _record(NAMES, folder, checksum(names))
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:
-    """Record a file that is about to be read by other means."""
+    """Record a file before other code reads it."""
     if _current.get() is not None:
         try:
             _look(STAT, path)
@@ -224,7 +218,7 @@ def depend_on(path: str | os.PathLike[str]) -> None:
 
 
 def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
-    """Yield the paths of all regular files below a folder, and of links to such; links to folders are not followed."""
+    """Yield the paths of all regular files below a folder, and of links to regular files; skip links to folders."""
     waiting = [os.fspath(folder)]
     while waiting:
         current = waiting.pop()

@@ -14,28 +14,28 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 Stat = tuple[int, int, int, int, int, int]
-"""Mode, inode, device, size in bytes, and the times of change of content and of status in ns. It is only compared."""
+"""Mode, inode, device, size in bytes, and the times (ns) of the last changes of content and of status."""
 
 YOUNG = 2_000_000_000
-"""Nanoseconds after a change in which a file is read again, even if its stat values are equal."""
+"""Nanoseconds after a change during which a file counts as young: its content is compared, not only its stat values."""
 MAX_FILE = 100_000_000
-"""The most bytes of a readable file. A larger one is no source, mesh or output, but may be an attack on the memory."""
+"""The size limit of a readable file, in bytes. A larger file is no source, mesh or output, but perhaps an attack."""
 _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
-"""Errors for a path without a file; the same as in pathlib."""
+"""Errors of the system for a path without a file; pathlib has the same list."""
 _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 
 LSTAT, STAT = "lstat", "stat"
-"""How the content of a file is checked: by its `Stat`, and by its hash if that is known; `LSTAT` checks links
-themselves, `STAT` their targets. Files that builds write are read by `LSTAT`, all others by `STAT`.
+"""How the content of a file is checked: by its `Stat`, and by its hash if the hash is known. `LSTAT` checks links
+themselves, `STAT` their targets. Builds use `LSTAT` for the files that they write, `STAT` for all others.
 """
 CONTENTS = (LSTAT, STAT)
 LSTAT_TYPE, STAT_TYPE = "lstat type", "stat type"
 """How a path is checked by its file type alone."""
 NAMES, MODELICA = "names", "modelica"
-"""How a folder is checked: by all names in it, or by those that matter to Modelica."""
+"""How a folder is checked: by all names in it, or by the names of visible folders and Modelica files."""
 LISTINGS = (NAMES, MODELICA)
 VARIABLE = "variable"
-"""How an environment variable is checked: by its value. Its name stands in place of a path."""
+"""How an environment variable is checked: by its value. The entry has its name in place of a path."""
 Entry = tuple[str, str]
 """A check, and its path or variable."""
 NOTHING = (0,)
@@ -45,7 +45,7 @@ NOTHING = (0,)
 def is_young(facts: tuple[int, ...], now: int) -> bool:
     """Whether a file changed less than two seconds before `now` (ns), or later.
 
-    The next change may leave its stat values equal. Two seconds suffice: no file system's clock is coarser than FAT's.
+    The next change of a young file may leave its stat values equal. FAT has the coarsest clock: two seconds.
     """
     return max(facts[-2:]) > now - YOUNG
 
@@ -69,7 +69,7 @@ def check_path(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
 
 
 def facts_of(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return the facts about a path now. Raises OSError if the system does not tell."""
+    """Return the facts about a path now. Raises OSError if the path can't be accessed."""
     if check == VARIABLE:
         value = os.environ.get(os.fspath(path))
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
@@ -86,7 +86,7 @@ def facts_of(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
 
 
 def names_in(check: str, entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
-    """Return number and checksum of the names that count: for Modelica, those of its files and of visible folders."""
+    """Return number and checksum of a folder's names; for `MODELICA`, only of Modelica files and visible folders."""
     return checksum(
         entry.name
         for entry in entries
@@ -96,7 +96,7 @@ def names_in(check: str, entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]
 
 
 def checksum(names: Iterable[str]) -> tuple[int, ...]:
-    """Return the number of names and a checksum, for which their order does not matter."""
+    """Return the number of names, and a checksum that ignores their order."""
     ordered = sorted(names)
     # the hash of an integer is the same in each process
     return len(ordered), hash(int.from_bytes("/".join(ordered).encode(errors="surrogateescape")))
@@ -109,18 +109,18 @@ def hash_file(path: str) -> str:
 
 def hash_content(content: bytes) -> str:
     """Return the hash of a content."""
-    from hashlib import sha256  # 3 ms; a saved answer about old files needs no hash
+    from hashlib import sha256  # takes 3 ms; a saved answer about old files needs no hash
 
     return sha256(content).hexdigest()
 
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
-    """Read a file as `read_file` does, without recording it: `read_stat` did, or no answer depends on it."""
+    """Read a file without recording it, after `read_stat` or for no answer; otherwise like `read_file`."""
     # opening a pipe would wait for a writer
     with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
-            raise OSError(errno.EINVAL, "it is no regular file", os.fspath(path))
+            raise OSError(errno.EINVAL, "it is not a regular file", os.fspath(path))
         if status.st_size > MAX_FILE:
             raise OSError(errno.EFBIG, f"it has more than {MAX_FILE:,} bytes", os.fspath(path))
         if status.st_size:

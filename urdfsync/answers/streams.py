@@ -1,7 +1,7 @@
 """Standard streams whose faults do not stop a command.
 
-A reader may go away (`| head`), a disk may be full, a stream may be closed, an encoding may lack a character. The work
-goes on, and the command reports the fault at its end.
+The reader may stop early (`| head`), the disk may be full, or the encoding may lack a character. The
+command finishes its work, and reports the fault at its end.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ Transcript = list[tuple[str, str]]
 
 
 class Stream:
-    """A text stream that drops what it can't write; `error` is the first reason, None while all is well."""
+    """A text stream that drops texts that it can't write; `error` is the first failure, None without one."""
 
     def __init__(self, inner: TextIO, name: str = OUTPUT, transcript: Transcript | None = None) -> None:
-        """`transcript` gets all written texts, even if they do not arrive."""
+        """`transcript` gets every text passed to `write`, also texts that the stream drops."""
         self._inner, self._name, self._transcript = inner, name, transcript
         self.error: OSError | None = None
         if hasattr(inner, "reconfigure"):
             inner.reconfigure(errors="backslashreplace")
 
     def write(self, text: str) -> int:
-        """Write `text`, if somebody still reads it. Returns its length in any case."""
+        """Write `text` unless an earlier write failed. Returns its length, even if it is dropped."""
         if self._transcript is not None:
             self._transcript.append((self._name, text))
         self._try(self._inner.write, text)
@@ -42,7 +42,7 @@ class Stream:
         self._try(self._inner.flush)
 
     def _try(self, function: Any, *arguments: str) -> None:
-        if self.error is None or self.error.errno == errno.ENOSPC:  # a full disk may get room again
+        if self.error is None or self.error.errno == errno.ENOSPC:  # a full disk may have space later
             try:
                 function(*arguments)
             except OSError as error:
@@ -53,18 +53,18 @@ class Stream:
 
     @property
     def trouble(self) -> str:
-        """Why the output is incomplete; empty if it is complete, or if its reader has gone."""
+        """Why the output is incomplete; empty if it is complete, or if its reader stopped early."""
         self.flush()
-        if self.error is None or self.error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL: the same on Windows
+        if self.error is None or self.error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL: EPIPE on Windows
             return ""
         return self.error.strerror or str(self.error)
 
     def without_transcript(self) -> Stream:
-        """Return the same stream for temporary text, such as a progress bar."""
+        """Return a stream for temporary text, such as a progress bar, that the transcript does not get."""
         return Stream(self._inner, self._name)
 
     def close_broken(self) -> None:
-        """Discard the buffer of a broken stream: Python would report it at its exit, with exit code 120."""
+        """Discard the buffer of a broken stream: at its exit, Python would report the fault, with exit code 120."""
         if self.error is None:
             return
         try:
@@ -75,7 +75,7 @@ class Stream:
 
 
 class SafeStreams:
-    """Replaces both standard streams by a `Stream` inside a `with` block; the block gets the stream of the output."""
+    """Replaces both standard streams by a `Stream` inside a `with` block; the block gets the `Stream` of stdout."""
 
     def __init__(self, transcript: Transcript | None = None) -> None:
         self._before = sys.stdout, sys.stderr

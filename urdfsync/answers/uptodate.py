@@ -1,11 +1,10 @@
 """The up-to-date check: repeats the answer of a command while its dependencies are unchanged.
 
-`.urdfsync/stamp-build` holds the last answer of `build`, the list of all files that it read, and a hash of the facts
-about them; `stamp-status` and `stamp-hook` hold the same for these commands. If anything has changed, the command runs.
-The list contains the program's own modules, for its developers. Files that were young when they were read are compared
-by their contents, as git does with racy entries of its index. Once all of them are old, the answer is written again,
-and then their stat values are compared. The check comes first in a command, so this module imports only modules that
-load in a fraction of a ms: contextlib would take 1 of 12 ms.
+`.urdfsync/stamp-build` holds the last answer of `build`, the list of all read files, and a hash of the facts about
+these files. The commands `status` and `hook` have such files, too. If anything has changed, the command runs. The list
+contains the program's own modules: developers change them. A file that was young when it was read is compared by its
+content, as in git's racy index entries. Once all files are old, the answer is written again: later checks compare stat
+values. Each command begins with the check, so this module imports only fast modules: contextlib would take 1 of 12 ms.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ CONFIGURATION = "urdfsync.toml"
 
 _FORMAT = "urdfsync answer 5"
 _OLD = "-"
-"""Stands for the hash of an old file: its stat values show whether it has changed."""
+"""Stands for the hash of an old file, which is compared by its stat values."""
 _VARIABLES = (
     *("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH", "NO_COLOR", "FORCE_COLOR", "TERM"),
     *("COLORTERM", "COLUMNS", "LINES", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "UNICODE_VERSION"),
@@ -53,22 +52,22 @@ The hook's answer names all files that have to be tracked: 300,000 characters fo
 
 
 def _stamp(config_file: str, command: str) -> str:
-    """Return the file of a command's answer."""
+    """Return the path of a command's saved answer."""
     return os.path.join(os.path.dirname(config_file), ".urdfsync", f"stamp-{command}")
 
 
 def _program() -> str:
-    """Return the identity of the program: another version or another user may give another answer."""
+    """Return the identity of the program and of its user: another version or user may get another answer."""
     user = (os.geteuid(), os.getegid(), *sorted(os.getgroups())) if hasattr(os, "geteuid") else 0
     return repr((__version__, sys.version, sys.prefix, sys.byteorder, user, __file__))
 
 
 def find_config(arguments: list[str]) -> str | None:
-    """Return the absolute path of a command's configuration; None if there is none."""
+    """Return the absolute path of a command's configuration file; None if there is none."""
     try:
         folder = os.getcwd()
     except FileNotFoundError:
-        return None  # it was deleted, and the command reports that
+        return None  # the working folder was deleted: the command reports it
     for number, argument in enumerate(arguments, start=1):
         if argument == "--config":
             return os.path.join(folder, *arguments[number : number + 1])
@@ -81,7 +80,7 @@ def find_config(arguments: list[str]) -> str | None:
 
 
 def answer_key(arguments: list[str], config_file: str) -> str:
-    """Return a command with all inputs of its answer other than files."""
+    """Return a text of all inputs of a command's answer other than files."""
     terminals = ((stream.isatty(), stream.encoding) for stream in (sys.stdout, sys.stderr))
     variables = map(os.environ.get, _VARIABLES)
     return repr((arguments, config_file, os.getcwd(), *terminals, *variables))
@@ -90,7 +89,7 @@ def answer_key(arguments: list[str], config_file: str) -> str:
 def find_answer(config_file: str, command: str, key: str) -> list[str] | None:
     """Return the saved answer of a command, if its dependencies are unchanged; None otherwise.
 
-    It counts only in the very file that this program wrote: a copy, such as a committed one, is ignored.
+    Only the file that this program wrote on this machine counts: a copy, such as a committed copy, is ignored.
     """
     try:
         return _find_answer(_stamp(config_file, command), key)
@@ -99,11 +98,11 @@ def find_answer(config_file: str, command: str, key: str) -> list[str] | None:
 
 
 def _find_answer(stamp: str, key: str) -> list[str] | None:
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not block it
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # opening a pipe must not block
     with open(os.open(stamp, flags), encoding="utf-8", errors="surrogateescape", newline="") as file:
         status = os.fstat(file.fileno())
         text = file.read() if status.st_size <= MAX_FILE else ""
-    if not text.startswith(f"{_bound(status)}\0\0"):  # a forged file is not parsed, which could take minutes
+    if not text.startswith(f"{_bound(status)}\0\0"):  # parsing a forged file could take minutes
         return None
     _, (facts_hash,), read, (saved_key, *answer), end = [section.split("\0") for section in text.split("\0\0")]
     paths, hashes, started = read[1::3], read[2::3], time.time_ns()
@@ -121,14 +120,14 @@ def _find_answer(stamp: str, key: str) -> list[str] | None:
 
 
 def _bound(status: os.stat_result) -> str:
-    """Return the mark at the beginning of a file: this program wrote this very file."""
+    """Return the first words of a saved answer: a copy of the file has another inode or time."""
     return "\0".join([_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program()])
 
 
 def print_answer(arguments: list[str]) -> str | None:
-    """Print the saved answer of a command; None if there is none: then the command runs.
+    """Print the saved answer of a command; returns None if there is none.
 
-    Returns why the output is incomplete; an empty string if it is complete.
+    Otherwise returns why the output is incomplete; an empty string if it is complete.
     """
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
         return None
@@ -143,11 +142,11 @@ def print_answer(arguments: list[str]) -> str | None:
 
 
 def save_answer(config_file: str, command: str, key: str, answer: list[str], dependencies: Dependencies) -> None:
-    """Save the answer of a command that exited with 0, in the place of the command's last one.
+    """Save the answer of a command that exited with 0; it replaces the command's last saved answer.
 
-    Nothing is saved if `dependencies` may be incomplete, or have changed.
+    Nothing is saved if `dependencies` are incomplete, or if one changed during the command.
     """
-    from pathlib import PurePath  # 10 ms that the check saves
+    from pathlib import PurePath  # imported here, so that the check saves 10 ms
 
     if not dependencies.complete or sum(map(len, answer)) > _MAX_CHARACTERS:
         return
@@ -165,7 +164,7 @@ def save_answer(config_file: str, command: str, key: str, answer: list[str], dep
 
 
 def _without_implied(entries: dict[Entry, tuple[int, ...]]) -> dict[Entry, tuple[int, ...]]:
-    """Return the entries; leave out file types that follow from the stat values of another entry."""
+    """Return the entries without file types that the stat values of another entry contain."""
     implied = {
         (kind, path, stat.S_IFMT(facts[0]))
         for (check, path), facts in entries.items()
@@ -177,20 +176,19 @@ def _without_implied(entries: dict[Entry, tuple[int, ...]]) -> dict[Entry, tuple
 
 
 def _write(stamp: str, facts_hash: str, read: list[str], answer: list[str]) -> None:
-    """Write an answer with its key and its dependencies: a check, a path and a hash or `_OLD` for each entry."""
+    """Write an answer with its key and its dependencies; each has a check, a path, and a hash or `_OLD`."""
     folder = os.path.dirname(stamp)
     temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
     if os.path.islink(folder):  # a repository may have committed a link to another folder
         return
     try:
-        _remove(temporary)  # a killed process left it
+        _remove(temporary)  # a killed process left this file
         descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
         try:
             status = os.fstat(descriptor)  # the file is valid only with these values
             os.utime(descriptor, ns=(0, 0))
             if os.name == "nt" or os.fstat(descriptor).st_ctime_ns < status.st_ctime_ns:
                 return  # on Windows, FAT and sshfs, a user can set all of a file's times
-            # the last section shows that the file is complete
             text = "\0\0".join([_bound(status), facts_hash, "\0".join(read), "\0".join(answer), "end"])
             os.write(descriptor, text.encode("utf-8", "surrogateescape"))
             os.utime(descriptor, ns=(status.st_mtime_ns, status.st_mtime_ns))

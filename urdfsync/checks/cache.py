@@ -22,7 +22,7 @@ from urdfsync.files import put
 T = TypeVar("T")
 
 LIMIT = 2**30
-"""The most bytes on disk that the cache takes: 1 GiB."""
+"""The greatest number of bytes on disk that the cache takes: 1 GiB."""
 _FULL, _AFTER = 0.75, 0.5  # parts of the limit: a cache above 75 % is emptied to 50 %
 _IN_USE = 3600.0
 """Seconds for which a used copy of a library is kept: a check may still read it."""

@@ -358,7 +358,8 @@ def edit_effects(
 ) -> Iterator[EditEffect]:
     """Yield the effect of each edited file by itself, if possible; the other files share the remaining effect.
 
-    `whole` has the deviations of the package on disk from the generated one, `single` those of packages with one edit.
+    `whole` has the deviations of the package on disk from the generated package. `single` has the deviations with one
+    edited file, for each such file.
     """
 
     def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:

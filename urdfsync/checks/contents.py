@@ -17,7 +17,7 @@ from urdfsync.diagnostics import OutputError, UrdfsyncError
 from urdfsync.files import shown
 
 MOST_BYTES = 2**29
-"""The most bytes of one copy on disk; the Modelica Standard Library without its resources has 15 MB."""
+"""The greatest number of bytes of one copy on disk; the Modelica Standard Library without its resources has 15 MB."""
 RESOURCES = "Resources"
 """The folder of a library that holds no Modelica."""
 _BLOCK = 4096

@@ -121,7 +121,7 @@ class Difference(msgspec.Struct, frozen=True):
     given: str
     """The package's value."""
     file: str
-    """Path below the package's folder."""
+    """Path below the package's folder; absolute for a file of the library."""
     line: int
     source: str
     """The source's file."""
@@ -228,6 +228,8 @@ class Sample(msgspec.Struct, frozen=True):
     target: Target
     options: Any
     imports: Mapping[str, Import]
+    texts: Mapping[str, bytes] = {}
+    """The package on disk, by paths. Its edits may have other variables."""
     parts: tuple[bytes, ...] = ()
     """The text of the source before others were joined with it, and these; empty if there are none."""
 

@@ -122,7 +122,7 @@ def _wait(
     started: set[psutil.Process],
     progress: Callable[[], None] | None,
 ) -> None:
-    """Wait for the end of a process; add the processes that it starts to `started`. Raises LimitError."""
+    """Wait until a process ends, and collect its child processes in `started`. Raises LimitError."""
     begin = worked = time.monotonic()
     while True:
         if progress:

@@ -6,6 +6,7 @@ import itertools
 import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from pathlib import PurePath
 
 from urdfsync.checks.experiment import Deviation, Difference, Numbers, Part, Quantity
 from urdfsync.checks.results import (
@@ -25,7 +26,7 @@ from urdfsync.spelling import counted
 _MARKS = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.DIFFERS: Mark.WRONG, CheckStatus.FAILED: Mark.WRONG}
 _ADVICE = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
 _MOST = 3
-"""The most differing numbers of one file that are reported."""
+"""The greatest number of differing numbers of one file that are reported."""
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
     Quantity.ENERGY: "{detail} gives energy away",
@@ -44,7 +45,7 @@ def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     for effect in result.effects:
         changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
         style = _edit_style(result) if changed else "dim"
-        sentences.append((f"{_edited(effect)} {changed or 'no compared quantity'}", style))
+        sentences.append((f"{_edited(effect)} {changed or 'no compared motion or force'}", style))
     sentences += [(f"{file} (edited): its effect is not compared", "dim") for file in result.uncompared_edits]
     sentences += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
@@ -63,7 +64,8 @@ def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:
     numbers, advice = result.numbers or Numbers(), _ADVICE
     for each, more in _by_file(numbers.differences):
         fault = f"{each.quantity} of {each.element} is {each.given}, and {each.expected} in {_place(each)}"
-        yield f"{result.folder}/{each.file}:{each.line}: {fault}{more}{advice}", "bold red"
+        file = PurePath(result.folder, each.file).as_posix()  # a file of the library is absolute
+        yield f"{file}:{each.line}: {fault}{more}{advice}", "bold red"
         advice = ""
     for each, more in _by_file(numbers.edits):
         change = f"changes {each.quantity} of {each.element}: {each.expected} in {_place(each)}"

@@ -17,7 +17,7 @@ from urdfsync.engine.result import Exit
 from urdfsync.spelling import counted
 
 MOST_SINGLE_EDITS = 6
-"""The most edited files that are tried one by one; the effects of more are measured together."""
+"""The greatest number of edited files that are tried one by one; the effects of more are measured together."""
 
 _FIRST = (
     (Quantity.GRAVITY,),
@@ -52,9 +52,9 @@ class CheckOptions(RunOptions, frozen=True):
     tools: tuple[Tool, ...] = (Tool(),)
     """One compiler, or two."""
     jobs: int | None = None
-    """The most robots that are checked at the same time; None allows as many as cores and memory do."""
+    """The greatest number of robots that are checked at the same time; None allows as many as cores and memory do."""
     compilers: int = 1
-    """The most compilers that run at the same time for one robot."""
+    """The greatest number of compilers that run at the same time for one robot."""
     executor: str = ""
     """Address of a Dask scheduler whose workers check robots; empty for processes of this machine."""
     fresh: bool = False
@@ -92,7 +92,7 @@ class EditEffect(msgspec.Struct, frozen=True):
     files: tuple[str, ...]
     """The edited files that cause the effect, below the package's folder; several if they work together."""
     deviations: tuple[Deviation, ...]
-    """The deviations beyond the tolerance, from the root outwards; none if the edits change no compared quantity."""
+    """The deviations beyond the tolerance, from the root outwards; none without an effect."""
     owners: tuple[str, ...] = ()
     """The elements that the files belong to, in the domain's words."""
 
@@ -132,7 +132,7 @@ class ToolResult(msgspec.Struct):
     """The effects of the user's edits, each apart if possible."""
     seconds: float = 0.0
     megabytes: float = 0.0
-    """The most memory that all processes took together, measured four times a second."""
+    """The greatest amount of memory that all processes took together, measured four times a second."""
     times: tuple[TrialTime, ...] = ()
     """Times of the comparison, if the compiler tells times."""
     curves: tuple[Curve, ...] = ()
@@ -178,7 +178,7 @@ class CheckResult(msgspec.Struct):
     seconds: float = 0.0
     """Time from beginning to end."""
     megabytes: float = 0.0
-    """The most memory that all processes took together, measured four times a second."""
+    """The greatest amount of memory that all processes took together, measured four times a second."""
     folder: str = ""
     """The package's folder for messages; empty if the check broke off."""
     reference: str = ""

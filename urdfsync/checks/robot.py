@@ -154,7 +154,8 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
 
 def _sample(package: RobotPackage) -> Sample:
     robot, source, imports = package.robot, package.inputs.source, package.generation.now.imports or {}
-    return Sample(source.content, shown(robot.source), robot.target, robot.options, imports, source.parts)
+    place = shown(robot.source)
+    return Sample(source.content, place, robot.target, robot.options, imports, package.on_disk, source.parts)
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
@@ -241,9 +242,8 @@ def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
     for compilation in compilations:
         for finding in compilation.diagnostics:
             if place(finding) not in shared:
-                findings.append(
-                    msgspec.structs.replace(finding, message=f"{compilation.result.tool} alone: {finding.message}")
-                )
+                message = f"only {compilation.result.tool} reports: {finding.message}"
+                findings.append(msgspec.structs.replace(finding, message=message))
             elif compilation is compilations[0]:
                 findings.append(finding)
     return findings

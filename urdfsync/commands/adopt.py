@@ -24,7 +24,7 @@ from urdfsync.output.edits import to_section
 from urdfsync.output.terminal import details, file_line
 
 _EDITS = 5
-"""The most edits of a file that are listed without --verbose."""
+"""The greatest number of edits of a file that are listed without --verbose."""
 
 
 def add(commands: arguments.Commands) -> None:

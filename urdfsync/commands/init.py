@@ -33,7 +33,7 @@ _HEADER = f"""\
 # Paths are relative to this file's folder. All other keys: docs/configuration.md of urdfsync.
 """
 _LONGEST = 80
-"""The most characters of a guessed name: robots and packages become names of files."""
+"""The greatest number of characters of a guessed name: robots and packages become names of files."""
 
 
 NamedSource: TypeAlias = tuple[Path, Mapping[str, str]]

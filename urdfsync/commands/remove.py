@@ -20,7 +20,7 @@ from urdfsync.output.terminal import file_line, text
 from urdfsync.state.transaction import save
 
 _FILES = 20
-"""The most deleted files that are listed without --verbose."""
+"""The greatest number of deleted files that are listed without --verbose."""
 
 
 def add(commands: arguments.Commands) -> None:

@@ -1,4 +1,4 @@
-"""`urdfsync resolve`: settles conflicts by the user's choice, one file or all, and writes the files that waited."""
+"""`urdfsync resolve`: settles the conflict in one file, or all conflicts, as the user chooses."""
 
 from __future__ import annotations
 

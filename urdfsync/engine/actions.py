@@ -20,21 +20,21 @@ class Choice(enum.StrEnum):
     TAKE = "take"
     """The generated text replaces the user's file."""
     MERGE = "merge"
-    """Both sides' changes, if they merge cleanly."""
+    """A merge of both sides' changes, if these do not contradict each other."""
     MERGE_MINE = "merge-mine"
-    """Both sides' changes; where they contradict each other, the user's."""
+    """A merge of both sides' changes; for each contradiction, the user's side."""
     MERGE_GENERATED = "merge-generated"
-    """Both sides' changes; where they contradict each other, the generated ones."""
+    """A merge of both sides' changes; for each contradiction, the generated side."""
     EDIT = "edit"
-    """A text that the user made of both sides in an editor."""
+    """A text that the user merged in an editor."""
     MOVED = "moved"
-    """The edit belongs to another element, which the user names."""
+    """The edit moves to the file of another element."""
     UNDO = "undo"
-    """The text and the base that the file had before the last choice, or before a build."""
+    """The file gets back the text and the base that a choice or a build replaced."""
 
 
 class UsersChoice(msgspec.Struct, frozen=True):
-    """The user's decision about one file. It is ignored once one of the two texts changes."""
+    """The user's decision about one file. Builds ignore it once the user's or the generated text changes."""
 
     choice: Choice
     sides: str
@@ -44,12 +44,12 @@ class UsersChoice(msgspec.Struct, frozen=True):
 
 
 def sides_hash(mine: str | None, generated: str | None) -> str:
-    """Return one hash for both sides, from the hashes of their texts."""
+    """Return one hash for both sides, from the hashes of the user's and the generated text."""
     return hashlib.sha256(f"{mine} {generated}".encode()).hexdigest()
 
 
 class Kind(enum.StrEnum):
-    """An effect on a file. The properties of `Action` give its consequences."""
+    """An effect on a file. The properties of `Action` tell its consequences."""
 
     WRITE = "write"
     DELETE = "delete"
@@ -62,25 +62,25 @@ class FileStatus(enum.StrEnum):
     """The state of a file before the build, the most urgent first."""
 
     CONFLICT = "conflict"
-    """The user and the source changed it."""
+    """The user and the source changed the file."""
     MISSING = "missing"
-    """It was written, and the user deleted it."""
+    """A build wrote the file, and the user deleted it."""
     STALE = "stale"
-    """The next build writes or deletes it."""
+    """The next build writes or deletes the file."""
     EDITED = "edited"
-    """The user changed it, and its generated text did not change."""
+    """The user changed the file, and its generated text did not change."""
     ORPHAN = "orphan"
-    """Nothing generates it any longer. It stays because the user edited it, or the user's files need it."""
+    """The file is no longer generated, but stays: the user edited it, or the user's files need it."""
     UNKNOWN = "unknown"
-    """No known build wrote it, and nothing generates it."""
+    """The file is not generated, and no known build wrote it."""
     IN_STEP = "in step"
 
 
 class Reason(enum.StrEnum):
-    """The reason of an action. The reason decides the effect on the file, and all words about it."""
+    """The reason of an action. The reason decides the effect on the file, and the words in messages."""
 
-    # Each reason has a word, kind, status (None without a file), and the end of a sentence that begins with the path.
-    # Then the words for n such files in a dry run and, if they differ, after a build. Output keeps this order.
+    # Each reason has a word, kind, status (None without a file), and the rest of a sentence after the path.
+    # Then the words for n such files: in a dry run, and after a build if these words differ. Output has this order.
     # fmt: off
     UPDATE = ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed",
               "{n} file{s} to write", "{n} file{s} written")
@@ -90,8 +90,8 @@ class Reason(enum.StrEnum):
     DELETE = "delete", Kind.DELETE, FileStatus.STALE, "no longer generated", "{n} to delete", "{n} deleted"
     MERGE = ("merge", Kind.WRITE, FileStatus.STALE, "your edits and the generated changes, merged",
              "{n} to merge with your edits", "{n} merged with your edits")
-    UNDO = ("undo", Kind.WRITE, FileStatus.STALE, "it is as you had it before",
-            "{n} to give back as you had {them}", "{n} given back as you had {them}")
+    UNDO = ("undo", Kind.WRITE, FileStatus.STALE, "your former text is back",
+            "{n} to set back to your former text", "{n} set back to your former text")
     MOVE = ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
             "{n} to move with your edits", "{n} moved with your edits")
     INCLUDED = ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and your text already has all changes",
@@ -127,16 +127,16 @@ class Reason(enum.StrEnum):
 
 
 ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
-"""Actions that keep a file that is no longer generated."""
+"""Reasons to keep a file that is no longer generated."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
 DISPUTED = CONFLICTS | {Reason.MOVE}
-"""Actions that depend on the texts of both sides, or on the user's choice."""
+"""Reasons of actions that depend on the user's and the generated text, or on the user's choice."""
 USERS = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DISPUTED
-"""Actions after which the file still has the user's text."""
+"""Reasons of actions after which the file still has the user's text or edits."""
 
 
 class Action(msgspec.Struct, frozen=True):
-    """The decision about one file, and the hashes that it rests on; `path` is the file's key.
+    """The decision about one file, and the hashes behind the decision; `path` is the file's key.
 
     An action changes only `path`: a file that moves has two actions, MOVE and MOVED_AWAY.
     """
@@ -152,45 +152,46 @@ class Action(msgspec.Struct, frozen=True):
     origin: str | None = None
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
     choice: Choice | None = None
-    """The user's decision about it."""
+    """The user's decision about the file; None without one."""
     mine: str | None = None
     """Hash of the file on disk; None if there is none."""
     is_waiting: bool = False
-    """Whether it waits until the robot's conflicts are resolved."""
+    """Whether the action waits until the robot's conflicts are resolved."""
     is_left_by_git: bool = False
-    """Whether git left another text in the file, such as markers. `mine` is the hash of its meaning (see `united`)."""
+    """Whether the file on disk is git's merge of two branches, and does not equal its meaning (see `united`). Then
+    `mine` is the hash of the meaning."""
 
     @property
     def kind(self) -> Kind:
-        """The effect on the file now: a waiting action leaves it."""
+        """The effect on the file once the action no longer waits."""
         return Kind.WRITE if self.is_left_by_git and self.reason.kind is Kind.LEAVE else self.reason.kind
 
     @property
     def status(self) -> FileStatus | None:
-        """The file's state before the build; None if there is no file any more."""
+        """The file's state before the build; None if the file is gone."""
         return self.reason.status
 
     @property
     def replaces(self) -> str:
-        """Return the clause that it replaces a text that git made of two versions; empty if it does not."""
+        """Return a clause if the action replaces a text that git merged from two versions; empty otherwise."""
         return "replaces git's merge of two branches" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
 
     @property
     def text(self) -> str:
-        """The reason, and why it waits, as the end of a sentence that begins with the path; for scripts.
+        """The reason, and why the action waits, for scripts: the end of a sentence that begins with the path.
 
-        People read `output.phrases.reason`.
+        The output for people has `output.phrases.reason`.
         """
         return "; ".join(filter(None, (self.reason.text, self.replaces, self.waits_for)))
 
     @property
     def writes(self) -> bool:
-        """Whether it changes a file now."""
+        """Whether the action changes a file now."""
         return self.kind in (Kind.WRITE, Kind.DELETE) and not self.is_waiting
 
     @property
     def is_deletion(self) -> bool:
-        """Whether the file is deleted now: a waiting action leaves it."""
+        """Whether the action deletes the file, at once or after waiting."""
         return self.kind is Kind.DELETE
 
     @property
@@ -200,18 +201,18 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def keeps_text(self) -> bool:
-        """Whether the text on disk stays, even if it is not the generated one."""
+        """Whether the file keeps a text on disk that may differ from the generated one."""
         stays = self.kind in (Kind.LEAVE, Kind.CONFLICT) and self.status is not FileStatus.IN_STEP
         return self.is_waiting or stays
 
     @property
     def sides(self) -> str:
-        """One hash for the texts of both sides: a choice holds while it is the same."""
+        """One hash for the texts of both sides: the user's choice holds while this hash is the same."""
         return sides_hash(self.mine, self.generated)
 
     @property
     def waits_for(self) -> str:
-        """Why it waits, as a clause; empty if it does not."""
+        """Why the action waits, as a clause; empty if it does not wait."""
         return "waits until the conflicts are resolved" if self.is_waiting else ""
 
     @property

@@ -42,15 +42,15 @@ if TYPE_CHECKING:
     from urdfsync.engine.pool import Pool
 
 WAITING = "waiting for"
-"""Words of progress while another process builds; its name follows."""
+"""Words of progress while another process builds; a description of the process follows."""
 _LEAST_ROBOTS = 6
 """With fewer robots, importing urdfsync in each worker takes longer than it saves."""
 _ATTEMPTS = 5
-"""How often one robot is planned at most, if another build or a save overtakes each plan."""
+"""The greatest number of attempts to plan one robot: another build or a save may make a plan outdated."""
 
 
 def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
-    """Build robots one after the other; one that fails does not stop the others."""
+    """Build robots one after the other; a failure does not stop the other robots."""
     with contextlib.ExitStack() as stack:
         lock = stack.enter_context(build_lock(config.root / STATE_FOLDER, options.wait))
         pool = None
@@ -79,14 +79,14 @@ class _Builder:
         """Findings that belong to no robot of this command."""
 
     def build(self, robot: RobotConfig) -> Result:
-        """Build one robot. Faults come back as diagnostics."""
+        """Build one robot. The result has all errors as diagnostics."""
         self._reads = Dependencies()
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
             if untrusted and not self._options.dry:
-                raise ConfigError(untrusted)  # noqa: TRY301 - it is reported like other errors
+                raise ConfigError(untrusted)  # noqa: TRY301 - the `except` below reports it
             result = self._plan_and_write(robot)
-        except Exception as error:  # noqa: BLE001 - other robots are not affected: each one reads all from the disk
+        except Exception as error:  # noqa: BLE001 - other robots go on: each build reads all from the disk
             return Result(
                 robot.name,
                 robot.target.package,
@@ -104,7 +104,7 @@ class _Builder:
         return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics), reads=self._reads)
 
     def _plan_and_write(self, robot: RobotConfig) -> Result:
-        """Plan, and write unless the run is dry. Repeat if another build or a save overtook the plan."""
+        """Plan, and write unless the run is dry. Repeat if another build or a save made the plan outdated."""
         saved = robot.folder
         for _ in range(_ATTEMPTS):
             with Dependencies() as self._reads:
@@ -118,7 +118,7 @@ class _Builder:
             if not (plan.result.writes or plan.writes or self._transactions.is_pending()):
                 self._note(robot, plan)
                 return plan.result
-            dependencies.mark_incomplete()  # files that were read are about to change
+            dependencies.mark_incomplete()  # the build now changes files that it read
             self._lock.acquire(self._wait)
             if not self._is_current(plan):
                 continue
@@ -126,7 +126,7 @@ class _Builder:
             shared = [change for file in plan.shared if (change := file.change(files)) is not None]
             applied = self._transactions.apply(robot.name, [*shared, *plan.writes], plan.emptied)
             self.notes += applied.diagnostics
-            if not applied.not_done:  # a file that somebody saved meanwhile is not done
+            if not applied.not_done:  # empty unless somebody saved a file meanwhile
                 self._reads.renew({str(change.path): change.content for change in (*shared, *plan.writes)})
                 self._note(robot, plan)
                 return plan.result
@@ -144,7 +144,7 @@ class _Builder:
         return not self._transactions.is_pending() and Store(self._config.root).is_unchanged(plan.state)
 
     def _recover(self) -> None:
-        """Wait for a build that is writing; finish a killed one."""
+        """Wait for a build that is writing; finish a killed build."""
         if not self._transactions.is_pending():
             return
         if not self._options.dry:
@@ -152,7 +152,7 @@ class _Builder:
             self.notes += self._transactions.recover()
             return
         with contextlib.suppress(OutputError), build_lock(self._state_folder, self._options.wait) as lock:
-            lock.acquire(self._wait)  # if this folder allows no lock, no process writes
+            lock.acquire(self._wait)  # without a lock in this folder, no process writes
         if is_interrupted(self._state_folder):
             message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
             raise StateError.of("interrupted", message, shown(self._state_folder), hint=hint)

@@ -15,35 +15,36 @@ if TYPE_CHECKING:
 
 
 PREFERENCES = frozenset({Choice.MERGE_MINE, Choice.MERGE_GENERATED})
-"""Choices that take both sides' changes; where these contradict each other, they take one side's."""
+"""Choices that merge both sides' changes, and take one side's text for each contradiction."""
 
 
 class Conflict(msgspec.Struct, frozen=True):
-    """One text file in conflict. Its texts keep their line endings."""
+    """One text file in conflict; its texts have the line endings of the files."""
 
     path: str
     """Path of the generated text as in the record: from the configuration's folder, POSIX."""
     base: str | None
-    """The generated text that *mine* took into account last; None if there was none, or if it is lost."""
+    """The last generated text that *mine* contains or was merged with; None if this text is missing or lost."""
     mine: str
     generated: str
     merge: Merge | None
-    """None without a base. Its `text` is None if the changes contradict each other, or if the merge was rejected."""
+    """The merge; None without a base. Its `text` is None if the changes contradict each other, or if the merge was
+    rejected."""
     origin: str | None = None
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
     files: Mapping[str, str] = {}
-    """Where the versions are saved, by kind: paths below the robot's folder in `.urdfsync/conflicts`."""
+    """Paths of the saved versions by kind, below the robot's folder in `.urdfsync/conflicts`."""
     edited: str | None = None
     """The proposed merge as the user edited it."""
     rejected: str = ""
-    """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
+    """Why the merge was rejected, as a clause; empty if it was not rejected."""
     moved_to: str = ""
-    """The likely new name of the element that was edited, if the file may belong to another element now."""
+    """The likely new name of the edited element, if the file may belong to another element now."""
     refused: Mapping[Choice, str] = {}
-    """The choices in favour of a side that bring an unknown name into the file, each with the reason as a clause."""
+    """The choices of `PREFERENCES` that would bring an unknown name into the file, each with the reason as a clause."""
 
     def merged(self, choice: Choice | None) -> str | None:
-        """Return the merged text that a choice asks for; None if there is none."""
+        """Return the merged text for a choice, or without a choice; None if there is none."""
         if self.merge is None or self.merge.text is not None or choice not in PREFERENCES:
             return self.merge.text if self.merge else None
         if choice in self.refused:
@@ -54,15 +55,15 @@ class Conflict(msgspec.Struct, frozen=True):
 def find_conflict(
     action: Action, bases: Sequence[str], mine: str, generated: str, names: Mapping[str, str] | None = None
 ) -> Conflict:
-    """Merge the texts of a file. Ambiguous merges and merges that are no sound Modelica are rejected.
+    """Merge the texts of a file. Ambiguous merges and wrong Modelica are rejected.
 
-    `bases` are all texts that may be the base, best first; `names` has new names by old ones.
+    `bases` are all texts that may be the base, best first; `names` has new names by old names.
     """
     from urdfsync.merge import merge
 
     is_modelica = action.path.endswith(".mo")
     merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
-    if len(bases) > 1 and any(one.text != mine for one in merges):  # if all equal mine, it has all changes already
+    if len(bases) > 1 and any(one.text != mine for one in merges):  # equal: `mine` has all changes already
         edited = over_bases(bases, mine, is_modelica=is_modelica) or [(base, mine) for base in bases]
         merges = [merge(base, text, generated, is_modelica=is_modelica, names=names) for base, text in edited]
     first = merges[0] if merges else None
@@ -75,10 +76,10 @@ def find_conflict(
 
 
 def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:
-    """Carry the edits of a file over to its last and its first base; return each base with its edited text.
+    """Move the edits of a file to its last and its first base; return both bases with their edited texts.
 
-    Git may have united the bases of several branches, so a difference between two bases is no edit. The result leaves
-    out a base that the edits contradict.
+    Git may have recorded bases of several branches, so a difference between two bases is no edit. The result leaves out
+    a base if the edits contradict it.
     """
     from urdfsync.merge import merge
 
@@ -95,11 +96,11 @@ def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tu
 def resolve(
     actions: Iterable[Action], conflicts: Mapping[str, Conflict], *, merging: bool, choice: Choice | None = None
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
-    """Decide on every file that both sides changed.
+    """Decide on every file that the user and the source changed.
 
-    Returns the actions, and the texts of merged files by path. `conflicts` has the disputed text files by path. A merge
-    is taken if the file moves with its element, or if the configuration allows clean merges (`merging`). A `choice` of
-    `PREFERENCES` settles contradictions in favour of a side.
+    Returns the actions, and the texts of merged files by path. `conflicts` has the disputed text files by path. A file
+    that moves with its element takes the merge. Other files take it only if the configuration allows clean merges
+    (`merging`). A `choice` of `PREFERENCES` decides contradictions for one side.
     """
     resolved, texts = [], {}
     for action in actions:

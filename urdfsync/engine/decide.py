@@ -42,18 +42,18 @@ class Decision(msgspec.Struct, frozen=True):
     """All actions of one robot, and the findings about them."""
 
     differences: Differences
-    """The differences from the last complete build, on which the actions rest."""
+    """The differences from the last complete build; the actions follow from these."""
     actions: Actions
     texts: Mapping[str, str]
     """New texts of every `package.order` and of merged files, by key."""
     disputed: Mapping[str, Conflict] = {}
     """Texts of files that both sides changed, and of edited files that move, by key."""
     shared: tuple[SharedFile, ...] = ()
-    """Changes of files around the package."""
+    """Changes of the `package.mo` and `package.order` files around the package."""
     misfits: tuple[Misfit, ...] = ()
-    """Unknown names in the user's files, and texts that are no Modelica."""
+    """Unknown names and syntax errors in the user's files."""
     names: Mapping[str, str] = {}
-    """New names by old ones, of the time before choices; empty if no edit and no text put aside needs them."""
+    """New names by old names, from before the choices; empty if no edit and no text in `aside` needs them."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -68,12 +68,9 @@ class Decision(msgspec.Struct, frozen=True):
 
 
 def decide_package(inputs: Inputs, generation: Generation) -> Decision:
-    """Decide on every file of a robot.
-
-    Raises OutputError for links and for merge markers.
-    """
+    """Decide on every file of a robot. Raises OutputError for links and for merge markers."""
     files, package = inputs.files, generation.package
-    existing = _find_files(inputs, generation)  # finds what git's merges mean, which the comparison reads
+    existing = _find_files(inputs, generation)  # first: the comparison needs the meaning of files that git merged
     differences = compare_with_last(inputs, generation)
     origins, decided = frozenset(differences.moves.values()), decide(existing, differences.moves)
     doubts = find_doubts(inputs, generation, differences, decided)
@@ -95,7 +92,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
     has_conflicts = any(action.is_conflict for action in actions)
     numbers: Collection[str] = ()
-    if has_conflicts and not differences.has_exchanges:  # with exchanges, each build would move edits again
+    if has_conflicts and not differences.has_exchanges:  # if names were exchanged, each build would move edits again
         numbers = _renumbered(PackageAfter(inputs, package, actions, merged), differences.changes, conflicts)
     known = {action.path for action in (*actions, *order_actions)}
     unknown = [Action(key, Reason.UNKNOWN, Role.MODEL) for key in _find_unknown(inputs, known)]
@@ -136,7 +133,7 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
         add(inputs.folder.key(entry.target), Role.IMPORT, name, entry.target_hash)
     for key in last.files.keys() - files.keys():
         path = last.folder.path(key)
-        # the last package is made only for files that are no longer generated: 20 ms with 100 links
+        # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
         old = last.package.artifacts.get(path) if last.package else None
         add(key, old.role if old else role_of(path), old.owner if old else "", None)
     for key, record in united.find_left_records(inputs, _find_unknown(inputs, files)).items():
@@ -147,7 +144,7 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
 
 
 def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt]) -> Action:
-    """Correct an action by contents and options; so far it follows from hashes alone."""
+    """Correct an action by contents and options: the rules see only hashes."""
     contradictions = inputs.files.left_by_git.get(action.path)
     if contradictions and action.reason is Reason.KEEP:
         return msgspec.structs.replace(action, reason=Reason.MARKERS)
@@ -167,7 +164,7 @@ def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[st
 def _with_other_names(
     inputs: Inputs, package: Package, actions: Iterable[Action], names: Mapping[str, str]
 ) -> Iterator[Action]:
-    """Yield the actions. An edit that uses an outdated name is merged, even if nothing else is new."""
+    """Yield the actions. An edit that uses an outdated name is merged, even if the generated text did not change."""
     for action in actions:
         is_settled = inputs.files.is_chosen(action.path) or action.mine in inputs.last.record.confirmed
         is_edit = action.reason is Reason.KEEP and action.role is not Role.IMPORT and not is_settled
@@ -184,19 +181,19 @@ def _with_other_names(
 def _conflict(
     inputs: Inputs, generation: Generation, action: Action, doubt: Doubt | None, names: Mapping[str, str]
 ) -> Conflict:
-    """Return the texts of a file that both sides changed; if its class is a folder now, *mine* is its `package.mo`."""
+    """Return the texts of a file that both sides changed; if its class is a folder, *mine* is its `package.mo`."""
     key, files, last = action.origin or action.path, inputs.files, inputs.last
     path = inputs.folder.path(action.path)
     mine, generated = files.text(key), generation.package.content(path).decode()
     record = last.files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
     known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
-    # a file may have several bases: if the text of one is lost, the changes since it are unknown, and so is the merge
+    # if the text of one of several bases is lost, the user's changes are unknown: nothing is merged
     bases = [text for text in known if text is not None] if None not in known else []
     base, rejected, moved_to = bases[0] if bases else None, "", ""
     if mine is None:
         mine = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
-        rejected = describe_doubt(doubt) if doubt else "you made a folder of the class"
+        rejected = describe_doubt(doubt) if doubt else "you turned the class into a folder"
     elif doubt:
         is_own = action.owner == doubt.element
         rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
@@ -207,11 +204,11 @@ def _conflict(
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
-    if not names and bases:  # a choice was undone after the build that brought new names
+    if not names and bases:  # `--undo` came after the build that brought new names
         names = names_of(inputs, generation, last.notes.renamed, frozenset(words_in(bases[0])))
         before = last.package if last.record.generator == inputs.generator else None
         if before is None or path not in before.artifacts or before.hash(path) == action.base:
-            now = known_names(generation.package)  # a base with exchanged names has the new names already
+            now = known_names(generation.package)  # the base may have the new names already
             names = {name: new for name, new in names.items() if name not in now}
     return find_conflict(action, bases, mine, generated, names)
 
@@ -221,7 +218,7 @@ def _without_misfits(
 ) -> dict[str, Conflict]:
     """Return the conflicts; leave out merges that would use unknown names.
 
-    Clean merges are tried first. Then contradictions are tried in favour of each side. `after` has no merges yet.
+    First this tries clean merges, then merges with contradictions decided for each side. `after` has no merges yet.
     """
     sound, before, actions = dict(conflicts), None, after.actions
     files_after = functools.partial(PackageAfter, after.inputs, after.package)
@@ -254,18 +251,18 @@ def _without_misfits(
 
 
 def _find_misfits(after: PackageAfter, only: Collection[str] | None = None) -> Sequence[Misfit]:
-    """Find misfits in the user's files after all actions that do not wait; `only`: in the files with these keys."""
+    """Find misfits in the user's files after all actions that do not wait; `only` limits the search to these keys."""
     if only is None and after.inputs.has_moved and any(action.is_waiting for action in after.actions):
-        return ()  # the package stays where it was
+        return ()  # the package does not move yet
     if not (after.users or (only is None and after.extended_orders)):
         return ()
-    from urdfsync.engine.fit import find_misfits  # imports the parser: 15 of 220 ms of a build
+    from urdfsync.engine.fit import find_misfits  # this imports the parser: 15 of 220 ms of a build
 
     return find_misfits(after, only)
 
 
 def _renumbered(after: PackageAfter, changes: Changes | None, conflicts: Mapping[str, Conflict]) -> frozenset[str]:
-    """Return the records in which only numbers change, including those in conflict."""
+    """Return the records in which only numbers change, including records in conflict."""
     inputs, keys, by_element = after.inputs, set(), changes.by_element() if changes else {}
     for action in after.actions:
         if action.role is not Role.RECORD or action.origin is not None:
@@ -275,7 +272,7 @@ def _renumbered(after: PackageAfter, changes: Changes | None, conflicts: Mapping
             if numbers_only(inputs.files.text(action.path) or "", text):
                 keys.add(action.path)
         elif action.reason is Reason.CONFLICT and (base := conflicts[action.path].base) is not None:
-            # the record of a whole robot has no changes of its own: a number in its tables may be structural
+            # the record of a whole robot owns no change: a number in its tables may be structural
             own = by_element.get(action.owner, ())
             is_parameter = own and all(change.change_class.rank <= ChangeClass.PARAMETER.rank for change in own)
             if is_parameter and numbers_only(base, conflicts[action.path].generated):
@@ -288,7 +285,7 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     errors = []
     texts = (action for action in actions if action.role is not Role.IMPORT and action.reason is not Reason.UPDATE)
     edited = [action for action in texts if action.mine not in (None, action.base, action.generated)]
-    # contradictions of branches are conflicts, not errors; and with `--undo`, the user chose a text with markers
+    # contradictions of branches are conflicts, not errors; with `--undo`, the user chose a text with markers
     told = {action.origin or action.path for action in edited if action.is_conflict} & files.left_by_git.keys()
     told |= files.overlay.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
@@ -304,7 +301,7 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
 def _recorded_orders(inputs: Inputs, package: Package | None) -> dict[str, Collection[str]]:
     """Return the lines of each `package.order` that the last build wrote, by key, in their order.
 
-    `package` is the last one. Without it, the lines follow from the recorded files, and their order is lost.
+    `package` is the package of the last build. Without it, the lines follow from the recorded files, in another order.
     """
     last, orders = inputs.last, dict[str, dict[str, None]]()
     if last.record.files and package:
@@ -324,8 +321,8 @@ def _removable_lines(
 ) -> list[str]:
     """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
 
-    A recorded line may name a class of the user's, so the class is looked for, on disk and in `package.mo`. If git has
-    united two states, the package may name classes that the other branch renamed: then this is done for each line.
+    A recorded line may name a user's class, so this looks for the class on disk and in `package.mo`. If git has united
+    two states, this looks for each line's class: the other branch may have renamed it.
     """
     folder = order.removesuffix("package.order")
     paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
@@ -340,7 +337,7 @@ def _removable_lines(
 
 
 def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
-    """Return the classes of those files that are in the folder of a `package.order`."""
+    """Return the names of the classes that these files store in the folder of a `package.order`."""
     folder = order.removesuffix("package.order")
     paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in keys if key.startswith(folder))
     return sorted(filter(is_identifier, (path.removesuffix(".mo") for path in paths)))
@@ -351,7 +348,7 @@ def _decide_orders(
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
     """Decide on `package.order` files, and on the packages around the robot's.
 
-    Returns the actions, the new texts of orders, and the files around this package and that of the last build.
+    Returns the actions, the new texts of orders, and the files around this package and around the last build's package.
     """
     files, robot = inputs.files, inputs.robot
     is_same = not (differences.is_structural or inputs.has_moved)
@@ -369,11 +366,11 @@ def _decide_orders(
             is_joined = find_markers(old) and united.can_join(files.path(key), old, is_united=is_united)
             text = join_sides(old) if is_joined else old
             written, wanted = recorded.get(key, ()), set(names)
-            # a look at the disk for each name would take 15 ms with 100 links
+            # looking at the disk for all names would take 15 ms with 100 links
             unwanted = [name for name in written if name not in wanted]
             removable = _removable_lines(inputs, key, text, unwanted, actions)
             owned = [*(name for name in written if name in wanted), *removable]
-        if inputs.options.adopts and old is None:  # list the user's classes, too: tools hide unlisted ones
+        if inputs.options.adopts and old is None:  # list the user's classes, too: tools hide unlisted classes
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
             names = (*names, *(name for name in users if name not in names))
         if recorded.get(key):  # `--undo` brought an orphan back
@@ -389,7 +386,7 @@ def _decide_orders(
     for file in inputs.parents.shared:
         key = files.key(file.path)
         if file.content is not None:
-            files.on_disk(key, Role.PACKAGE)  # refuses a link in its place
+            files.on_disk(key, Role.PACKAGE)  # raises OutputError for a link
             decided.append(Action(key, Reason.CREATE, Role.PACKAGE, "parent package"))
         elif (old := files.text(key)) != merge_order(old, file.names):
             reason = Reason.CREATE if old is None else Reason.UPDATE

@@ -1,4 +1,4 @@
-"""Compares the last complete build of a robot with the present one: elements, model, names of files."""
+"""Compares the last complete build of a robot with the present build: elements, model, names of files."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ from urdfsync.modelica.files import class_path
 from urdfsync.state.record import FileRecord
 
 GONE = "_gone"
-"""Stands behind the name of a removed element if another element has that name now."""
+"""The end of the new name of a removed element whose name another element has now."""
 
 
 class Differences(msgspec.Struct, frozen=True):
-    """The differences between the last complete build and the present one."""
+    """The differences between the last complete build and the present build."""
 
     matching: Matching
-    """The renamed and the doubtful elements."""
+    """Renamed elements, and elements that may be other parts than their names say."""
     changes: Changes | None
     """The changes of the model; None if they are unknown, and for a removed robot."""
     respelled: Mapping[str, tuple[str, str]]
-    """Recorded classes to which this program gives another name, see `LastBuild.respelled`."""
+    """Recorded classes for which this version of urdfsync uses another name (see `LastBuild.respelled`)."""
     moves: Mapping[str, str]
     """The old key of each text file that moves with its element or with the package, by its new key."""
     identifiers: Mapping[str, str]
-    """The renamed identifiers: the new ones, by those of the last complete build."""
+    """New identifiers by old identifiers of the last complete build."""
     other_elements: Mapping[str, str]
-    """Maps each name that another element has now to the new name of the element that had it before."""
+    """For each name that another element has now: the new name of the element that had this name before."""
     has_exchanges: bool
-    """Whether an element has the former name of another one."""
+    """Whether an element has the former name of another element."""
 
     @property
     def renames(self) -> Mapping[ElementKey, str]:
@@ -48,13 +48,13 @@ class Differences(msgspec.Struct, frozen=True):
 
     @property
     def is_structural(self) -> bool:
-        """Whether files or names may come or go. False if only numbers changed."""
+        """Whether files or names may come or go; False if only numbers changed."""
         changes = self.changes
         return changes is None or changes.change_class.rank >= ChangeClass.STRUCTURAL.rank or bool(self.respelled)
 
 
 def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
-    """Compare the last complete build of a robot with the present one."""
+    """Compare the last complete build of a robot with the present build."""
     last, now, package = inputs.last, generation.now.snapshot, generation.package
     matching = _find_matching(inputs, now)
     news = _find_changes(inputs, generation, matching)
@@ -76,16 +76,16 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
 
 
 def _find_matching(inputs: Inputs, now: Snapshot) -> Matching:
-    """Match the elements of the last complete build with those of now.
+    """Match the elements of the last complete build with the present elements.
 
-    A stranger may have written the recorded model: names count as exchanged only if the package on disk agrees.
+    A stranger may have written the recorded model: names count as exchanged only if the records on disk confirm it.
     """
     declared, last = pending(inputs), inputs.last
     matching = match_with_last(inputs, now, declared)
     if last.version is None or not matching.renames:
         return matching
     old = last.elements
-    if last.record.is_united:  # a united record has elements of both branches: a name may mean either
+    if last.record.is_united:  # a record that git united has elements of both branches: a name may mean either
         return Matching(without_exchanges(matching, old).renames)
     found = {key: new for key, new in matching.renames.items() if key[1] not in declared}
     exchanged = {f"{kind} {name}" for (kind, name), new in found.items() if (kind, new) in old}
@@ -93,7 +93,7 @@ def _find_matching(inputs: Inputs, now: Snapshot) -> Matching:
 
 
 def _agrees(inputs: Inputs, owners: Collection[str]) -> bool:
-    """Whether the unedited records of these elements equal those of the recorded model."""
+    """Whether the unedited records of these elements on disk equal the records from the recorded model."""
     last, package = inputs.last, inputs.last.package
     if package is None or not owners:
         return not owners
@@ -102,14 +102,14 @@ def _agrees(inputs: Inputs, owners: Collection[str]) -> bool:
             on_disk = inputs.files.hash(last.folder.key(path), Role.RECORD)
             recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
             if last.record.open and on_disk in last.notes.written:
-                continue  # an incomplete build has renewed the record
+                continue  # an incomplete build has written this file since
             if on_disk in recorded and package.hash(path) != on_disk:
                 return False
     return True
 
 
 def _find_changes(inputs: Inputs, generation: Generation, matching: Matching) -> Changes | None:
-    """Find the changes of the model and of what generates the package."""
+    """Find the changes of the model, and of templates, options and version."""
     last, robot, domain = inputs.last, inputs.robot, inputs.domain
     if last.version is None or inputs.options.removes:
         return None
@@ -118,7 +118,7 @@ def _find_changes(inputs: Inputs, generation: Generation, matching: Matching) ->
     except NO_MODEL:
         return None
     if news.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
-        return None  # git may have merged two models into an invalid one
+        return None  # git may have merged two models into an invalid model
     if domain.describe is None and news.changes and last.package is not None:
         news = changes.by_texts(news, generation.package.changed_models(last.package))
     is_same = last.record.generator == inputs.generator and last.target == robot.target
@@ -132,7 +132,7 @@ def _find_changes(inputs: Inputs, generation: Generation, matching: Matching) ->
 
 
 def _find_identifiers(inputs: Inputs, now: Snapshot, differences: Differences) -> dict[str, str]:
-    """Return the renamed identifiers: the new ones, by those of the last complete build."""
+    """Return new identifiers by old identifiers of the last complete build."""
     last, target = inputs.last, inputs.robot.target
     if last.version is None or differences.changes is None:
         return {}
@@ -150,7 +150,7 @@ def _find_identifiers(inputs: Inputs, now: Snapshot, differences: Differences) -
 
 
 def _find_moves(inputs: Inputs, package: Package, differences: Differences) -> dict[str, str]:
-    """Return the old key of each text file that moves with its element or with the package, by its new key."""
+    """Return old keys by new keys of text files that move with their element or with the package."""
     last = inputs.last
     texts = set(map(last.folder.path, last.files))
     recorded = last.package.artifacts if last.package else {}

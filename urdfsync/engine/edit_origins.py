@@ -1,8 +1,8 @@
-"""Finds edited files that may belong to other elements now: by the record, and by the commits that git merged.
+"""Finds edited files that may belong to other elements now: by the record, and by merged commits.
 
 One branch exchanges two names, another branch edits one of the files. Git leaves the edit in the file of its old name,
-and both texts look right. So edits are looked for in the commits that they may come from. The recorded models of these
-commits tell what the names meant there.
+and both texts look right. So this module looks for edits in the commits that they may come from. The recorded models of
+these commits tell the meaning of the names at that time.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from urdfsync.git.revisions import Revision
 
 _MOST = 50
-"""The most branches, and the most recently checked-out commits, that are searched."""
+"""The greatest number of branches that are searched, and the most commits that were checked out last."""
 _BACK = 10
-"""The most commits that are searched, counted back from HEAD."""
+"""The greatest number of commits that are searched, counted back from HEAD."""
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
 
@@ -45,21 +45,21 @@ EDITED = (Reason.KEEP, Reason.CONFLICT)
 def find_doubts(
     inputs: Inputs, generation: Generation, differences: Differences, actions: Iterable[Action]
 ) -> dict[str, Doubt]:
-    """Return why edited files may belong to other elements than before, by key."""
+    """Return the doubts whether edited files belong to the same elements as before, by key."""
     edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
     edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
     record, notes = inputs.last.record, inputs.last.notes
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
-    # the user's answer about an export holds until the next export
+    # the user's decision about an export holds until the next export
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(inputs, generation, differences, action)
-    if unconfirmed and notes.model == hash_of(record.snapshot):  # else git may have changed what names mean
+    if unconfirmed and notes.model == hash_of(record.snapshot):  # otherwise git may have changed the meaning of names
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
-    unconfirmed = [one for one in unconfirmed if one.mine]  # a class that became a folder: no commit has this file
+    unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
     if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
-        dependencies.mark_incomplete()  # a commit may change the answer without changing a file
+        dependencies.mark_incomplete()  # a commit may change this result without changing a file
         edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
         for commit in _commits(inputs):
             doubts |= _look(inputs, generation, commit, edits)
@@ -67,41 +67,41 @@ def find_doubts(
 
 
 def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:
-    """Return why an edit may belong to another element than its file does, judged by the last build."""
+    """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
     found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
         lines = _edit_of(inputs, generation.package, action).added if found else ()
         return _named(inputs, lines, found, generation.now.snapshot)
     if element in found:
         return found[element]
-    if moved_to := differences.renames.get(element):  # its file can't move to the new name
+    if moved_to := differences.renames.get(element):  # the file can't move to the new name
         return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
     # if only numbers changed, no element is new, and most builds need no features
     is_new_element = last.version is not None and differences.is_structural and element not in last.elements
     is_orphan = is_new_element and action.path in last.files
-    is_new = last.record.open is not None and action.path not in last.record.open.asked  # a later build wrote it
+    is_new = last.record.open is not None and action.path not in last.record.open.asked  # a later build wrote the file
     if is_orphan and not (is_new or last.record.is_united or differences.respelled):
-        return Doubt(" ".join(element), is_certain=True)  # the user edited it for an element that is gone
+        return Doubt(" ".join(element), is_certain=True)  # the user edited the file for an element that is gone
     return None
 
 
 def _commits(inputs: Inputs) -> Iterator[Revision]:
     """Yield the commits that an edit may come from: merged ones, and recent ones if this machine has built here."""
-    import pygit2  # 55 ms, which most builds do without
+    import pygit2  # takes 55 ms, which most builds save
 
     from urdfsync.git.revisions import Revision, open_repository
 
     root = inputs.config.root
     try:
         repository = open_repository(root)
-    except SourceError:  # it can't be read: for example, it belongs to another user
+    except SourceError:  # the repository can't be read: for example, it belongs to another user
         return
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
     names = ["MERGE_HEAD", *(str(parent) for parent in repository.head.peel(pygit2.Commit).parent_ids)]
     if inputs.last.notes.program:
         names += [f"HEAD~{number}" for number in range(2, _BACK)]
-        # after a squash, the branch itself may be gone: look at the commits that were checked out last
+        # after a squash, the branch may be deleted: look at the commits that were checked out last
         recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
         names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *(str(entry.oid_new) for entry in recent)]
         names += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
@@ -119,17 +119,17 @@ class _Edit(NamedTuple):
     removed: Counter[str]
 
     def shared(self, text: str) -> Counter[str]:
-        """Return the added lines that another text has, too; if the edit only removes, the lines that it lacks, too."""
+        """Return the added lines that another text has; if the edit only removes, the removed lines that it lacks."""
         lines = _lines(text)
         return self.added & lines if self.added else self.removed - lines
 
     def has_moved(self, shared: Counter[str], text: str) -> bool:
-        """Return whether the file under the element's new name has the shared lines of the edit already."""
+        """Return whether this text, the file of the element's new name, has the shared lines of the edit already."""
         return not shared - _lines(text) if self.added else not shared & _lines(text)
 
 
 def _edit_of(inputs: Inputs, package: Package, action: Action) -> _Edit:
-    """Return the user's edit of a generated text; a line that one of its bases has is no edit."""
+    """Return the user's edit of a generated text; a line of one of the file's bases is no edit."""
     last = inputs.last
     mine = _lines(inputs.files.text(action.path) or "")
     generated = _lines(package.content(inputs.folder.path(action.path)).decode())
@@ -142,13 +142,13 @@ def _lines(text: str) -> Counter[str]:
 
 
 def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mapping[Action, _Edit]) -> dict[str, Doubt]:
-    """Return a doubt for each edit that a commit has in the same file, if its element was renamed since the commit."""
+    """Return a doubt for each edit that a commit has in its file, if the file's element was renamed since."""
     state = inputs.store.path(inputs.last.name)
     try:
         contents = commit.contents([state, *(inputs.files.path(action.path) for action in edits)])
         texts = {action: contents.get(inputs.files.path(action.path), b"").decode(errors="replace") for action in edits}
         shared = {action: lines for action, text in texts.items() if text and (lines := edits[action].shared(text))}
-        if not shared:  # most commits; reading the model of a large robot takes a while
+        if not shared:  # true for most commits; reading the model of a large robot would take a while
             return {}
         record, _ = statefile.loads(contents[state].decode(errors="replace"), commit.label(state))
         if record is None or record.is_united or not record.snapshot or record.snapshot == inputs.last.record.snapshot:
@@ -165,14 +165,14 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
         if key in matching.renames or key in formers:
             moved_to = matching.renames.get(key, "")
             moved[key] = Doubt(" ".join(key), formers.get(key, ""), (), moved_to, is_certain=True)
-    # names that are gone are reported elsewhere
+    # other findings report removed names
     elements = inputs.domain.features(generation.now.snapshot)
     existing = {key: doubt for key, doubt in moved.items() if key in elements}
     doubts = dict[str, Doubt]()
     for action, lines in shared.items():
         recorded = record.files.get(action.path)
         if recorded is None or text_hash(texts[action]) in recorded.hashes:
-            continue  # the commit has the file unedited
+            continue  # the file is unedited in this commit
         if element := _element(action):
             if (doubt := moved.get(element)) is None:
                 continue
@@ -193,7 +193,7 @@ def _element(action: Action) -> ElementKey | None:
 def _named(
     inputs: Inputs, lines: Iterable[str], doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
 ) -> Doubt | None:
-    """Return the doubt about the first doubtful element that these lines of a common file name; None without one."""
+    """Return the doubt about the first doubtful element in these lines of a common file; None without one."""
     if not doubts:
         return None
     elements = elements_by_identifier(inputs.domain, snapshot, inputs.last.target)

@@ -25,16 +25,15 @@ class EditedFile(msgspec.Struct, frozen=True):
     KEYS = ("path", "owner", "edits")
 
     path: str
-    """Where it is: a path from the configuration's folder, POSIX."""
+    """The path from the configuration's folder, POSIX."""
     owner: str
-    """Element that it belongs to, in the domain's words."""
     base: str | None
-    """The base; None if it is lost, or if urdfsync never wrote the file."""
+    """The base: the text that urdfsync wrote last. None if the base is lost, or if urdfsync never wrote the file."""
     mine: str
 
     @property
     def edits(self) -> Sequence[merge_edits.Edit] | None:
-        """The edits by the elements of its class; None if base or file is no single class."""
+        """The edits, by elements of the class; None if base or file is not a single class."""
         return None if self.base is None else merge_edits.find_edits(self.base, self.mine)
 
 
@@ -45,10 +44,10 @@ class RobotEdits(msgspec.Struct, frozen=True):
 
     robot: str
     root: Path
-    """The paths of `files` count from it."""
+    """The configuration's folder: the paths of `files` count from here."""
     files: tuple[EditedFile, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
-    """Why the edits are unknown, if it `failed`."""
+    """Why the edits are unknown, if `failed`."""
     failed: bool = False
 
 
@@ -57,7 +56,7 @@ def find_edited(
 ) -> Iterator[EditedFile]:
     """Yield the edited files of a robot, in the order of their paths.
 
-    Raises UrdfsyncError. `actions` are the package's actions; None to decide them.
+    Raises UrdfsyncError. `actions` are the package's actions; if it is None, this decides on them.
     """
     files = inputs.files
     if actions is None:
@@ -67,7 +66,7 @@ def find_edited(
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY
         if is_text and action.mine not in (None, action.base, action.generated):
             base = inputs.last.base(action.base) if action.base else None
-            if action.base == action.generated:  # before a package is adopted, the base is not stored yet
+            if action.base == action.generated:  # before `adopt` the base is not stored yet
                 base = generation.package.content(inputs.folder.path(action.path)).decode()
             yield EditedFile(key, action.owner, base, files.any_text(key))
 

@@ -1,6 +1,7 @@
-"""Makes sources before they are read: by xacro, or by a command of the user's.
+"""Makes sources by xacro, or by a command of the user's, before a build reads them.
 
-The inputs of a source are recorded with hashes (see `state.expansion`). The source is made again if an input changed.
+The state records the inputs of a source with hashes (see `state.expansion`). If an input changed, the source is made
+again.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ CPU_SECONDS = 20.0
 MEMORY = 1_000_000_000
 """Bytes that the process of an expansion may allocate, on Linux."""
 WALL_SECONDS = 120.0
-"""Time for one expansion, on every system: on a busy machine, `CPU_SECONDS` may take that long."""
+"""Time for one expansion, on every system: `CPU_SECONDS` may take that long on a busy machine."""
 _COMMAND_SECONDS = 600.0
-"""Time for a command, which may ask a server."""
+"""Time for a command, which may wait for a server."""
 _PACKAGE = "package://"
 _HINTS = {
     "no-xacro": install_command("xacro"),
@@ -58,19 +59,20 @@ class SourceFiles:
         return folder / rest if folder else None
 
     def name(self, path: str | Path, packages: Mapping[str, str]) -> str:
-        """Return a file's name in the state: the same on every machine, if possible."""
+        """Return a file's name in the state; if possible, this name is the same on every machine."""
         file = Path(path)
         if not file.is_relative_to(self.root):
             for package, folder in packages.items():
                 if file.is_relative_to(folder):
                     return f"{_PACKAGE}{package}/{file.relative_to(folder).as_posix()}"
-        # absolute below another top folder: no relative path leads to another drive
+        # an absolute path if file and root are on different drives: no relative path leads there
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
-        """Return the inputs of a source as they are now: those that `names` lists. The text is left empty.
+        """Return the present inputs of a source, without text: those that `names` lists.
 
-        If a package is missing on this machine, its files count as unchanged. A command names its files itself.
+        If a package is missing on this machine, its files count as unchanged. For a command, the configuration lists
+        the files.
         """
         files, patterns = dict(names.files), dict(names.patterns)
         if robot.command:
@@ -106,27 +108,27 @@ class SourceFiles:
         return f"{missing[0]} is not on this machine" if missing else ""
 
     def places(self, made: Expansion) -> list[tuple[int, str, int]]:
-        """Return the line of each element in an expansion, with its original file and line."""
+        """Return the line of each element in an expansion, with the element's original file and line."""
         try:
             files = [shown(self.path(name) or Path(name)) for name in made.files]
             entries = (map(int, re.split("[=:]", entry)) for entry in made.places.split())
             return [(line, files[number], origin) for line, number, origin in entries]
-        except (IndexError, ValueError):  # urdfsync did not write this
+        except (IndexError, ValueError):  # urdfsync did not write this text
             return []
 
 
 def _is_there(path: Path | None) -> bool:
     try:
         return path is not None and is_file(path)
-    except (OSError, ValueError):  # a stranger may have written the name: it may be invalid
+    except (OSError, ValueError):  # a stranger may have written an invalid name
         return False
 
 
 def _file_hash(path: Path) -> str | None:
-    """Return the hash of a file, without regard to line ends; None for an unreadable file."""
+    """Return the hash of a file, ignoring kinds of line ends; None for an unreadable file."""
     try:
         return text_digest(read_file(path))
-    except (OSError, ValueError):  # a stranger may have written the name: it may be invalid
+    except (OSError, ValueError):  # a stranger may have written an invalid name
         return None
 
 
@@ -152,7 +154,7 @@ def expand(inputs: SourceFiles, arguments: Mapping[str, str]) -> Expansion:
             message = message.replace(path, shown(Path(path)))
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
         place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
-        for path in answer.files:  # record the inputs as dependencies: after a success, `find_changes` does
+        for path in answer.files:  # record the inputs as dependencies, as `find_changes` does after a success
             _file_hash(Path(path))
         for pattern in answer.patterns:
             _names_hash(Path(pattern))
@@ -174,7 +176,7 @@ def expand(inputs: SourceFiles, arguments: Mapping[str, str]) -> Expansion:
 
 
 def _ask(request: Request) -> Answer:
-    """Have a file expanded by another process."""
+    """Expand a file in another process."""
     limits = Answer(problem=Problem("xacro-limits", ""))
     try:
         question = msgspec.json.encode(request)
@@ -186,8 +188,8 @@ def _ask(request: Request) -> Answer:
             input=question,
             capture_output=True,
             timeout=WALL_SECONDS,
-            env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # so that the text is the same each time
-            process_group=0,  # Ctrl-C must reach only this process, which then ends the other
+            env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # the text is the same each time
+            process_group=0,  # Ctrl-C must reach only this process, which then ends the worker
             check=False,
         )
         return msgspec.json.decode(done.stdout, type=Answer)
@@ -201,9 +203,9 @@ def _ask(request: Request) -> Answer:
 
 
 def run_command(config: Config, robot: RobotConfig) -> None:
-    """Run the command that writes a robot's source, in the configuration's folder. Raises SourceError if it fails."""
+    """Run a robot's command, which writes the source, in the configuration's folder. Raises SourceError if it fails."""
     try:
-        done = subprocess.run(  # noqa: S603 - the user trusts this configuration
+        done = subprocess.run(  # noqa: S603 - the user has trusted this configuration
             robot.command,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,

@@ -1,4 +1,4 @@
-"""Recognises files that users take for a robot, such as an archive, or a launch file."""
+"""Recognises files without a robot that users name as a source, such as an archive or a launch file."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 from urdfsync.modelica.markers import find_markers
 
 _BEGINNING = 20_000
-"""The first bytes of a file that show its kind: a file that contains a robot may be long."""
+"""The bytes at the beginning of a file in which its kind is searched: the file may be long."""
 _TAR = slice(257, 262)
 _PACKED = (
     (b"\x1f\x8b", "packed by gzip", "gunzip < FILE > ROBOT.urdf"),
@@ -18,7 +18,7 @@ _PACKED = (
     (b"PK\x03\x04", "a zip archive", "unzip FILE"),
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "7z x FILE"),
 )
-"""The beginning of a packed file, its kind, and the command that unpacks it."""
+"""The first bytes of a packed file, the file's kind, and the command that unpacks it."""
 _OTHERS = (
     ("lfs-pointer", rb"version https://git-lfs", "the file is a Git LFS pointer, not the robot"),
     ("robot-description", rb"[^<]*\brobot_description[\"']?[ \t]*:", "this is a parameter file of ROS: YAML, not URDF"),
@@ -28,13 +28,13 @@ _OTHERS = (
         "this is a launch file of ROS, not URDF",
     ),
 )
-"""Each kind of file by its code, a pattern of its beginning, and a message."""
+"""For each kind of file: its code, a pattern for its beginning, and a message."""
 HINTS = {
     "compressed": "unpack it, and name the file in it",
     "lfs-pointer": "run `git lfs pull`",
     "robot-description": "save the text of `robot_description` as a file, and name that",
     "merge-conflict": "resolve the merge, then build again",
-    "launch-file": "name the URDF or xacro file that it loads, with what it passes as `arguments`",
+    "launch-file": "name the URDF or xacro file that it loads, and set `arguments` to the arguments that it passes",
 }
 
 
@@ -48,7 +48,7 @@ class FileKind(NamedTuple):
 
 
 def find_kind(content: bytes) -> FileKind | None:
-    """Return the kind of a file that holds no robot as XML; None for other files, and for an unknown kind."""
+    """Return the kind of a file without a robot; None for a robot, and for an unknown kind."""
     packed = next((kind for kind in _PACKED if content.startswith(kind[0])), None)
     if content[_TAR] == b"ustar" and b"\0" in content[: _TAR.start]:
         packed = b"", "a tar archive", "tar xf FILE"

@@ -1,7 +1,7 @@
 """Findings of a build: removed names and connectors, moved or outdated packages, names that mean other parts now.
 
-A file of the user's that uses a name which an export has given to another part still works, but with that part. So each
-build warns until the user saves the file. The notes of this machine list each file with such names.
+After an export, a known name may stand for another part. A user's file with this name still works, but with the other
+part. So each build warns until the user saves the file. This machine's notes list the files with such names.
 """
 
 from __future__ import annotations
@@ -46,26 +46,26 @@ if TYPE_CHECKING:
 CONNECTORS = "connector-changed"
 """Code of the notes on changed connectors."""
 _FEW = 3
-"""The most files that are named; further files are only counted."""
+"""The greatest number of files that a message names; it counts further files."""
 _LINES = 20
-"""The most lines that are named for one fault; further lines are only counted."""
+"""The greatest number of lines that a message names for one fault; it counts further lines."""
 _NEW = 6
-"""The most new connectors that are named; further ones are only counted."""
+"""The greatest number of new connectors that a message names; it counts further connectors."""
 _MAYBE = "?"
-"""Stands for the new name of a part if it is unknown whether the name means another part now."""
+"""Stands for the new name of a part if the old name may still mean this part."""
 
 
 def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
-    """Return all findings of a build, except those about uses of other parts."""
+    """Return all findings of a build, except the findings of `tell_uses`."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
     if decision.misfits:
-        renamed = inputs.last.notes.renamed  # by the last build on this machine
+        renamed = inputs.last.notes.renamed  # the renames of this machine's last build
         renamed = {**renamed, **decision.differences.identifiers}
         findings += _diagnose(inputs, generation.now.snapshot, decision, renamed)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
-        findings.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
+        findings.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} continues under the new name", *place))
     if inputs.users_files.is_too_wide:
         message = "your models were not checked: there are too many folders to search"
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
@@ -87,12 +87,12 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
 def _diagnose(
     inputs: Inputs, snapshot: Snapshot, decision: Decision, renamed: Mapping[str, str]
 ) -> Iterator[Diagnostic]:
-    """Yield one finding for all places in a file that have the same fault: an error if the package is broken."""
+    """Yield one finding for all places of a fault in a file: an error if the fault breaks the package."""
     waiting = (one.path for one in decision.actions if one.is_waiting and not one.is_deletion)
     classes = {class_of(path) for path in waiting if path.endswith(".mo")}
     places: dict[tuple[object, ...], list[Misfit]] = {}
     for misfit in decision.misfits:
-        if misfit.key or misfit.file in inputs.users_files.mentioning:  # the others are in a former folder
+        if misfit.key or misfit.file in inputs.users_files.mentioning:  # not in a former folder
             finding = misfit.finding
             what = misfit.use.part if misfit.use else (misfit.lacking or finding.message, finding.code, finding.line)
             places.setdefault((misfit.file, what), []).append(misfit)
@@ -102,7 +102,7 @@ def _diagnose(
         also = f"also in line{'s' if len(lines) > 1 else ''} {_first(lines, _LINES)}" if lines else ""
         hint = _hint(inputs, snapshot, renamed, first.use) if first.use else finding.hint
         if first.use and first.use.part in classes and first.use.kind.value == "class":
-            hint = "settle the conflicts; its file waits for that"
+            hint = "settle the conflicts: the file of this class waits until then"
         yield msgspec.structs.replace(
             finding,
             severity=Severity.ERROR if first.is_broken else Severity.WARNING,
@@ -112,7 +112,7 @@ def _diagnose(
 
 
 def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: Unresolved) -> str:
-    """Return a hint for an unresolved name; `renamed` has new identifiers by old ones."""
+    """Return a hint for an unresolved name; `renamed` has new identifiers by old identifiers."""
     target, options = inputs.robot.target, inputs.robot.options
     if use.part == inputs.last.target.package != target.package and target.name not in use.candidates:
         return f"use `{target.package}` instead"
@@ -125,7 +125,7 @@ def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: U
     if use.near:
         return f"did you mean `{use.meant}`?"
     if use.is_library:
-        return f'name the library in `uses` if `{use.part}` is one: annotation (uses({use.part}(version="…")))'
+        return f'if `{use.part}` is a library, name it in `uses`: annotation (uses({use.part}(version="…")))'
     return "change or remove this use"
 
 
@@ -135,7 +135,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if not inputs.has_moved or any(action.is_waiting for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.is_deletion}
-    # a stranger may have written the record: never look into another folder, or propose to delete it
+    # a stranger may have written the record: never look into a folder elsewhere, or propose to delete it
     is_inside = files.is_inside(f"{inputs.last.folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
     rest = [shown(path) for path in below if path not in gone and new not in path.parents]
@@ -145,20 +145,20 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if not is_inside:
         message, hint = f"{message}, but urdfsync may not delete files in the old folder", "delete it by hand"
     else:
-        message += f"; these files are not deleted, since urdfsync did not write them: {_first(rest, _FEW)}"
-        hint = "take over what you need, then delete the old folder"
+        message += f"; these files stay there, since urdfsync did not write them: {_first(rest, _FEW)}"
+        hint = "move the files that you need, then delete the old folder"
     file, line = shown(inputs.config.file), inputs.robot.lines[""]
     yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
 
 
 def _first(names: Sequence[str], most: int) -> str:
-    """Return the names in a row: at most the first `most`, then the number of the others."""
+    """Return the names as one text: the first `most` names, then the number of further names."""
     more = [f"{len(names) - most} more"] if len(names) > most else []
     return ", ".join([*names[:most], *more])
 
 
 def _changed_connectors(inputs: Inputs, generation: Generation, changes: Changes | None) -> Iterator[Diagnostic]:
-    """Yield notes on renamed and removed connectors, and one note on new ones."""
+    """Yield notes on renamed and removed connectors, and one note on new connectors."""
     complete, robot = inputs.last.version, inputs.robot
     effects: Effects | None = inputs.domain.effects
     if (
@@ -183,7 +183,7 @@ def _changed_connectors(inputs: Inputs, generation: Generation, changes: Changes
 
 
 def orphaned_state(config: Config) -> list[Diagnostic]:
-    """Return a note if there is state of robots that the configuration lacks."""
+    """Return a note if robots with recorded state are missing in the configuration."""
     store = Store(config.root)
     built = set(store.names())
     heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}
@@ -191,14 +191,14 @@ def orphaned_state(config: Config) -> list[Diagnostic]:
     if not stray:
         return []
     listed = ", ".join(f"`{name}`" for name in stray)
-    message = f"the state of {listed} is still there, but the configuration has no such robot"
+    message = f"the recorded state of {listed} exists, but the configuration has no such robot"
     folder = shown(store.folder / "robots")
-    hint = f"bring the robot back, or delete {folder}/{stray[0]}.* and what is left of its package"
+    hint = f"add the robot again, or delete {folder}/{stray[0]}.* and its package"
     return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]
 
 
 def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, Use]:
-    """Return the names in each file that mean another part now; names that earlier builds found are included."""
+    """Return the names in each file that mean another part now, names from earlier builds included."""
     differences = decision.differences
     uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
     if not decision.is_complete:
@@ -220,9 +220,9 @@ def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dic
 
 
 def _other_names(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, str]:
-    """Return the names in the package that mean other parts than in the last build, or may do so.
+    """Return names of the package that mean, or may mean, other parts than in the last build.
 
-    Each has the new name of the part that had it before.
+    The value of a name is the new name of the part that had this name before.
     """
     doubts, renamed = differences.matching.doubts, dict[str, str]()
     if differences.other_elements:
@@ -239,13 +239,13 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
         lines = _lines(Path(path), use.names)
         for name, line in sorted(lines.items(), key=lambda item: item[1]):
             new = use.names[name]
-            message = f"`{name}` names another part now; the former one is called `{new}`"
+            message = f"`{name}` names another part now; the former part is called `{new}`"
             hint = f"use `{new}`, or save the file as it is"
             if new.endswith(GONE):
-                message = f"`{name}` names another part now; the former one is gone"
-                hint = "change it, or save the file as it is if it is right"
+                message = f"`{name}` names another part now; the former part is gone"
+                hint = "change the name; if it is right, save the file as it is"
             elif new == _MAYBE:
-                message, hint = f"`{name}` may name another part now", "look at it, and save the file"
+                message, hint = f"`{name}` may name another part now", "check this name, then save the file"
             yield Diagnostic(Severity.WARNING, "other-part", message, shown(Path(path)), line, hint=hint)
 
 
@@ -257,7 +257,7 @@ def _facts(path: Path) -> tuple[int, ...]:
 
 
 def _lines(path: Path, names: Mapping[str, str]) -> dict[str, int]:
-    """Return the first line in which a file uses each name; names that a model only declares do not count."""
+    """Return the first line in which a file uses each name; declarations do not count."""
     from urdfsync.merge.renames import find_uses_of  # the lexer takes a while to load
     from urdfsync.modelica.files import text_of
 

@@ -1,9 +1,9 @@
-"""Finds unresolved names in the user's texts, as the package will be after the build.
+"""Finds names in the user's texts that will not resolve in the package after the build.
 
 These texts are edited files of the package, the user's own classes in it, and the user's models outside. Findings
-depend only on the project: the package, UrdfSync, and the user's files. A name that an unread library may have is no
-fault. Generated texts fit each other. So only two kinds of statements are read: those that differ from the generated
-ones, and those that mention a name which an edit adds, changes or removes.
+depend only on the project: the package, UrdfSync, and the user's files. A name from an unread library is no fault.
+Generated texts fit each other. So this reads only edited statements, and statements with a name that an edit adds,
+changes or removes.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 _LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
 _KINDS = {"model": ("model", "block", "class"), "record": ("record", "operator record")}
-"""For each kind of class, the kinds that can take its place."""
+"""For a kind of generated class, the kinds that an edit may give the class."""
 _TOO_LONG = Diagnostic(
     Severity.WARNING,
     "too-long",
@@ -65,25 +65,24 @@ class Misfit(msgspec.Struct, frozen=True):
     key: str = ""
     """The key of a file in the package; empty for other files."""
     is_broken: bool = False
-    """Whether it breaks the package, in an edited generated file."""
+    """Whether the fault breaks the package; only an edited generated file can."""
     use: Unresolved | None = None
-    """The unresolved name."""
     lacking: str = ""
-    """A name that a generated text mentions, and that this file does not declare."""
+    """A name that a generated text mentions, and that is missing in this file."""
 
     @property
     def fault(self) -> str:
-        """The unresolved name, or the code of another finding: it identifies the fault.
+        """The unresolved name, or the code of another finding, to recognise the same fault later.
 
-        It does not name the class that lacks the name: that class may be renamed with its element.
+        The class without the name is left out: it may be renamed with its element.
         """
         return self.use.part if self.use else self.finding.code
 
 
 def find_misfits(after: PackageAfter, only: Collection[str] | None = None) -> list[Misfit]:
-    """Return all findings about the user's texts; with `only`, those in the files with these keys, merged now.
+    """Return all findings about the user's texts; with `only`, about the merged texts of the files with these keys.
 
-    In a merge, a removed name counts as a fault even if a class may inherit it from an unread library.
+    In a merge, a removed name is a fault even if a class may inherit it from an unread library.
     """
     return _Package(after).misfits(only)
 
@@ -96,13 +95,13 @@ class _Package(PackageAfter):
         self._readings, self._differences = dict[bytes, Reading](), dict[str, Difference]()
 
     def class_name(self, path: str) -> ClassName:
-        """Return the full name of the class that a file is for, by its path below the package."""
+        """Return the full name of a file's class, by the file's path below the package."""
         return (*self.inputs.robot.target.package.split("."), *class_parts(path))
 
     # --- classes --------------------------------------------------------------------------------------------------
 
     def classes(self) -> StoredClasses:
-        """Return all classes, to resolve names in."""
+        """Return all classes for resolving names."""
         inputs, target = self.inputs, self.inputs.robot.target
         parents = {one.path: one.content for one in inputs.parents.shared if one.content is not None}
         former = inputs.last.target.package if inputs.last.target.package != target.package else ""
@@ -112,7 +111,7 @@ class _Package(PackageAfter):
         )
 
     def _find(self, name: str) -> Path | None:
-        """Return the folder or file of a top-level class that is not in the package."""
+        """Return the folder or file of a top-level class outside of the package; None if there is none."""
         robot = self.inputs.robot
         if own := find_own_library(name, robot.target.package):
             return own
@@ -148,9 +147,9 @@ class _Package(PackageAfter):
         return misfits
 
     def _passed_statements(self) -> dict[str, frozenset[str]]:
-        """Return the files to check, each with its statements that need no check: they equal generated ones."""
+        """Return the files to check, each with the statements that need no check: these equal generated statements."""
         artifacts, statements = self.package.artifacts, dict[str, frozenset[str]]()
-        # first look for missing classes that generated texts mention
+        # begin with classes that generated texts mention and that are missing
         before = self.inputs.last.files
         expected = set(map(self.inputs.folder.path, before)) if self._is_waiting else set(artifacts)
         missing = expected - set(map(as_file, self)) - self._files.keys()
@@ -172,7 +171,7 @@ class _Package(PackageAfter):
 
     @cached_property
     def _is_waiting(self) -> bool:
-        """Whether files stay as in the package of the last complete build."""
+        """Whether an action waits, so that the package stays as the last complete build left it."""
         return any(action.is_waiting for action in self.actions)
 
     def _generated_text(self, path: str) -> str:
@@ -187,7 +186,7 @@ class _Package(PackageAfter):
         return (inputs.last.base(record.hashes[0]) or "") if record and len(record.hashes) == 1 else ""
 
     def _is_lost(self, name: str) -> bool:
-        """Whether a replaced or deleted text declares a name that the new text lacks."""
+        """Whether a replaced or deleted text declares this name, and the new text does not."""
         files, folder = self.inputs.files, self.inputs.folder
         replaced = list[tuple[str, str]]()
         # if all actions wait, the package stays as it was before the choices
@@ -213,7 +212,7 @@ class _Package(PackageAfter):
             yield Misfit(self.inputs.files.path(file.key), finding, file.key, is_broken)
 
     def _declared(self, path: str) -> dict[str, int] | None:
-        """Return the lines of a `package.mo`'s declarations, by name; None if it is missing or no Modelica."""
+        """Return the lines of a `package.mo`'s declarations, by name; None for a missing or faulty file."""
         stored = self._reading(self[path]).stored if path in self else None
         if stored is None or stored.is_broken:
             return None
@@ -234,7 +233,7 @@ class _Package(PackageAfter):
                     yield Misfit(files.path(key), finding, key, is_broken=self._files[package].is_expected)
 
     def _instance(self, node: Node, scopes: Scopes, paths: Iterable[str]) -> str:
-        """Return the place where one of these files instantiates a class; empty if none does."""
+        """Return the place where one of these files instantiates a class; empty if no file does."""
         for path in paths:
             other = scopes.node(self.class_name(path))
             if other is None or "partial" in other.definition.prefixes:
@@ -249,7 +248,7 @@ class _Package(PackageAfter):
         return ""
 
     def _look_at_head(self, path: str, node: Node, scopes: Scopes, paths: Iterable[str]) -> Iterator[Diagnostic]:
-        """Check the kind of an edited class, and whether it is partial."""
+        """Check that an edited class still has its kind, and that no file instantiates a partial class."""
         generated = self._differences[path].generated if path in self._differences else None
         if generated is None:
             return
@@ -260,15 +259,15 @@ class _Package(PackageAfter):
         is_partial = "partial" in node.definition.prefixes - generated.prefixes
         place = "other classes" if kind == "package" or not is_partial else self._instance(node, scopes, paths)
         if is_partial and place:
-            message, hint = f"`{name}` is partial, but used by {place}", "take `partial` out, or extend the class"
+            message, hint = f"`{name}` is partial, but {place} uses it", "remove `partial`, or extend the class"
             yield Diagnostic(Severity.ERROR, "wrong-kind", message, line=line, hint=hint)
 
     def _look(
         self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None, paths: Iterable[str]
     ) -> Iterator[Misfit]:
-        """Check a file of the package; in a generated file, check only names that the user's files lack.
+        """Check a file of the package; in a generated file, check only for names that the user's files lack.
 
-        `paths` are all of these files.
+        `paths` are all checked files.
         """
         file, name, reading = self._files[path], self.class_name(path), self._readings[self[path]]
         place = self.inputs.files.path(file.key)
@@ -304,7 +303,7 @@ def _faults(
     scopes: Scopes,
     lost: Callable[[str], bool] | None = None,
 ) -> Iterator[tuple[Unresolved | None, Diagnostic]]:
-    """Yield the faults of a file: those of its syntax, else each unresolved name."""
+    """Yield the syntax errors of a file; without syntax errors, yield each unresolved name."""
     errors = [finding for finding in findings if finding.severity is Severity.ERROR]
     if reading.stored is TOO_LONG:
         errors = [_TOO_LONG]

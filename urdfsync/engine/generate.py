@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from urdfsync.engine.render import Renderer
 
 _FORBIDDEN = frozenset('\\:*?"<>|')
-"""Characters that a path can't have on every system."""
+"""Characters that some systems forbid in paths."""
 
 
 class Package:
@@ -48,7 +48,7 @@ class Package:
         return self._texts[path]
 
     def hash(self, path: str) -> str:
-        """Return the text hash of one file."""
+        """Return the hash of one file's text."""
         if path not in self._hashes:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
@@ -59,12 +59,12 @@ class Package:
         return {self.hash(path): path for path in self.artifacts}
 
     def find_like(self, path: str, owner: str) -> str | None:
-        """Return the file of another owner with the same template as this file; None if there is none."""
+        """Return the path of the owner's file with the template of the file at `path`; None if there is none."""
         template = self.artifacts[path].template
         return next((a.path for a in self.artifacts.values() if (a.owner, a.template) == (owner, template)), None)
 
     def skip(self, noted: Mapping[str, tuple[str, str]], stored: Callable[[str], str | None]) -> None:
-        """Use the noted hashes of texts that this machine has rendered with this program: these are not rendered again.
+        """Use the noted hashes of texts that this machine has rendered with the same program, and render them no more.
 
         `noted` is a result of `notes`. `stored` returns the text with a hash, from any machine; None if there is none.
         """
@@ -75,7 +75,7 @@ class Package:
                 self._hashes[path] = text_hash
 
     def notes(self) -> dict[str, tuple[str, str]]:
-        """Return two hashes for each file with a known text: that of its template with data, and that of the text."""
+        """Return two hashes for each file with a known text: of its template with data, and of the text."""
         return {path: (self._data_hash(path), sha256) for path, sha256 in self._hashes.items()}
 
     def _data_hash(self, path: str) -> str:
@@ -85,8 +85,8 @@ class Package:
         return self._data_hashes[path]
 
     def changed_since(self, last: Package) -> frozenset[str]:
-        """Return the paths whose text may differ from that in another package with the same templates."""
-        encode, changed = msgspec.json.encode, set()  # in JSON 0.0 and -0.0 differ, as in the text
+        """Return the paths whose text may differ from the text in another package with the same templates."""
+        encode, changed = msgspec.json.encode, set()  # 0.0 == -0.0, but their texts and their JSON differ
         for path, new in self.artifacts.items():
             old = last.artifacts.get(path)
             if old is None or (
@@ -96,16 +96,16 @@ class Package:
         return frozenset(changed)
 
     def changed_models(self, last: Package) -> set[str]:
-        """Return the owners of files other than records whose text differs from that in another package."""
+        """Return the owners of files whose text differs from the text in another package; records are left out."""
         both = (path for path in self.changed_since(last) if self.artifacts[path].role is not Role.RECORD)
         changed = (path for path in both if path not in last.artifacts or self.hash(path) != last.hash(path))
         return {self.artifacts[path].owner for path in changed}
 
 
 def generate(domain: Domain, version: Version, target: Target, options: Any, templates: Templates) -> Package:
-    """Return the package of a model. Raises OutputError for paths that can't be written."""
+    """Return the package of a model. Raises OutputError for forbidden paths."""
     snapshot, imports = version.snapshot, version.imports or {}
-    # as bytes, since 0.0 == -0.0, but their texts differ
+    # the key is JSON: 0.0 == -0.0, but their texts differ
     key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options), order="sorted")
     artifacts = _recent.pop(key, None)
     if artifacts is None:
@@ -119,7 +119,7 @@ def generate(domain: Domain, version: Version, target: Target, options: Any, tem
 
 _MOST = 4
 _recent: dict[tuple[Any, bytes], tuple[Artifact | Order, ...]] = {}
-"""The last artifacts, for the comparison in the daemon: saves 9 of 90 ms with 133 links (docs/speed.md).
+"""The artifacts of the last models: saves the daemon 9 of 90 ms with 133 links (docs/speed.md).
 
 Dropping it changes no byte: artifacts follow from the key.
 """
@@ -135,7 +135,7 @@ def _renderer(templates: Templates) -> Renderer:
 
 
 def check_paths(paths: Sequence[str]) -> None:
-    """Refuse paths that leave the package, and pairs that differ only in case.
+    """Refuse paths that leave the package, and pairs of paths that differ only in case.
 
     Raises OutputError with all faults.
     """
@@ -160,7 +160,7 @@ def check_paths(paths: Sequence[str]) -> None:
             folder = folder.rpartition("/")[0]
     classes = {folded.removesuffix(".mo"): path for folded, path in files.items() if folded.endswith(".mo")}
     clashes += [(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
-    problems = [("outside", f"{path!r} is no path inside the package") for path in outside]
+    problems = [("outside", f"{path!r} is not a path inside the package") for path in outside]
     problems += [("path-clash", f"`{first}` and `{second}` can't both be in the package") for first, second in clashes]
     if problems:
         hint = "rename the element, the package or the class"
@@ -173,7 +173,7 @@ def _is_inside(path: str) -> bool:
 
 
 def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
-    """Render one file; a fault of a user's template is a ConfigError at its line."""
+    """Render one file. Raises ConfigError at the faulty line of a user's template."""
     import jinja2
 
     try:
@@ -186,7 +186,7 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
     else:
         return normalised(content)
     if missing := isinstance(problem, jinja2.UndefinedError) and _MISSING.fullmatch(str(problem)):
-        reason = f"`{missing[1]}` has no value here: ask for it by `is defined`"
+        reason = f"`{missing[1]}` has no value here: test it by `is defined`"
     elif isinstance(problem, RecursionError):
         reason = "it includes or calls itself without end"
     elif isinstance(problem, MemoryError):
@@ -207,7 +207,7 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
         message = reason
     elif isinstance(problem, jinja2.TemplateNotFound):
         message = f"there is no template `{problem.name}`"
-    elif isinstance(problem, UnicodeDecodeError):  # it names no file: find the one with these bytes
+    elif isinstance(problem, UnicodeDecodeError):  # this error names no file: find the file with these bytes
         message, content = "the template is not UTF-8", problem.object
         files = (path for folder in renderer.folders for path in sorted(folder.rglob("*")) if path.is_file())
         file = next((str(path) for path in files if path.read_bytes() == content), "")
@@ -218,7 +218,7 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
 def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str) -> None:
     """Raise ConfigError if a text from a user's template is not the class of its file.
 
-    Texts of one template mostly differ in literals and in the class's own name alone: then one check serves all.
+    If texts of one template differ only in literals and in the class's own name, one check serves all.
     """
     path = PurePosixPath(artifact.path)
     form = artifact.template, str(path.parent), without_literals(_without_word(text, path.stem))
@@ -236,7 +236,7 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
 
 
 def _without_word(text: str, word: str) -> str:
-    """Return a text with a null character for each whole `word`. A pattern of each word would take twice as long."""
+    """Return a text with a null character for each whole `word`. A regular expression would take twice as long."""
     shortened, *rest = text.split(word)
     for part in rest:
         is_part = any(letter.isalnum() or letter == "_" for letter in shortened[-1:] + part[:1])
@@ -245,11 +245,11 @@ def _without_word(text: str, word: str) -> str:
 
 
 def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:
-    """Return the error at a line of a file in a template folder; without a file, of the template itself."""
+    """Return the error at a line of a template folder's file; without a file, the error is in `template`."""
     file = file or next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
-    hint = "correct the template, or delete it to use that of urdfsync" if is_own else "install urdfsync again"
-    if not is_own and len(folders) > 1 and file == template:  # there is none, and the user has a folder of templates
+    hint = "correct the template, or delete it to use urdfsync's template" if is_own else "install urdfsync again"
+    if not is_own and len(folders) > 1 and file == template:  # the user can add it
         hint = f"write {shown(folders[0] / template)}"
     file = shown(Path(file)) if Path(file).is_absolute() else file
     return ConfigError.of("template", message, file, line, hint=hint)

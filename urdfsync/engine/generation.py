@@ -1,4 +1,4 @@
-"""One robot generated from its source as it is now: model, imported files, and the texts of its package."""
+"""Generates one robot from its present source: model, imported files, and the texts of its package."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ class Generation(msgspec.Struct, frozen=True):
     package: Package
 
     def content(self, path: str, role: Role, mine: bytes) -> bytes | None:
-        """Return a file of the package, a text with the line ends of `mine`; None for a missing source of an import."""
+        """Return a file's content, with the line ends of `mine` in texts; None for a missing import."""
         if role is Role.IMPORT:
             return self.imported.contents.get(path)
         return with_line_ends(self.package.content(path), mine)
 
 
 def generate_robot(inputs: Inputs) -> Generation:
-    """Parse the source, import the files that it refers to, and generate the package; no text is rendered yet.
+    """Parse the source, import the files that it refers to, and generate the package without rendering texts.
 
     Raises SourceError, ConfigError or OutputError.
     """
@@ -74,7 +74,7 @@ def generate_robot(inputs: Inputs) -> Generation:
 def generated_texts(
     inputs: Inputs, generation: Generation, amended: tuple[bytes, Any] | None = None
 ) -> Mapping[str, bytes]:
-    """Return the Modelica files of the package by path; `amended` are another source and other options."""
+    """Return the Modelica files of the package by path; `amended` has another source and other options."""
     package = generation.package
     if amended is not None:
         content, options = amended

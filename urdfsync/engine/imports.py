@@ -26,19 +26,19 @@ from urdfsync.files import digest, shown
 _POINTER = b"version https://git-lfs"
 """The beginning of a pointer of Git LFS."""
 _MOST_OTHERS = 100
-"""The most further files that a conversion may read."""
+"""The greatest number of other files that a conversion may read."""
 MOST_PARTS = 100
-"""The most files that one dependency may become."""
+"""The greatest number of files that one dependency may become."""
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
-    r"(?:https?|ftp):": "urdfsync does not look on the network: download it, and let the source refer to it",
-    # an absolute path: no search path can help
+    r"(?:https?|ftp):": "urdfsync downloads no files: download it, and let the source refer to your copy",
+    # for an absolute path, no search path can help
     r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
     _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
     "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder around it to `package_paths`",
     "": "add the folder that holds it to `package_paths`",
 }
-"""Hints for a missing file by the beginning of its URI; the first one counts."""
+"""Hints for a missing file by the beginning of its URI; the first match counts."""
 
 
 class RecordedFile(msgspec.Struct, frozen=True, dict=True):
@@ -46,11 +46,11 @@ class RecordedFile(msgspec.Struct, frozen=True, dict=True):
 
     entry: Import
     copy: bytes | None
-    """Its content in the package."""
+    """The content of the file in the package."""
     written: tuple[str, ...] = ()
-    """The hashes that builds have recorded for it."""
+    """The hashes that builds have recorded for this file."""
     is_noted: bool = False
-    """Whether this program has converted it on this machine."""
+    """Whether this machine and this version of urdfsync have converted the file."""
 
     @cached_property
     def hash(self) -> str:
@@ -64,18 +64,18 @@ class RecordedFile(msgspec.Struct, frozen=True, dict=True):
 
 
 class Imported(msgspec.Struct):
-    """The imports of the package, the available bytes (by target), and findings."""
+    """The imports of the package, the available contents (by target), and findings."""
 
     imports: dict[str, Import] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
     converted: set[str] = msgspec.field(default_factory=set)
-    """Keys of the files that were converted now."""
+    """Keys of the files that this build converted."""
     refused: list[tuple[Dependency, Path]] = msgspec.field(default_factory=list)
     """Found files that could not be converted."""
 
     def add(self, key: str, entry: Import, content: bytes | None) -> None:
-        """Add an import; `content` is None if it is unavailable."""
+        """Add an import; `content` is None if the file is unavailable."""
         self.imports[key] = entry
         if content is not None:
             self.contents[entry.target] = content
@@ -99,11 +99,11 @@ def import_files(
     *,
     has_moved: bool = False,
 ) -> Imported:
-    """Import every dependency; `source` is how diagnostics name the file that refers to them.
+    """Import every dependency; `source` is the source's name in diagnostics.
 
-    A conversion that this machine has noted is used again if its input is the same, unless the build is a full one or
-    the package `has_moved`. A missing or unreadable file is left out, or its recorded copy is used. Raises StateError
-    if the facts of that copy are lost.
+    If this machine has noted a conversion of the same input, the result is used again. A full build, and a package that
+    `has_moved`, convert again. A missing or unreadable file is left out, or replaced by its recorded copy. Raises
+    StateError if the facts of that copy are lost.
     """
     importer = _Importer(domain, recorded, source, options.full, has_moved)
     result = importer.result
@@ -118,7 +118,7 @@ def import_files(
             guessed.setdefault((noun, package), []).append(dependency)
         if (trouble := importer.add(dependency, content)) is not None:
             trouble = importer.keep_copy(dependency, trouble)
-            # one warning for all files of a package, whose hint is the same
+            # one warning for all files of a package: they have the same hint
             own = dependency.key if trouble.code.startswith(f"{noun}-unreadable") else ""
             failed.setdefault((noun, trouble.code, trouble.hint, own), []).append((dependency, trouble))
     for troubles in failed.values():
@@ -143,18 +143,18 @@ class _Importer(msgspec.Struct):
     domain: Domain
     recorded: Mapping[str, RecordedFile]
     source: str
-    """How diagnostics name the source."""
+    """The source's name in diagnostics."""
     is_full: bool
     has_moved: bool
     result: Imported = msgspec.field(default_factory=Imported)
 
     def _recorded_files(self, dependency: Dependency) -> list[tuple[str, str, RecordedFile]]:
-        """Return the recorded files of a dependency, its main file first, with their present keys and targets."""
+        """Return the recorded files of a dependency with their present keys and targets, the main file first."""
         places = itertools.takewhile(lambda place: place[0] in self.recorded, places_of(dependency))
         return [(key, target, self.recorded[key]) for key, target in places]
 
     def add(self, dependency: Dependency, content: tuple[Path, bytes] | OSError | None) -> Diagnostic | None:
-        """Add one import to the result, or return its problem; may use the recorded files of the last build."""
+        """Add one import to the result, or return why it fails; may use the recorded files of the last build."""
         code, place = f"{dependency.noun}-unreadable", (self.source, dependency.line)
         if content is None:
             return _not_found([dependency], *place)
@@ -166,7 +166,7 @@ class _Importer(msgspec.Struct):
         others = _read_mentioned(self.domain, dependency, path, text)
         sha256 = digest(b"".join((text, *others.values())))
         own = self.recorded.get(dependency.key)
-        # copies in a former folder may be the user's: do not use them
+        # copies in a former folder may be the user's files: do not use these
         if own and own.entry.source_hash == sha256 and not (self.is_full or self.has_moved):
             facts, files = _needed(dependency, own.entry), self._recorded_files(dependency)
             if facts is not None and all(file.is_noted and file.is_intact for _, _, file in files):
@@ -194,7 +194,7 @@ class _Importer(msgspec.Struct):
     def keep_copy(self, dependency: Dependency, trouble: Diagnostic) -> Diagnostic:
         """Use the copy of an earlier build, if there is one.
 
-        `trouble` says why the file is not imported now; the result adds the consequence.
+        `trouble` says why the file is not imported now; the result also says whether the copy is kept.
         """
         own, files = self.recorded.get(dependency.key), self._recorded_files(dependency)
         if own is None or any(file.copy is None for _, _, file in files):
@@ -202,11 +202,11 @@ class _Importer(msgspec.Struct):
         facts = _needed(dependency, own.entry)
         if facts is None:
             message = f"{trouble.message}, and the record of its imported copy is incomplete"
-            hint = "restore the file itself, or `.urdfsync/robots` from version control"
+            hint = "put the file back, or restore `.urdfsync/robots` from version control"
             raise StateError.of("lost-state", message, trouble.file, trouble.line, hint=hint)
         for key, target, file in files:
             entry = file.entry
-            # an older copy, which the user put back, does not belong to the recorded source
+            # if the user put back an older copy, it does not belong to the recorded source
             is_older = not file.is_intact and file.hash in file.written
             is_placed_anew = self.has_moved or entry.target != target
             target_hash = file.hash if is_older or is_placed_anew else entry.target_hash
@@ -218,17 +218,17 @@ class _Importer(msgspec.Struct):
 
 
 class Mentions(Protocol):
-    """Names the further files that a conversion needs, and reports on files; a domain's attribute `imports`."""
+    """Names the other files that a conversion needs, and reports on imported files; a domain's attribute `imports`."""
 
     def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
-        """Return further files that the conversion needs: paths from the folder of the dependency's own file.
+        """Return other files that the conversion needs: paths from the folder of the dependency's own file.
 
-        Called for the dependency's file, then for each file that was found in this way. Pure.
+        The core calls this for the dependency's file, then for each file in a result. Pure.
         """
         ...
 
     def findings(self, imports: Mapping[str, Import], snapshot: Snapshot) -> Iterable[tuple[str, Diagnostic]]:
-        """Return diagnostics without place about imported files, each with the key of its file; an empty key means all.
+        """Return diagnostics about imported files, each with the key of its file; an empty key stands for all files.
 
         The core adds the line of the dependency.
         """
@@ -236,21 +236,21 @@ class Mentions(Protocol):
 
 
 def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:
-    """Return the further files that a conversion needs, by their paths from the file's folder; empty if unreadable."""
+    """Return the other files that a conversion needs: contents by path from the file's folder; empty if unreadable."""
     mentions: Mentions | None = domain.imports
     contents, waiting = dict[str, bytes](), [*mentions.mentioned(dependency, path.name, content)] if mentions else []
     while mentions and waiting and len(contents) < _MOST_OTHERS and sum(map(len, contents.values())) < MAX_FILE:
         name = waiting.pop(0)
         if name not in contents:
             contents[name] = b""
-            with contextlib.suppress(OSError, ValueError):  # the conversion does without it
+            with contextlib.suppress(OSError, ValueError):  # the conversion works without this file
                 contents[name] = read_file(path.parent / name)
                 waiting += mentions.mentioned(dependency, name, contents[name])
     return contents
 
 
 def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | None:
-    """Return the recorded facts that artifacts need; None if one is missing."""
+    """Return the recorded facts that artifacts need; None if a fact is missing."""
     if not dependency.facts:
         return recorded.facts
     facts = {name: recorded.facts[name] for name in dependency.facts if name in recorded.facts}
@@ -258,7 +258,7 @@ def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | Non
 
 
 def _named(dependencies: Sequence[Dependency]) -> str:
-    """Describe files with the same noun: the only one, or their number and the first one."""
+    """Describe files with the same noun: a single file, or the number of files and the first file."""
     first, count = dependencies[0], len(dependencies)
     plural = f"{first.noun}es" if first.noun.endswith(("s", "sh", "ch", "x")) else f"{first.noun}s"
     return f"{first.noun} `{first.uri}`" if count == 1 else f"{count} {plural} (such as `{first.uri}`)"
@@ -281,10 +281,10 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
 
 
 def _find_other_case(path: Path) -> Path | None:
-    """Return the file or folder whose path differs only in case: on the exporter's system, case may not matter."""
+    """Return an existing path that differs only in case: the exporter's system may ignore case."""
     try:
         folder = path.parent if path.parent == path or path.parent.is_dir() else _find_other_case(path.parent)
-        # the folder is not recorded as a dependency, since it may change all the time; the path itself is recorded
+        # the path is recorded as a dependency, but not this folder: it may change all the time
         names = sorted(os.listdir(folder)) if folder else []  # noqa: PTH208
     except OSError:
         return None
@@ -297,7 +297,7 @@ def find_dependencies(
     """Return the files that a model refers to.
 
     MODELICAPATH is read first, if a file is in a Modelica library. ROS packages are searched only for files that are
-    not found elsewhere. The last resort is a guess.
+    not found elsewhere. Last, a folder of another name is tried as the package.
     """
     dependencies = domain.dependencies(snapshot, lookup, options, lines)
     if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in dependencies):
@@ -320,7 +320,7 @@ def _is_found(dependency: Dependency) -> bool:
 
 
 def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
-    """Return the first readable candidate with its content; else the error of an unreadable one, or None."""
+    """Return the first readable candidate with its content; else the first error of a candidate, or None."""
     trouble = None
     for path in dependency.candidates:
         try:
@@ -328,7 +328,7 @@ def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
             if kind not in (0, stat.S_IFDIR):
                 return path, read_file(path)
         except PermissionError:
-            continue  # no permission for a folder above: another candidate may serve
+            continue  # without permission for a folder above: try the other candidates
         except OSError as error:
             trouble = trouble or error
     return trouble

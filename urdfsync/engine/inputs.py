@@ -33,30 +33,29 @@ class Former(NamedTuple):
     text: bytes
     record: FileRecord
     bases: Mapping[str, str]
-    """Texts of its known bases, by hash."""
 
 
 class Settled(msgspec.Struct):
-    """The files that choices have changed, by their present keys."""
+    """The files that the user's choices have changed, by their present keys."""
 
     actions: dict[str, Action] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes | None] = msgspec.field(default_factory=dict)
     """New contents; None for no file."""
     bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
     texts: dict[str, str] = msgspec.field(default_factory=dict)
-    """Texts of bases that earlier choices put aside, by hash."""
+    """Texts of the bases in `bases`, by hash."""
     generated: set[str] = msgspec.field(default_factory=set)
     """Hashes of generated texts that `--undo` brings back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
     """Texts before the choices."""
     names: Mapping[str, str] = {}
-    """New names by old ones, before the choices."""
+    """New names by old names, before the choices."""
     keys: set[str] = msgspec.field(default_factory=set)
     """Keys of the choices that were applied."""
 
 
 class Inputs(msgspec.Struct, frozen=True, dict=True):
-    """All that a build reads before it parses the source."""
+    """All inputs that a build reads before it parses the source."""
 
     config: Config
     robot: RobotConfig
@@ -69,14 +68,13 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     last: LastBuild
     files: PackageFiles
     folder: Folder
-    """The package's folder now."""
     parents: Parents
     program: str
-    """Hash of the program and the templates; this machine's notes hold only for this hash."""
+    """Hash of the program and the templates; this machine's notes are valid only for this hash."""
     damage: Diagnostic | None = None
     """A warning if lines of the recorded state can't be read."""
     settled: Settled = msgspec.field(default_factory=Settled)
-    """The user's choices, if `files` and `last` are those after them."""
+    """The user's choices, if `files` and `last` already include the choices."""
 
     @property
     def former_name(self) -> str | None:
@@ -90,23 +88,23 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def users_files(self) -> UsersFiles:
-        """The user's models outside of the package, among them those that mention its present or former name."""
+        """The user's models outside of the package, and which of them mention the package's present or former name."""
         former = self.files.path(self.last.folder) if self.has_moved else None
         names = {folder.name for folder in (self.robot.folder, former) if folder}
         return find_users_files(self.config, self.robot, names, former)
 
 
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:
-    """Read all inputs of a robot's build. Raises UrdfsyncError for faults in them."""
+    """Read all inputs of a robot's build. Raises UrdfsyncError for faulty inputs."""
     domain, store = registry.domain(robot.domain), Store(config.root)
     files = PackageFiles(config, robot)
     folder = Folder(files.key(robot.folder))
     above = Parents(listed=False) if options.removes else parents.check(config, robot, domain.uses(robot.options))
     (record, damage), name = store.load(robot.name), robot.name
     others = {files.key(other.folder) for other in config.robots if other.name != robot.name}
-    if record and record.folder in others:  # the folder belongs to another robot now, whose files must not be deleted
+    if record and record.folder in others:  # another robot has this folder now: its files must not be deleted
         record = None
-    if record is None:  # a robot that is no longer configured may have been built into this folder
+    if record is None:  # the folder may have the package of a robot that is no longer configured
         name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
         record = store.load(name)[0] if name != robot.name else None
     damage, notes = damage or store.find_damaged_base(name), store.notes(name)
@@ -125,7 +123,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         options=option_values(robot.options),
     )
     program = program_hash(robot.domain, templates.digest)
-    if notes.program != program:  # another version of urdfsync wrote these texts and imports
+    if notes.program != program:  # another program wrote these texts and imports
         notes = msgspec.structs.replace(notes, texts={}, imports=frozenset())
     last = LastBuild(name, record, notes, store, files, domain, robot, templates)
     read = domain, templates, generator, text, store, last, files, folder, above
@@ -133,8 +131,8 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
 
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
-    """Yield unconfigured robots with a record, and the key of their folder; None for an unreadable record."""
-    # compare files, not names: a file system that ignores case has one record for `arm` and `Arm`
+    """Yield robots with a record but no configuration, and the key of their folder; None for an unreadable record."""
+    # a robot counts if its record file exists: if the disk ignores case, `arm` and `Arm` share one
     configured = {robot.name.casefold() for robot in config.robots if file_type(store.path(robot.name), follow=False)}
     for name in store.names():
         if name.casefold() not in configured:

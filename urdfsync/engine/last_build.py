@@ -1,4 +1,4 @@
-"""The last build of a robot: its record, and the model and the package that follow from it."""
+"""The last build of a robot: its record, and the model and package from this record."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ NO_MODEL = (
     UrdfsyncError,
     ValueError,
 )
-"""Errors that a domain raises for a recorded snapshot that it did not make: anybody may have written the record."""
+"""Errors that a domain may raise for a recorded snapshot: a stranger may have written the record."""
 
 
 class LastBuild(msgspec.Struct, frozen=True, dict=True):
@@ -41,7 +41,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     name: str
     """The robot's name in the last build."""
     record: Record
-    """It has no model and no files if the robot was never built, or if its state is lost."""
+    """The record; without model and files if the robot was never built, or if its state is lost."""
     notes: Notes
     _store: Store
     _files: PackageFiles
@@ -49,7 +49,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     _robot: RobotConfig
     _templates: Templates
     texts: Mapping[str, str] = {}
-    """Texts of the bases that choices bring back, by hash."""
+    """Texts of the bases that the user's choices restore, by hash."""
 
     @cached_property
     def folder(self) -> Folder:
@@ -63,14 +63,14 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def files(self) -> Mapping[str, FileRecord]:
-        """The recorded files by key, without those that a build may not touch."""
+        """The recorded files by key, without files that a build may not touch."""
         return {key: file for key, file in self.record.files.items() if self._files.is_inside(key)}
 
     def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
         """Return the record of a file on disk.
 
-        If the bases have the text, or if this machine generated it, the text is urdfsync's own even if the record
-        differs: an overtaken build may have written it, git may have restored it, or the state is lost.
+        A text among the bases, or from this machine, is urdfsync's own even if the record differs. Then an overtaken
+        build wrote the text, git restored it, or the state is lost.
         """
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
@@ -79,13 +79,13 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return FileRecord((on_disk,)) if is_own and not self.is_chosen(key, on_disk) else record
 
     def is_chosen(self, key: str, on_disk: OnDisk) -> bool:
-        """Return whether a choice on this machine, such as --undo, made a file and its base."""
+        """Return whether a user's choice on this machine, such as `--undo`, made a file and its base."""
         aside = self.aside.get(self.folder.path(key))
         return self._files.is_chosen(key) or (aside is not None and aside.after == on_disk)
 
     @cached_property
     def options(self) -> Any:
-        """The domain's recorded options; None if this program can't read them."""
+        """The domain's recorded options; None if this version of urdfsync can't read them."""
         if self.record.generator.domain != self._robot.domain:
             return None
         try:
@@ -95,7 +95,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def imports(self) -> Mapping[str, RecordedFile]:
-        """The imported files and their copies. If a file has several records, the one that fits the copy is taken."""
+        """The imported files and their copies. If a file has several records, the copy's hash decides."""
         imports = dict[str, RecordedFile]()
         for name, entries in self.record.imports.items():
             files = list[RecordedFile]()
@@ -108,23 +108,23 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def version(self) -> Version | None:
-        """The model; None if there was none, or it is lost."""
+        """The model of the last complete build; None if there was none, or if it is lost."""
         snapshot = self.read(self.record.snapshot)
         imports = {key: file.entry for key, file in self.imports.items()}
         return None if snapshot is None else Version(snapshot, imports, self.options)
 
     @cached_property
     def elements(self) -> Mapping[ElementKey, Features]:
-        """The elements of the model; none without a model."""
+        """The elements of the model; empty without a model."""
         return {} if self.version is None else self._domain.features(self.version.snapshot)
 
     @cached_property
     def seen(self) -> Snapshot | None:
-        """The model that the last build read, if that was not complete."""
+        """The model that the last build read, if that build was incomplete."""
         return self.read(self.record.open.seen) if self.record.open else None
 
     def read(self, recorded: Mapping[str, Any] | None) -> Snapshot | None:
-        """Return a recorded model; None if this domain can't read it: anybody may have written it."""
+        """Return a recorded model; None if this domain can't read the record: a stranger may have written it."""
         if not recorded or self.record.generator.domain != self._robot.domain:
             return None
         try:
@@ -134,7 +134,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def package(self) -> Package | None:
-        """The package from the recorded model with today's templates; None if that fails."""
+        """The package from the recorded model with the present templates; None if it can't be generated."""
         if self.version is None:
             return None
         options = self.options or self._robot.options
@@ -145,9 +145,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def respelled(self) -> Mapping[str, tuple[str, str]]:
-        """Today's path and the hash of each recorded class, by its recorded path.
+        """The present path, and the hash, of each class that was recorded under another name, by its recorded path.
 
-        A class is listed only if its two texts differ in nothing but its own name.
+        A class is listed only if its two texts differ only in the name of the class.
         """
         recorded = {self.folder.path(key): file for key, file in self.files.items()}
         if not (names := [path for path in recorded if path.endswith(".mo")]) or self.package is None:
@@ -163,9 +163,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return respelled
 
     def has_generated(self, key: str, sha256: str, role: Role) -> bool:
-        """Return whether a file on disk was generated, judged by this machine's notes or the recorded model.
+        """Return whether a build wrote the file on disk, judged by this machine's notes or the recorded model.
 
-        Its recorded hash proves nothing: a person may have written the file, and a stranger the record.
+        The recorded hash proves nothing: a stranger may have written the record.
         """
         path = self.folder.path(key)
         if sha256 in self.notes.written:
@@ -189,7 +189,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _targets(self) -> Mapping[str, str]:
-        """The paths of imported files by the recorded model, by their keys."""
+        """The paths of imported files in the recorded model, by their keys."""
         if self.version is None:
             return {}
         options, lookup = self.options or self._robot.options, Lookup(self._robot.source, ())
@@ -203,7 +203,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
 
 def _without_name(path: str, text: str) -> tuple[str, str]:
-    """Return a class's folder, and its text without its name."""
+    """Return a class's folder, and the text of the class without its name."""
     folder, _, name = path.removesuffix(".mo").rpartition("/")
     return folder, re.sub(rf"\b{re.escape(name)}(?=(Parameters)?\b)", "\0", text)
 
@@ -214,6 +214,6 @@ def hash_of(recorded: Any) -> str:
 
 
 def option_values(options: msgspec.Struct) -> dict[str, Any]:
-    """Return a domain's options as they are recorded: plain data, without None and empty tables."""
+    """Return a domain's options for the record: plain data, without None and empty tables."""
     values = msgspec.json.decode(msgspec.json.encode(options))
     return {name: value for name, value in values.items() if value not in (None, {})}

@@ -12,7 +12,7 @@ from urdfsync.config import ros_package_path
 from urdfsync.engine.actions import UsersChoice
 
 Progress: TypeAlias = Callable[[str, int, int], None]
-"""Called with a step of the work, the finished amount, and the total."""
+"""Shows progress; called with a step of the work, the finished amount, and the total."""
 
 
 def no_progress(what: str, done: int, total: int) -> None:
@@ -29,21 +29,21 @@ class BuildOptions(msgspec.Struct, frozen=True):
     trusted: bool = False
     """Also write to outputs outside of the configuration's folder."""
     renews: bool = True
-    """Renew the recorded state even if the package is in step; otherwise it waits until a build writes a file."""
+    """Renew the recorded state even if the package is in step; otherwise only builds that write a file renew it."""
     adopts: bool = False
-    """Treat files that exist before the first build as edits of the generated ones."""
+    """Treat files that exist before the first build as edited generated files."""
     removes: bool = False
     """Remove the robots' packages and records, as if their sources were empty."""
     draw: bool = False
     """Also draw the main model's diagram into the state folder."""
     package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
-    """The folders where ROS looks for packages; they come after the configured folders."""
+    """The folders where ROS looks for packages; the configured folders come first."""
     wait: float = 60.0
     """Seconds to wait for another build to finish."""
     choices: Mapping[str, UsersChoice] = msgspec.field(default_factory=dict)
     """The user's decisions about files, by their keys."""
     jobs: int | None = None
-    """Processes that may work at once; None for one per core."""
+    """Processes that may work at once; None for one process per core."""
     executor: str = ""
     """Address of a Dask scheduler whose workers plan robots; empty for processes of this machine."""
     progress: Progress = no_progress

@@ -1,6 +1,6 @@
-"""The files of a robot's package after a build, the user's files around it, and the files that these need.
+"""The files of a robot's package after a build, the user's files around the package, and files that these need.
 
-Separate from `fit`, which resolves names: a build of an unedited package imports no parser.
+This module needs no parser, unlike `fit`, which resolves names: a build of an unedited package does not load `fit`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "p
 
 
 def as_file(path: str) -> str:
-    """Return the path of a class's file, if the class is no folder."""
+    """Return the path of a class's file, or the path that it would have if the class is a folder."""
     return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
 
 
@@ -35,12 +35,12 @@ class _File(NamedTuple):
 
     key: str
     text: str | None = None
-    """The text that the build writes, if it differs from the generated one."""
+    """The text that the build writes; None for the generated text or the text on disk."""
     is_generated: bool = False
     is_edited: bool = False
-    """Whether urdfsync wrote it and the user edited it."""
+    """Whether the text is the user's: an edit of a generated file, or a file of the user's own."""
     is_users: bool = False
-    """Whether the user wrote it."""
+    """Whether the file is the user's own."""
     is_expected: bool = True
     """Whether a file of this name is generated."""
 
@@ -48,7 +48,7 @@ class _File(NamedTuple):
 class PackageAfter(Mapping[str, bytes]):
     """The files of a robot's package after a build, by their paths below it, and the user's files around it.
 
-    Contents are made on demand: rendering 4,000 takes a second.
+    Contents are read or rendered on demand: rendering 4,000 texts takes a second.
     """
 
     def __init__(
@@ -60,9 +60,9 @@ class PackageAfter(Mapping[str, bytes]):
         *,
         is_open: bool = False,
     ) -> None:
-        """`package` is the generated one, `merged` are texts that the build writes, by key.
+        """`package` is the generated package, `merged` has texts that the build writes, by key.
 
-        If `is_open`, files in conflict may become anything.
+        If `is_open`, files in conflict count as empty.
         """
         self.inputs, self.package, self.actions = inputs, package, actions
         self.merged, self.is_open = merged, is_open
@@ -103,7 +103,7 @@ class PackageAfter(Mapping[str, bytes]):
 
     @cached_property
     def around(self) -> dict[Path, bytes]:
-        """The user's files outside of the package that may use it."""
+        """The user's files outside of the package that may use the package."""
         inputs, files = self.inputs, self.inputs.files
         found = {**inputs.users_files.mentioning}
         if inputs.has_moved:
@@ -113,7 +113,7 @@ class PackageAfter(Mapping[str, bytes]):
         return found
 
     def __getitem__(self, path: str) -> bytes:
-        """Return what is in a file of the package. Raises KeyError."""
+        """Return the content of a file of the package. Raises KeyError."""
         if path not in self._contents:
             file, files = self._files[path], self.inputs.files
             if file.is_generated:
@@ -138,7 +138,7 @@ class PackageAfter(Mapping[str, bytes]):
 
     @cached_property
     def extended_orders(self) -> dict[str, tuple[str, set[str]]]:
-        """Each `package.order` that names classes of the user's, by path: its text, and the lines with these names."""
+        """Each `package.order` with names of the user's classes, by path: its text, and the lines with these names."""
         inputs, files, orders, merged = self.inputs, self.inputs.files, self.package.orders, self.merged
         written = (one.path for one in self.actions if one.role is Role.ORDER and not one.is_waiting)
         users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
@@ -154,7 +154,7 @@ class PackageAfter(Mapping[str, bytes]):
 def keep_needed(after: PackageAfter, origins: Collection[str]) -> tuple[Action, ...]:
     """Return the actions; keep files that the user's files need.
 
-    These are records, their meshes, and the `package.mo` of a folder with classes. `origins` are the files whose
+    Needed files are records, their meshes, and the `package.mo` of a folder with classes. `origins` are the files whose
     elements were renamed.
     """
     actions = after.actions
@@ -172,10 +172,10 @@ def keep_needed(after: PackageAfter, origins: Collection[str]) -> tuple[Action, 
 
 
 def _code_words(content: bytes) -> set[str]:
-    """Return all names and keywords in a text, without strings, comments, its own classes and its packages.
+    """Return all names and keywords in a text, without strings, comments, its own classes and its `within` clause.
 
-    Its own classes are left out because an edited file may still have the old name of its class, and its packages
-    because a package may have the name of the robot's model. The text need not be valid Modelica.
+    Its own classes are left out: an edited file may have the old name of its class. The `within` clause is left out: a
+    package may have the name of the robot's model. The text need not be valid Modelica.
     """
     code = re.sub(r"\A\ufeff?\s*within\b[^;]*;", "", text_of(code_of(content)))
     words = re.findall(r"[^\W\d]\w*", code)
@@ -183,15 +183,15 @@ def _code_words(content: bytes) -> set[str]:
 
 
 def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[str]:
-    """Return the files that are no longer generated and that the user's texts need.
+    """Return the files that are no longer generated, but that the user's texts need.
 
-    These are records that his texts or edited files mention, except records of renamed elements: his texts get the new
-    name. A kept file keeps all files that it mentions; these keep the files that they mention, and so on.
+    The user's texts need the records that they mention, except records of renamed elements: his texts get the new name.
+    A kept file needs all files that it mentions; these need the files that they mention, and so on.
     """
     inputs, before, actions = after.inputs, after.inputs.last.package, after.actions
     words = {inputs.files.key(file): _code_words(content) for file, content in after.users.items()}
     all_words = set().union(*words.values())
-    # the user kept these files with the names of older generated texts
+    # names of older generated texts in files that the user kept
     kept_words = set[str]()
     for key in {action.path for action in actions if action.reason is Reason.KEEP} & words.keys():
         if before is not None and (path := inputs.last.folder.path(key)) in before.artifacts:

@@ -18,7 +18,7 @@ from urdfsync.files import Tree, digest, placed, shown, text_digest
 
 
 class Folder(str):
-    """The key of a package's folder. Files are named by their keys, or by their paths below it."""
+    """The key of a package's folder. It turns keys of files into paths below the folder, and back."""
 
     __slots__ = ()
 
@@ -27,12 +27,12 @@ class Folder(str):
         return f"{self}/{path}"
 
     def path(self, key: str) -> str:
-        """Return the path of a file below the folder by its key; the key itself for another file."""
+        """Return the path of a file below the folder by its key; for a file elsewhere, the key itself."""
         return key.removeprefix(f"{self}/")
 
 
 class FileState(NamedTuple):
-    """A file at the moment of reading."""
+    """The hashes of a file when it was read."""
 
     sha256: str
     """Hash of the bytes, in hex."""
@@ -41,7 +41,7 @@ class FileState(NamedTuple):
 
 
 _unchanged: dict[str, tuple[tuple[int, ...], FileState]] = {}
-"""The states of read files, by absolute path, with stat values: the daemon reads a file again if these differ.
+"""The states and stat values of read files, by absolute path: the daemon reads only files with new stat values.
 
 Serves the rows "one mass changed in the daemon" of docs/speed.md: saves a sixth of the time. Dropping it changes no
 byte of the output.
@@ -49,15 +49,15 @@ byte of the output.
 
 
 def unchanged_state(path: str, facts: tuple[int, ...]) -> FileState | None:
-    """Return the state of an unchanged file with these stat values; None if it has to be read."""
+    """Return the state of a file if its stat values are unchanged; None if the file must be read."""
     known = _unchanged.get(path)
     return known[1] if known and known[0] == facts else None
 
 
 def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
-    """Return the state of a file that was read, and remember it; `facts` are its stat values before the reading."""
+    """Return and remember the state of a file that was read; `facts` are the file's stat values before the reading."""
     state = _state_of(content)
-    if len(facts) > 1 and not is_young(facts, time.time_ns()):  # a missing file has one fact
+    if len(facts) > 1 and not is_young(facts, time.time_ns()):  # for a missing file there is only one fact
         _unchanged[path] = facts, state
     return state
 
@@ -68,14 +68,12 @@ class PackageFiles:
     def __init__(self, config: Config, robot: RobotConfig) -> None:
         self.root = config.root
         self.overlay: dict[str, bytes | None] = {}
-        """Contents that override the disk, by key: results of choices, and the meanings of files that git left.
-
-        None means that there is no file.
+        """Contents that override the disk, by key: results of choices, and the meanings of files that git merged. None
+        stands for no file.
         """
         self.left_by_git: dict[str, tuple[str, ...]] = {}
-        """For each file that is as git left it, by key: the elements about which two branches contradict each other.
-
-        If there are no such elements, the overlay has the file's meaning.
+        """For each file that is still git's merge, by key: the elements about which two branches contradict each other.
+        Without such elements, the overlay has the file's meaning.
         """
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]
@@ -92,7 +90,7 @@ class PackageFiles:
         return Path(self._place(key))
 
     def is_inside(self, key: str) -> bool:
-        """Return whether urdfsync may touch the file: it is below the output folder or that of the configuration."""
+        """Return whether urdfsync may touch the file: it is below the output folder or the configuration's folder."""
         return self._tree(self._place(key).rpartition(os.sep)[0]) is not None
 
     def is_chosen(self, key: str) -> bool:
@@ -100,11 +98,11 @@ class PackageFiles:
         return key in self.overlay and key not in self.left_by_git
 
     def read(self, key: str) -> bytes | None:
-        """Return a file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
+        """Return a file's content; None without a file. Raises OutputError for links, folders, unreadable files."""
         return self.overlay[key] if key in self.overlay else self.read_on_disk(key)
 
     def read_on_disk(self, key: str) -> bytes | None:
-        """Return a file's content as it is on disk. Raises OutputError as `read`."""
+        """Return a file's content on disk. Raises OutputError as `read`."""
         path = self._place(key)
         tree = self._tree(path.rpartition(os.sep)[0])
         return tree.read(path) if tree else None
@@ -123,7 +121,7 @@ class PackageFiles:
             raise OutputError.of("no-text", message, place, line, hint=hint) from None
 
     def any_text(self, key: str) -> str:
-        """Return the text of a file for a search; empty if it can't be read, since it may be the user's."""
+        """Return the text of a file, which may be the user's, for a search; empty for an unreadable file."""
         try:
             return self.text(key) or ""
         except OutputError:
@@ -137,14 +135,14 @@ class PackageFiles:
             return False
 
     def state(self, key: str) -> FileState | None:
-        """Return the state of a file at its first reading; None if there was none. Raises OutputError as `read`."""
+        """Return the state of a file when it was first read; None without a file. Raises OutputError as `read`."""
         if key not in self.overlay:
             return self.state_on_disk(key)
         content = self.overlay[key]
         return None if content is None else _state_of(content)
 
     def state_on_disk(self, key: str) -> FileState | None:
-        """Return the state of a file on disk at its first reading. Raises OutputError as `read`."""
+        """Return the state of a file on disk when it was first read. Raises OutputError as `read`."""
         path = self._place(key)
         if path in self._states:
             return self._states[path]
@@ -162,14 +160,14 @@ class PackageFiles:
         return state
 
     def hash(self, key: str, role: Role) -> str | None:
-        """Return the hash of an imported file's bytes, or of another file's text; None if there is no file."""
+        """Return the hash of an imported file's bytes, or of any other file's text; None without a file."""
         state = self.state(key)
         if state is None:
             return None
         return state.sha256 if role is Role.IMPORT else state.text_sha256
 
     def on_disk(self, key: str, role: Role) -> OnDisk:
-        """Return the hash of a file, or CLASS_FOLDER if its class is a folder; None if there is neither."""
+        """Return the hash of a file, or CLASS_FOLDER if its class is a folder; None without both."""
         sha256 = self.hash(key, role)
         if sha256 or not key.endswith(".mo") or key.endswith("/package.mo"):
             return sha256
@@ -182,7 +180,7 @@ class PackageFiles:
         return CLASS_FOLDER if is_class_folder else None
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
-        """Return whether the folder of a `package.mo` holds classes, not counting itself and the files in `gone`."""
+        """Return whether the folder of a `package.mo` holds other classes; the files in `gone` do not count."""
         folder, left = self.path(key).parent, {*gone, *(key for key, text in self.overlay.items() if text is None)}
         for path in map(folder.joinpath, dependencies.list_folder(folder)):
             package = path / "package.mo"
@@ -233,15 +231,15 @@ def _state_of(content: bytes) -> FileState:
 
 
 def text_hash(text: str) -> str:
-    """Return the hash of an edited text for comparisons."""
+    """Return the hash of a text, ignoring kinds of line ends."""
     return text_digest(encode(text))
 
 
 def encode(text: str) -> bytes:
-    """Return the bytes of a text that `PackageFiles.text` gave, or of an edited one."""
+    """Return the bytes of a text from `PackageFiles.text`, or of a changed text."""
     return text.encode(errors="surrogateescape")
 
 
 def with_line_ends(generated: bytes, mine: bytes) -> bytes:
-    """Return a generated text with the line ends that most lines of the file on disk have."""
+    """Return a generated text with the most frequent line end of the file on disk."""
     return generated.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else generated

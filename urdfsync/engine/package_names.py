@@ -14,9 +14,9 @@ from urdfsync.modelica.files import class_path
 
 
 def renamed_names(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, str]:
-    """Return new names by the old ones: of classes, and of declarations in classes at the top of the package.
+    """Return new names by old names: of classes, and of declarations in classes at the top of the package.
 
-    It has only names that the package lacks now, and names that belong to other elements now.
+    The old names are those that the package lacks now, or that belong to other elements now.
     """
     if not (renamed := differences.identifiers):
         return {}
@@ -27,7 +27,7 @@ def renamed_names(inputs: Inputs, generation: Generation, differences: Differenc
     gone = displaced(differences.renames)
     if last := inputs.last.version if gone else None:
         identifiers = elements_by_identifier(inputs.domain, last.snapshot, inputs.last.target)
-        # these names belong to other elements now, so a rename would be wrong
+        # other elements have these names now, so a rename would be wrong
         names |= {name: f"{name}{GONE}" for name in before if identifiers.get(identifier_of(name, identifiers)) in gone}
     return names
 
@@ -56,12 +56,12 @@ def known_names(package: Package) -> frozenset[str]:
 
 
 def new_name(part: str, renamed: Mapping[str, str], known: Collection[str]) -> str:
-    """Return the new name of `part` by the new identifiers; empty if it is unknown."""
+    """Return the new name of `part` by the new identifiers; empty if no known name fits."""
     return next((name for name in new_names(part, renamed) if name in known), "")
 
 
 def new_names(part: str, renamed: Mapping[str, str]) -> Iterator[str]:
-    """Yield this name with a new identifier in place of the old one at its beginning, the likeliest first."""
+    """Yield possible new names, the likeliest first: the old identifier at the beginning of `part` is replaced."""
     if old := identifier_of(part, renamed):
         new = renamed[old]
         first = new[:1].upper() if part[:1].isupper() else new[:1].lower()
@@ -75,7 +75,7 @@ def elements_by_identifier(domain: Domain, snapshot: Snapshot, target: Target) -
 
 
 def identifier_of(part: str, identifiers: Collection[str]) -> str:
-    """Return the longest identifier that begins a name; its first letter may be small or capital. Empty for none."""
+    """Return the longest identifier that a name begins with, in any case of the first letter; empty for none."""
     for end in range(len(part), 0, -1):
         for first in (part[0], part[0].lower(), part[0].upper()):
             if (start := first + part[1:end]) in identifiers:
@@ -84,7 +84,7 @@ def identifier_of(part: str, identifiers: Collection[str]) -> str:
 
 
 def class_of(path: str) -> str:
-    """Return the name of a file's class, by its key or path."""
+    """Return the name of a file's class, by the file's key or path."""
     return class_path(PurePosixPath(path)).name
 
 

@@ -1,7 +1,8 @@
-"""The packages around a generated one, and their order files. Missing packages are made only with `create_parents`.
+"""The packages around a generated package, and their `package.order` files.
 
-A `package.order` has to name every class of its package, and only a Modelica parser finds the classes inside of a
-`package.mo`. So urdfsync adds its names to an existing `package.order`, and makes one only with its package.
+Missing packages are made only with `create_parents`. A `package.order` must name every class of its package. Only a
+Modelica parser finds the classes inside of a `package.mo`. So urdfsync adds its names to an existing `package.order`,
+and makes a `package.order` only together with a new package.
 """
 
 from __future__ import annotations
@@ -25,19 +26,19 @@ from urdfsync.state.transaction import FileChange
 class SharedFile(msgspec.Struct, frozen=True):
     """A `package.mo` or a `package.order` around the package; other robots may share it.
 
-    A build reads it again before it writes it. So robots with the same parent package can be planned at the same time.
+    A build reads the file again before it writes, so robots of one parent package can be planned at once.
     """
 
     path: Path
     content: bytes | None = None
-    """Content of a `package.mo`; it is written only if the file does not exist."""
+    """Content of a missing `package.mo`; None for a `package.order`."""
     names: tuple[str, ...] = ()
     """Required lines of a `package.order`."""
     owned: tuple[str, ...] = ()
     """Lines of a `package.order` that urdfsync may remove."""
 
     def change(self, files: PackageFiles) -> FileChange | None:
-        """Return the change that the file on disk needs; None if it needs none."""
+        """Return the change that the file on disk needs; None without a change."""
         content = files.read(files.key(self.path))
         if self.content is not None:
             return FileChange(self.path, self.content, None) if content is None else None
@@ -52,9 +53,9 @@ class Parents(msgspec.Struct, frozen=True):
     """The files to write in the packages around a robot's package."""
 
     shared: tuple[SharedFile, ...] = ()
-    """The files of missing packages, and the order files that have to name these packages."""
+    """The files of missing packages, and the `package.order` files that have to name these packages."""
     listed: bool = True
-    """Whether the parent's `package.order`, an existing or a new one, has to name the robot's package."""
+    """Whether an existing or new `package.order` of the parent has to name the robot's package."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -71,22 +72,22 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
     elif not (
         existing := next(folder for folder in (robot.output, *robot.output.parents) if os.path.lexists(folder))
     ).is_dir():
-        message = f"the output folder {shown(robot.output)} can't be made: {shown(existing)} is no folder"
+        message = f"the output folder {shown(robot.output)} can't be created: {shown(existing)} is not a folder"
         raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
     elif config.root not in robot.output.parents:
         message = f"the output folder {shown(robot.output)} does not exist"
-        hint = "create it: urdfsync makes folders only beside or below its configuration"
+        hint = "create it: urdfsync creates folders only beside or below its configuration"
         raise _refusal(config, robot, "no-output", message, hint, "output")
     output, parts, missing = robot.output, robot.target.package.split("."), list[Path]()
-    if parts[0] == LIBRARY and not is_file(output / LIBRARY / "package.mo"):  # tools would not find the library itself
+    if parts[0] == LIBRARY and not is_file(output / LIBRARY / "package.mo"):  # hides the library
         message = f"`{LIBRARY}` is the library that models need; a package of that name would hide it"
         raise _refusal(config, robot, "modelica-name", message, f"choose another top-level package than `{LIBRARY}`")
     for depth in range(1, len(parts) + 1):
         folder, name = output.joinpath(*parts[:depth]), ".".join(parts[:depth])
         single = folder.with_name(f"{folder.name}.mo")
         if is_file(single):
-            message = f"package `{name}` is the single file {shown(single)}; it has to be a folder with a package.mo"
-            raise _refusal(config, robot, "package-is-file", message, "convert it, or move it")
+            message = f"package `{name}` is the single file {shown(single)}; it must be a folder with a package.mo"
+            raise _refusal(config, robot, "package-is-file", message, "turn it into a folder, or move it away")
         if depth < len(parts) and not is_file(folder / "package.mo"):
             missing.append(folder)
             if not robot.create_parents:
@@ -118,7 +119,7 @@ def _refusal(
 
 
 def _find_missing_uses(top: Path, uses: Sequence[tuple[str, str]]) -> tuple[Diagnostic, ...]:
-    """Return a warning if the user's top-level `package.mo` lacks libraries in its `uses` annotation."""
+    """Return a warning if libraries are missing in the `uses` annotation of the user's top-level `package.mo`."""
     name, text = top.parent.name, read_file(top).decode(errors="replace") if is_file(top) else None
     if text is None:
         return ()
@@ -135,17 +136,17 @@ def _uses(uses: Sequence[tuple[str, str]]) -> str:
 
 
 def files(robot: RobotConfig) -> Iterator[str]:
-    """The files that `check` may read in the packages around a robot's; they need not exist."""
+    """The files that `check` may read in the packages around the robot's package; they need not exist."""
     for folder in robot.folder.parents[: robot.target.package.count(".")]:
         yield from (f"{folder}/package.mo", f"{folder}/package.order")
 
 
 def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -> str:
-    """Return a `package.order` with `names`, without other names of `owned`; `text` is None if there is no file.
+    """Return a `package.order` with `names`, without the rest of `owned`; `text` is None if there is no file.
 
-    `owned` are the names that urdfsync wrote last, in their order. All other lines are the user's and keep their
-    places. urdfsync's lines follow the order of `names`, unless the user has moved them. A new line stands next to its
-    neighbour in `names`. Line endings are those of the file. The result is empty if no line remains.
+    `owned` are the names that urdfsync wrote last, in order. All other lines are the user's and keep their places. The
+    lines of `names` are in this order, unless the user has moved them. A new line stands next to its neighbour in
+    `names`. The line endings of the file stay. The result is empty if no line remains.
     """
     if text is None:
         return "".join(f"{name}\n" for name in names)

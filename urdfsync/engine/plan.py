@@ -1,6 +1,6 @@
 """The pipeline of one robot: inspect, generate, decide, stage. Writes nothing.
 
-`build` writes this plan, a dry run shows it, and a hook judges it.
+`build` writes this plan; a dry run, `status` and the hooks report it.
 """
 
 from __future__ import annotations
@@ -30,5 +30,5 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         decision = decide_package(inputs, generation)
     plan = stage(inputs, generation, decision)
     if options.full or options.draw or plan.result.writes:
-        dependencies.mark_incomplete()  # some files that this work reads are not recorded as dependencies of the answer
+        dependencies.mark_incomplete()  # this work reads some files without recording them as dependencies
     return plan

@@ -1,4 +1,4 @@
-"""Plans many robots at once, in worker processes of this machine or of a Dask cluster. Only this process writes."""
+"""Plans many robots at once, in worker processes of this machine or of a Dask cluster. Workers write nothing."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from urdfsync.processes import machine
 from urdfsync.processes.workers import Workers, workers
 
 _AHEAD = 3
-"""Unfinished and waiting plans per worker: each holds the texts of a robot."""
+"""The greatest number of plans per worker, unfinished or not yet used: each plan holds the texts of a robot."""
 _CLUSTER_WORKERS = 16
 """Assumed number of a cluster's workers, unless `--jobs` gives it."""
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
 _Planned: TypeAlias = tuple[Plan | UrdfsyncError | OSError, Dependencies]
-"""A plan or an error, and all files that were read."""
+"""A plan or an error, and all files that the worker read."""
 
 
 @contextlib.contextmanager
@@ -39,7 +39,7 @@ def start_pool(config: Config, robots: Sequence[RobotConfig], options: BuildOpti
 
 
 class Pool:
-    """Plans robots in advance, `most` at a time; such a plan is used once."""
+    """Plans robots in advance, `most` at a time; each plan is used once."""
 
     def __init__(
         self, config: Config, robots: Sequence[RobotConfig], options: BuildOptions, started: Workers, most: int
@@ -70,7 +70,7 @@ class Pool:
         return plan
 
     def _plan_ahead(self, robot: RobotConfig, options: BuildOptions) -> _Planned:
-        """Let the workers plan further robots, and return the plan of this one."""
+        """Return the plan of this robot, and let the workers plan further robots."""
         while self._waiting and (len(self._futures) < self._most or robot in self._waiting):
             ahead = self._waiting[0]
             self._futures[ahead.name] = self._workers.submit(plan_in_worker, self._config, ahead, options)
@@ -83,13 +83,13 @@ class Pool:
 
 
 def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> _Planned:
-    """Plan in a worker; return the plan and all files that were read."""
+    """Plan in a worker; return the plan and all files that the worker read."""
     with Dependencies() as reads:
         try:
             plan: Plan | UrdfsyncError | OSError = plan_robot(config, robot, options)
         except (UrdfsyncError, OSError) as error:
             plan = error
-        except Exception as error:  # noqa: BLE001 - else it would look like the end of a worker
+        except Exception as error:  # noqa: BLE001 - an uncaught error would look like the end of a worker
             plan = UrdfsyncError(*findings_of(error))
     reads.add_modules()
     return plan, reads

@@ -1,4 +1,4 @@
-"""Computes one hash for the program that generates packages: this machine's notes hold only for the same program."""
+"""Computes one hash of the program that generates packages: this machine's notes are valid only for this hash."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from urdfsync.files import digest
 def program_hash(domain: str, templates: str) -> str:
     """Return a hash of the stat values of urdfsync's and a domain's files, and of the installed packages.
 
-    `templates` is the hash of the templates. A process keeps the code that it loaded, so its hash does not change.
+    `templates` is the hash of the templates. A process keeps its loaded code, so the hash is computed once.
     """
     module = sys.modules.get(registry.top_level(domain), urdfsync)
     files = sorted({urdfsync.__file__, module.__file__ or urdfsync.__file__})
@@ -34,7 +34,7 @@ def _code(file: str) -> Iterator[tuple[str, tuple[int, ...]]]:
     while folders:
         with os.scandir(folders.pop()) as entries:
             for entry in sorted(entries, key=lambda entry: entry.name):
-                # an installation has data in `_data`: the templates, which have a hash of their own, and other files
+                # `_data` of an installation has the templates, which have a hash of their own, and other files
                 if entry.name.startswith(".") or entry.name in ("__pycache__", "_data"):
                     continue
                 if entry.is_dir():

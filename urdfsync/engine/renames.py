@@ -15,11 +15,11 @@ from urdfsync.spelling import nearest
 def find_matching(
     domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str], *, is_pending: bool = False
 ) -> Matching:
-    """Match the elements of two versions; `declared` maps old names to new ones.
+    """Match the elements of two versions; `declared` maps old names to new names.
 
-    Declared renames of a kind (links, joints) do not count if the old version has the new names already. It does if an
-    element with one of the old names is equal in both versions. If `is_pending`, its contents must also differ from
-    those of the element with the new name: elements that look alike prove nothing.
+    Declared renames of a kind (links, joints) are ignored if the old version has the new names already. That is so if
+    an element with one of the old names is equal in both versions. If `is_pending`, this element must also differ from
+    the element with the new name: elements that look alike prove nothing.
     """
     if old == new and not (declared and is_pending):
         return Matching()
@@ -35,11 +35,11 @@ def find_matching(
 
 
 def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
-    """Match the elements of the last complete build with those of now.
+    """Match the elements of the last complete build with the present elements.
 
     While a conflict is open, one export may rename an element, and the next export may change its numbers. So this
-    joins the renames up to the model last seen with the renames since then. `declared` has only renames that no
-    complete build has made.
+    joins the renames up to the model that the last build read with the renames since then. `declared` has only renames
+    that no complete build has made.
     """
     last, domain = inputs.last, inputs.domain
     if last.version is None:
@@ -69,7 +69,7 @@ def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) 
 
 
 def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
-    """Return the doubt as a clause. `is_used`: a file of the whole robot uses the element's name."""
+    """Return the doubt as a clause; `is_used` if a file of the whole robot uses the element's name."""
     name, aspects = doubt.element.partition(" ")[2], " and ".join(doubt.aspects)
     subject = f"it uses `{name}`, which" if is_used else f"`{name}`"
     if doubt.is_certain:
@@ -103,7 +103,7 @@ def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
         if old != new and kinds and (not before or (old in open_renames and olds & kinds)):
             continue
         if old == new:
-            message = "that is its own name"
+            message = "both names are equal"
         elif not kinds:
             message, near = f"the source has no `{new}`", nearest(new, sorted(name for _, name in after))
         elif news & kinds and not (olds - kinds):

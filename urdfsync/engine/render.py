@@ -1,8 +1,8 @@
 """Renders templates: the Jinja environment, with the literals of Modelica as filters.
 
-Modelica uses braces for arrays, so the delimiters are `<< >>`, `<% %>` and `<# #>`. Every string
-that comes from a source reaches Modelica through `string` or `html`, every number through `real`,
-`vector` or `matrix`: no value can end a literal or a line.
+Modelica uses braces for arrays, so the delimiters are `<< >>`, `<% %>` and `<# #>`. Strings from a source reach
+Modelica only through `string` or `html`, numbers only through `real`, `vector` or `matrix`. So no value can end a
+literal or a line.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ if sys.platform == "linux":
     import resource
 
     _ADDRESS_SPACE = resource.getrlimit(resource.RLIMIT_AS)
-    """The memory limit of this process outside of rendering."""
+    """The memory limit of this process, outside of rendering."""
 
 
 def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
     """Join the results of a macro for some values.
 
-    Raises TypeError for anything but a macro: the call bypasses the sandbox.
+    Raises TypeError unless `macro` is a macro: this call bypasses the sandbox.
     """
     if not isinstance(macro, Macro):
         raise TypeError("`once` takes a macro")
@@ -56,23 +56,22 @@ _FILTERS = (
     *(once, literals.real, literals.vector, literals.matrix, literals.string, literals.html),
     literals.capitalize_first,
 )
-"""Functions that become filters of the same names."""
+"""The filters; each has the name of its function."""
 
 MAX_MEMORY = 2_000_000_000
-"""Bytes of memory that rendering one text may need."""
+"""The greatest number of bytes of memory for rendering one text."""
 MAX_SECONDS = 60.0
-"""Time for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
+"""The greatest number of seconds for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
 MAX_OUTPUT = 200_000_000
-"""Characters of one text."""
+"""The greatest number of characters of one text."""
 _MARK = re.compile(r"\0([^\0]*)\0([0-9]*)\0")
 """A template's file and line, in front of their text; no text of a model contains NUL."""
 _BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
 """The marks and blanks at the beginning of a line."""
 GRACE = 30.0
-"""Further seconds of CPU time, after which the system ends the process.
+"""Seconds of CPU time beyond `MAX_SECONDS` after which the system ends the process.
 
-Python can't interrupt a single step of its own, such as a power of large numbers, or the comparison of lists that hold
-each other many times.
+Python can't interrupt its own steps, such as a power of large numbers, or a comparison of nested lists.
 """
 
 
@@ -95,15 +94,15 @@ class _Environment(jinja2.Environment):
 
 
 class _CodeCache(jinja2.BytecodeCache):
-    """Compiled templates of an installed package; they are in the same folder as urdfsync's compiled modules.
+    """Compiled templates of an installed package, in the folder of urdfsync's compiled modules.
 
-    Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. Code is valid
-    while the template, Python, and the modules that make the code are unchanged: Jinja applies filters to constants at
-    compile time.
+    Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. Compiled code is
+    valid while the template, Python, and the modules that compile it are unchanged. These include the filters: Jinja
+    applies filters to constants when it compiles.
     """
 
     def __init__(self, folder: Path, kind: type[jinja2.Environment]) -> None:
-        """`folder` has the installed templates, and `kind` is for whom they are compiled."""
+        """`folder` has the installed templates; code for one `kind` of environment does not fit another."""
         self._folder = str(folder / "_").removesuffix("_")
         self._stem = f"{importlib.util.cache_from_source(__file__).removesuffix('.pyc')}{kind.__name__}"
         files = map(Path, (__file__, literals.__file__, compiler.__file__))
@@ -114,12 +113,12 @@ class _CodeCache(jinja2.BytecodeCache):
         return super().get_cache_key(name, filename) if (filename or "").startswith(self._folder) else ""
 
     def get_source_checksum(self, source: str) -> str:
-        """See Jinja, which adds the version of Python."""
+        """See Jinja, which adds Python's version."""
         return super().get_source_checksum(f"{self._compiler}\0{source}")
 
     def load_bytecode(self, bucket: Bucket) -> None:
         """See Jinja."""
-        # a damaged pickle can raise any exception, and a user's template has none; then the template is compiled
+        # a damaged pickle can raise any exception, and a user's template has no file; Jinja then compiles the template
         with contextlib.suppress(Exception), open(f"{self._stem}.{bucket.key}", "rb") as file:  # noqa: PTH123
             bucket.load_bytecode(file)
 
@@ -143,7 +142,7 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         self.deadline = math.inf
         self.pieces: dict[str, set[str]] = {}
         """The templates that each rendered template includes or imports."""
-        for name in ("lipsum", "random"):  # their texts differ each time
+        for name in ("lipsum", "random"):  # these give another text each time
             self.globals.pop(name, None)
             self.filters.pop(name, None)
 
@@ -178,8 +177,8 @@ class _Sandbox(ImmutableSandboxedEnvironment):
 def _limited_process() -> Iterator[None]:
     """Limit the memory (on Linux) and the CPU time (not on Windows) of this process.
 
-    Python raises MemoryError if the process needs `MAX_MEMORY` more than now. If a text takes `GRACE` longer than it
-    may, the system ends the process with SIGVTALRM. This is for filters over long texts and for single steps of
+    Python raises MemoryError if the process needs `MAX_MEMORY` more than now. If a text takes `GRACE` longer than
+    `MAX_SECONDS`, the system ends the process with SIGVTALRM. This stops filters over long texts and single steps of
     Python: only loops and calls check the clock.
     """
     if sys.platform == "linux":
@@ -201,8 +200,8 @@ def _limited_process() -> Iterator[None]:
 
 @functools.cache
 def _mark_lines() -> type[Extension]:
-    """Return what puts a `_MARK` before each line of a template's text, through macros and captured blocks as well."""
-    from jinja2.ext import Extension  # 4 of 250 ms of a build: only faults in users' templates need it
+    """Return the extension that puts a `_MARK` before each line of a template's text, in macros and blocks, too."""
+    from jinja2.ext import Extension  # takes 4 of 250 ms: only for faults in users' templates
     from jinja2.lexer import Token
 
     class MarkLines(Extension):
@@ -218,16 +217,16 @@ def _mark_lines() -> type[Extension]:
 
 
 class Renderer:
-    """Renders templates from `folders`; a template in an earlier folder hides one with the same name in a later folder.
+    """Renders templates from `folders`; a template hides templates of the same name in later folders.
 
-    A changed template needs a new renderer.
+    After a change of a template, make a new renderer.
     """
 
     def __init__(self, folders: Sequence[Path], *, is_trusted: bool = False) -> None:
         """Untrusted templates run in a sandbox, with limits."""
         self.folders = tuple(folders)
         self.sound = set[tuple[str, ...]]()
-        """Forms of texts that `generate` has checked."""
+        """Texts that `generate` has checked, without literals and own names."""
         own = [(folder, path) for folder in folders[:-1] for path in folder.rglob("*")]
         self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
         kind = _Environment if is_trusted else _Sandbox
@@ -245,15 +244,15 @@ class Renderer:
             keep_trailing_newline=True,
             auto_reload=False,
             bytecode_cache=_CodeCache(self.folders[-1], kind),
-            autoescape=False,  # Modelica, not HTML; the filters above escape
+            autoescape=False,  # the text is Modelica, not HTML; the filters above escape
         )
         self._environment.filters.update({function.__name__: function for function in _FILTERS})
 
     def render(self, template: str, data: Mapping[str, Any]) -> str:
         """Render a template with `data`.
 
-        Raises jinja2.TemplateError for a faulty template, SecurityError or MemoryError for one that does forbidden
-        things or exceeds a limit.
+        Raises jinja2.TemplateError for a faulty template, SecurityError or MemoryError for forbidden code or an
+        exceeded limit.
         """
         return _render(self._environment, template, data)
 
@@ -266,12 +265,12 @@ class Renderer:
         return not self._users_names.isdisjoint(names)
 
     def find_origin(self, template: str, data: Mapping[str, Any], text: str, line: int) -> tuple[str, int]:
-        """Return the user's file and line from which a line of a rendered text, or the text before it, comes.
+        """Return the file and line of a user's template that rendered this line of the text, or the text before.
 
-        Returns an empty name and 0 if that is unknown. Raises the errors of `render`.
+        Returns an empty name and 0 if they are unknown. Raises the errors of `render`.
         """
         marked = _render(self._environment.overlay(extensions=[_mark_lines()]), template, data)
-        if _MARK.sub("", marked) != text:  # the marks change it: a filter counts characters, say
+        if _MARK.sub("", marked) != text:  # the marks change the text: for example, a filter counts characters
             return "", 0
         *before, last = marked.split("\n")[: max(line, 1)]
         places = _MARK.findall("\n".join((*before, *_BLANK.findall(last))))

@@ -19,7 +19,7 @@ from urdfsync.files import shown
 from urdfsync.spelling import counted
 
 _NAMED = 3
-"""The most contradictions that a file's sentence names."""
+"""The greatest number of contradictions that a sentence about a file names."""
 
 
 class Exit(enum.IntEnum):
@@ -34,11 +34,11 @@ class Exit(enum.IntEnum):
 
 
 class Checked(enum.StrEnum):
-    """Verdict of the check after a build on the package on disk."""
+    """Result of the check of the package on disk after a build."""
 
     RIGHT = "right"
     INCOMPLETE = "incomplete"
-    """Nothing is wrong with it, but not everything could be checked."""
+    """The check found no fault, but could not check everything."""
     WRONG = "wrong"
 
 
@@ -50,16 +50,16 @@ class DisputedFile(msgspec.Struct, frozen=True):
     result: Result
     action: Action
     texts: Conflict | None = None
-    """None if the versions are no comparable texts."""
+    """The texts; None if a version is not a text."""
 
     @property
     def shown(self) -> str:
-        """Where the user's file is, as the user would type it."""
+        """The path of the user's file, as the user would type it."""
         return self.result.shown(self.action.origin or self.action.path)
 
     @property
     def merges(self) -> bool:
-        """Whether `--merge` settles it."""
+        """Whether `--merge` settles the conflict."""
         return self.offers(Choice.MERGE)
 
     @property
@@ -91,7 +91,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
         return {kind: f".urdfsync/conflicts/{self.result.robot}/{path}" for kind, path in self.texts.files.items()}
 
     def offers(self, choice: Choice) -> bool:
-        """Return whether a choice to merge settles it."""
+        """Return whether this kind of merge settles the conflict."""
         return self.texts is not None and self.texts.merged(choice) is not None
 
 
@@ -112,32 +112,31 @@ class Result(msgspec.Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...] = ()
     failed: bool = False
     locked: bool = False
-    """It failed because another process is building."""
+    """Whether the build failed because another process is building."""
     unfinished: bool = False
-    """It failed half way; the next build finishes its changes."""
+    """Whether the build failed after it had changed files; the next build finishes the changes."""
     source_error: SourceError | None = None
-    """It failed because the source is no readable model; an exporter may be writing it."""
+    """The error if the source is not a readable model; an exporter may be writing the file."""
     dry: bool = False
-    """It was a dry run: nothing was written."""
+    """Whether this was a dry run: nothing was written."""
     writes: bool = False
-    """The build has written files of the package, or would in a dry run."""
+    """Whether the build has written files of the package; in a dry run, whether a build would."""
     renews: bool = False
-    """The build has renewed the recorded state, or would in a dry run."""
+    """Whether the build has renewed the recorded state; in a dry run, whether a build would."""
     stale: tuple[str, ...] = ()
     """Changed inputs of the source, if the build used the source's old text."""
     is_broken: bool = False
-    """An edited file does not fit the package, or is no Modelica."""
+    """Whether an edited file does not fit the package, or has syntax errors."""
     drawing: Path | None = None
     changes: Changes | None = None
-    """Changes of the model since the last build that wrote; None if there are none, or if they are unknown."""
+    """Changes of the model since the last complete build; None if there are none, or if they are unknown."""
     conflict_texts: tuple[Conflict, ...] = ()
-    """The texts of the files that conflict, in the order of their paths."""
     settled: frozenset[str] = frozenset()
-    """The keys of the files whose choices were carried out."""
+    """The keys of the files for which a choice was carried out."""
     checked: Checked | None = None
-    """Verdict of a check of the package; None if there was none. Its findings are among the diagnostics."""
+    """Result of the check after the build; None without a check. `diagnostics` includes the check's findings."""
     reads: Dependencies = msgspec.field(default_factory=Dependencies)
-    """All files that the plan, or the failed attempt, has read; entries of written files are renewed."""
+    """All files that the build has read; written files have their new facts."""
 
     @property
     def conflicts(self) -> Sequence[DisputedFile]:
@@ -150,23 +149,23 @@ class Result(msgspec.Struct, frozen=True):
     def in_step(self) -> bool:
         """Whether the package is in step now: a build would write nothing, and nothing is in conflict or broken.
 
-        All commands, hooks and documents use this one value.
+        All commands, hooks and JSON documents use this value.
         """
         return self.are_files_in_step and not self.is_broken
 
     @property
     def are_files_in_step(self) -> bool:
-        """Whether the files are in step; unlike `in_step`, it is also True if the user's edits do not fit."""
+        """Whether the files are in step, even if an edit breaks the package (see `in_step`)."""
         return not (self.failed or self.stale or self.conflicts or (self.dry and self.writes))
 
     @property
     def effective_changes(self) -> Changes | None:
-        """The changes of the model that a build writes, or that wait for a conflict; `diff` shows all changes."""
+        """The changes of the model if the build writes files or has conflicts, else None; `diff` shows all changes."""
         return self.changes if self.writes or self.conflicts or self.settled else None
 
     @property
     def is_built(self) -> bool:
-        """Whether a build has written any file of the package, even if its record is lost."""
+        """Whether a build has written any file of the package, even if the record is lost."""
         return any(action.base is not None or action.reason is Reason.UNCHANGED for action in self.actions)
 
     @property
@@ -178,7 +177,7 @@ class Result(msgspec.Struct, frozen=True):
     def summary(self) -> str:
         """The changes of the package, as the rest of a line that names the robot."""
         if self.failed:
-            end = "the next build finishes it" if self.unfinished else "nothing was changed"
+            end = "the next build finishes the changes" if self.unfinished else "nothing was changed"
             return f"{error_count(self.diagnostics)}, {end}"
         parts = [*(["inputs changed since the last build"] if self.stale else []), *self.counts()]
         if self.in_step and not any(action.writes for action in self.actions.decided):
@@ -186,7 +185,7 @@ class Result(msgspec.Struct, frozen=True):
             total = sum(action.reason in fine for action in self.actions)
             parts.insert(0, f"in step, {counted(total, 'file')}")
         if self.is_broken:
-            parts.insert(0, "broken: a file that you edited does not fit")
+            parts.insert(0, "broken: a file that you edited does not fit the package")
         checked = [check_result(self.checked, self.diagnostics)] if self.checked else []
         return "; ".join([", ".join(parts), *checked])
 
@@ -195,21 +194,19 @@ class Result(msgspec.Struct, frozen=True):
         return shown(Path(os.path.normpath(self.root / path)))
 
     def counts(self, silent: Container[Reason] = ()) -> list[str]:
-        """Return a phrase for each reason that is not `silent`, with the number of files, and one for waiting files."""
+        """Return a phrase with the number of files for each reason outside of `silent`, and one for waiting files."""
         reasons = Counter(action.reason for action in self.actions.decided if not action.is_waiting)
         reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
         for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED):
             reasons[Reason.CONFLICT] += reasons.pop(conflict, 0)
         phrases = []
-        for reason in Reason:  # in the order of the lines
+        for reason in Reason:  # in the order of their definition
             if (number := reasons[reason]) and reason not in silent and reason.done:
                 them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
                 phrase = reason.to_do if self.dry else reason.done
                 phrases.append(phrase.format(n=number, them=them, have=have, s=s))
         if given_back := sum(one.choice is Choice.UNDO and one.is_conflict for one in self.actions):
-            phrases.insert(
-                0, f"{counted(given_back, 'file')} given back as you had {'it' if given_back == 1 else 'them'}"
-            )
+            phrases.insert(0, f"{counted(given_back, 'file')} set back to your former text")
         if self.renews and self.in_step and not (self.writes or self.dry or self.settled):
             phrases.append("recorded state renewed: commit .urdfsync")
         if waiting := sum(action.is_waiting for action in self.actions.decided):
@@ -235,7 +232,7 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
     """Return the exit code of the worst result: error, then lock, then conflict, then out of step.
 
-    Out of step counts only if `check`, or if a package is broken.
+    Packages out of step count only with `check`, or if they are broken.
     """
     results = list(results)
     if any((result.failed and not result.locked) or result.checked is Checked.WRONG for result in results):

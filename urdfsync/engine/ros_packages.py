@@ -17,7 +17,7 @@ _DEPTH = 8
 
 
 def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
-    """Return the folder of each ROS package below `folders` and around `source`; for a repeated name, the first folder.
+    """Return the folder of each ROS package below `folders` and around `source`; for a name with several, the first.
 
     As in rospack, a package contains no other packages, and folders with an ignore file are skipped. Unreadable folders
     are skipped, too.
@@ -33,16 +33,16 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
 
 
 class Packages:
-    """The ROS packages that one source may name. All folders are searched once for all names."""
+    """The ROS packages that one source may name. All folders are searched only once."""
 
     def __init__(self, folders: Sequence[Path], source: Path) -> None:
         self.folders, self.source = folders, source
         self._named: dict[str, Path | None] = {}
 
     def folder(self, name: str) -> Path | None:
-        """Return the folder of a package: around the source, beside it, below the folders; None if there is none.
+        """Return the folder of a package: around the source, beside the source, or below the folders.
 
-        If there is none, a folder of this name without `package.xml` counts, as for meshes.
+        Without a package, a folder of this name without `package.xml` counts, as for meshes; else the result is None.
         """
         if name not in self._named:
             self._named[name] = None if "\0" in name else self._find(name)  # the name may come from a stranger's file
@@ -62,7 +62,7 @@ class Packages:
 
 
 def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
-    """Return the folder of each Modelica library on MODELICAPATH; for a repeated name, that in the first entry.
+    """Return the folder of each Modelica library on MODELICAPATH; for a repeated name, the folder in the first entry.
 
     A library is a folder `Name` or `Name VERSION` with a `package.mo`. Within an entry, the folder without a version
     comes first, then the newest version.
@@ -72,7 +72,7 @@ def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
         folder = Path(entry).absolute()
         try:
             names = list_folder(folder)
-        except OSError:  # it is missing or unreadable now
+        except OSError:  # the folder is missing or unreadable now
             continue
         for name in sorted(names, key=_precedence):
             if is_visible_file(folder / name / "package.mo"):
@@ -81,13 +81,13 @@ def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
 
 
 def _precedence(name: str) -> tuple[bool, list[int], str]:
-    """Sort the folder of a library without a version first, then newer versions before older ones."""
+    """Return a sort key: folders without a version first, then newer versions before older versions."""
     version = name.partition(" ")[2]
     return bool(version), [-int(number) for number in re.findall("[0-9]+", version)], name
 
 
 def is_visible_file(path: Path) -> bool:
-    """Return whether a file is known to exist: a folder above it may be inaccessible."""
+    """Return whether a file is known to exist; False if a folder above is inaccessible."""
     try:
         return is_file(path)
     except OSError:
@@ -100,7 +100,7 @@ def _below(top: Path) -> Iterator[tuple[str, Path]]:
         path = Path(current)
         note_names(path, (*folders, *files))
         for mark in _MARKS.intersection(folders):
-            file_type(path / mark)  # a link may lead to a file later
+            file_type(path / mark)  # a link to a folder may lead to a file later: record that it is a folder
         if _IGNORED.intersection(files):
             folders.clear()
         elif "package.xml" in files:

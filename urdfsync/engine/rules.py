@@ -1,7 +1,7 @@
 """The decision about each file: from its recorded base, the file on disk, and the generated text.
 
-*Base* is the generated text that the file on disk last took into account, *mine* is on disk, *generated* would be
-written. All are compared by hashes, never by times. Everything here is pure.
+*Base* is the last generated text that the file on disk contains or was merged with. *Mine* is the text on disk.
+*Generated* is the text from the present source. The rules compare hashes, never times. All functions here are pure.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from urdfsync.state.record import FileRecord
 
 
 class ClassFolder(enum.Enum):
-    """Stands for the hash of a file if its class is a folder (`X/package.mo`) in place of the file.
+    """Stands for the hash of a file if its class is a folder (`X/package.mo`) instead.
 
-    It is no string, so no hash in a stranger's record can equal it.
+    This value is not a string, so no hash in a stranger's record can equal it.
     """
 
     CLASS_FOLDER = enum.auto()
@@ -28,7 +28,7 @@ class ClassFolder(enum.Enum):
 
 CLASS_FOLDER = ClassFolder.CLASS_FOLDER
 OnDisk: TypeAlias = str | ClassFolder | None
-"""Hash of what is at a path; None for nothing."""
+"""Hash of the file at a path; None without a file."""
 
 NEVER_WRITTEN = FileRecord()
 
@@ -38,15 +38,14 @@ class File(msgspec.Struct, frozen=True):
 
     role: Role
     owner: str = ""
-    """Element that it belongs to, in the domain's words."""
     record: FileRecord = NEVER_WRITTEN
     on_disk: OnDisk = None
     generated: str | None = None
-    """Hash of the generated text; None if there is none."""
+    """Hash of the generated text; None if the file is not generated."""
 
     @property
     def is_free(self) -> bool:
-        """Whether its path is free of the user's text: there is no file, or one that urdfsync wrote."""
+        """Whether no text of the user is at the path: the file is missing or unedited."""
         return self.on_disk is None or self.on_disk in self.record.hashes
 
     @property
@@ -56,7 +55,7 @@ class File(msgspec.Struct, frozen=True):
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason:
-    """Decide on one file by the table of docs/conflicts.md; a hash is None if there is no such text."""
+    """Decide on one file by the table of docs/conflicts.md; a hash is None for a missing text."""
     if generated is None:
         if base is None or mine is None:
             return Reason.FORGET
@@ -75,8 +74,8 @@ def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason
 def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action, ...]:
     """Decide on every file of a robot, by path.
 
-    `moves` has new and old path of files whose element was renamed. An edited file moves to its new path (MOVE, and
-    MOVED_AWAY at the old one), unless another file of the user's is there.
+    `moves` has old paths by new paths of files whose element was renamed. An edited file moves to its new path (MOVE,
+    and MOVED_AWAY at the old path), unless a user's file is there.
     """
     edited = _edited_moves(files, moves)
     origins = set(edited.values())
@@ -100,17 +99,17 @@ def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action,
                 base = old_base  # the user moved the file there by hand
             reason = decide_file(base, mine, generated)
         if reason is Reason.FORGET and not file.record.hashes:
-            continue  # it was never written, and is no longer generated
+            continue  # no build wrote this file, and it is no longer generated
         on_disk_hash = mine if isinstance(mine, str) else None
         actions.append(Action(path, reason, file.role, file.owner, base, generated, origin, mine=on_disk_hash))
     return tuple(actions)
 
 
 def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[str, str]:
-    """Return new and old path of the edited files that move with their elements."""
+    """Return the old paths by new paths of the edited files that move with their elements."""
     edited = {new: old for new, old in moves.items() if files[old].is_edited}
     taken = {path for path in moves if not files[path].is_free}
-    # if an edited file can't move, the file that would take its place can't move either, and so on
+    # if an edited file can't move, no other file can move to its path, and so on
     while blocked := edited.keys() & taken - set(edited.values()):
         edited = {new: old for new, old in edited.items() if new not in blocked}
     return edited
@@ -119,11 +118,11 @@ def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[s
 def put_off(
     actions: Iterable[Action], numbers_only: Collection[str], origins: Collection[str], moves: bool
 ) -> tuple[Action, ...]:
-    """Put off structural changes of a robot while one of its files is in conflict.
+    """Let structural changes of a robot wait while one of its files is in conflict.
 
     A build still writes files that keep the package valid: records with changed numbers (`numbers_only`), imported
-    files, and restored files. `origins` are the files that renamed elements leave; these wait. If the package `moves`,
-    all files wait. If all conflicts are about numbers alone, no other file waits.
+    files, and restored files. `origins` are the old files of renamed elements; these files wait. If the package
+    `moves`, all files wait. If all conflicts are only about numbers, no file waits.
     """
     actions = tuple(actions)
     if all(action.path in numbers_only and not moves for action in actions if action.is_conflict):
@@ -148,8 +147,8 @@ def files_after(
 ) -> dict[str, FileRecord]:
     """Return the records of a package's files after a build.
 
-    A complete build has done all actions. After an incomplete build, generated files get new records; all other files
-    keep their records of the last complete build.
+    A complete build renews the records of all files. An incomplete build renews only the records of files that it wrote
+    or found in step.
     """
     records = {} if is_complete else dict(recorded)
     for action in actions:

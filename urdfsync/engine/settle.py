@@ -1,7 +1,7 @@
-"""Applies the user's choices: each one changes its file, at the file's present path, and its base.
+"""Applies the user's choices: each choice changes a file, at its present path, and the file's base.
 
-The user could do the same by hand: save a text, and name the generated text that it takes into account. So choices
-change files and bases first, and the build then decides on these. It writes both together.
+The user could do the same by hand: save a text, and name its base. So choices change files and bases first. Then the
+build decides on the changed files, and writes all together.
 """
 
 from __future__ import annotations
@@ -26,34 +26,34 @@ from urdfsync.spelling import nearest
 from urdfsync.state.record import FileRecord, role_of
 
 _EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
-"""Actions on edited files that the user may replace by the generated ones."""
+"""Reasons of actions on edited files for which the user may choose `--take`."""
 
 
 def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settled:
     """Apply the choices of the options.
 
-    A choice is ignored if one of its two texts changed since then, or if it does not fit its file. Raises OutputError
-    for `--keep` on a file with markers of git.
+    A choice is ignored if one of the two texts has changed, or if the choice does not fit the file. Raises
+    OutputError for `--keep` on a file with markers of git.
     """
     choices = _Choices(inputs, generation, decision)
     by_path = {action.path: action for action in decision.actions}
     for key, chosen in inputs.options.choices.items():
         role = role_of(inputs.folder.path(key))
-        action = by_path.get(key, Action(key, Reason.FORGET, role))  # such as a deleted file
+        action = by_path.get(key, Action(key, Reason.FORGET, role))  # the decision lacks a deleted file, for example
         if chosen.sides == action.sides and choices.apply(action, chosen):
             choices.settled.keys.add(key)
     return choices.settled
 
 
 class _Choices:
-    """The choices that were applied so far: each one sees what the earlier ones have changed."""
+    """The choices that were applied so far: each choice sees the changes by earlier choices."""
 
     def __init__(self, inputs: Inputs, generation: Generation, decision: Decision) -> None:
         self._inputs, self._generation, self._decision = inputs, generation, decision
         self.settled = Settled(names=decision.names)
 
     def apply(self, action: Action, chosen: UsersChoice) -> bool:
-        """Apply one choice; return whether it fits its file."""
+        """Apply one choice; return whether the choice fits its file."""
         inputs, decision, settled = self._inputs, self._decision, self.settled
         choice, key = chosen.choice, action.origin or action.path
         reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
@@ -88,14 +88,14 @@ class _Choices:
             return False
         elif choice is Choice.KEEP:
             content = inputs.files.read(key)
-            # the user says that it is the same part: later exports still merge into it
+            # the user says that the part is the same: later exports still merge into its file
             if action.reason is Reason.ASKED:
                 record = inputs.last.files.get(key, record)
             if conflict and action.origin:
                 from urdfsync.merge.renames import rename, without_clashes  # imports the parser
                 from urdfsync.modelica.layout import with_within
 
-                # the file gets its new names once it moves
+                # the file gets new names only when it moves
                 names = {new: old for old, new in without_clashes(decision.names, conflict.mine).items()}
                 package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
                 record, texts = known_bases(with_within(rename(conflict.generated, "", names)[0], package))
@@ -114,7 +114,7 @@ class _Choices:
         return True
 
     def _add(self, action: Action, content: bytes | None, record: FileRecord, reason: Reason, choice: Choice) -> None:
-        """Add the new content and base that a choice gives a file."""
+        """Add the new content and base of a file after a choice."""
         key, last, settled = action.origin or action.path, self._inputs.last, self.settled
         mine, former = self._inputs.files.read_on_disk(key), last.files.get(key, FileRecord())
         if mine is not None and (choice is not Choice.UNDO or content != mine):  # otherwise nothing changes
@@ -124,9 +124,10 @@ class _Choices:
         settled.actions[key] = msgspec.structs.replace(action, **changes)
 
     def _move(self, action: Action, named: str | None) -> bool:
-        """Move an edit to the file of another element, by default the likely one. Raises ConfigError if it can't move.
+        """Move an edit to another element's file, by default the likely one's.
 
-        An edit may move to a file that another edit leaves in the same command.
+        Raises ConfigError for an impossible move. If another edit leaves a file in the same command, this edit may move
+        there.
         """
         inputs, decision, settled, package = self._inputs, self._decision, self.settled, self._generation.package
         (kind, _, name), key, choices = action.owner.partition(" "), action.path, inputs.options.choices
@@ -138,12 +139,12 @@ class _Choices:
         is_asked = any(one.path == target and one.reason is Reason.ASKED for one in decision.actions)
         message = ""
         if is_asked and not is_leaving:
-            message = "its edit may belong to another part, too"
-            hint = "settle it first, or name both files with --moved"
+            message = "your edit in this file may belong to another part, too"
+            hint = "settle this file first, or name both files with --moved"
         elif inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
             message, hint = "one of the two classes is a folder", "move the edit by hand, then use --keep"
         elif target in decision.differences.moves.values():
-            message, hint = "its own text moves to another file", "build first, then move the edit by hand"
+            message, hint = "this file's own text moves to another file", "build first, then move the edit by hand"
         if message:
             raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
         last, mine = inputs.last.files.get(target, FileRecord()), inputs.files.hash(target, action.role)
@@ -153,9 +154,9 @@ class _Choices:
             text = (settled.contents[target] or b"").decode()
         merged = self._merge_into(conflict, f"{kind}s", name, new, text)
         if merged is None:
-            message, hint = "your edit does not fit into this file", "move the edit by hand, then use --take"
+            message, hint = "your edit contradicts this file", "move the edit by hand, then use --take"
             raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
-        if key not in settled.contents:  # otherwise another edit has moved here already
+        if key not in settled.contents:  # another edit may have moved here already
             mine_bytes = inputs.files.read(key) or b""
             source = self._generation.content(inputs.folder.path(key), action.role, mine_bytes)
             self._add(action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
@@ -172,11 +173,11 @@ class _Choices:
         near, message = nearest(new, sorted(known - {name})), ""
         hint = "name the part that the edit belongs to: --moved NAME"
         if not name:
-            message, hint = "it belongs to no single part", "change the names in it, then use --keep"
+            message, hint = "this file belongs to no single part", "change the names in the file, then use --keep"
         elif not new:
             message = "the part to which the edit belongs is unknown"
         elif new == name:
-            message = f"it belongs to {kind} `{name}` already"
+            message = f"this file belongs to {kind} `{name}` already"
         elif new not in known:
             message, hint = f"the source has no {kind} `{new}`", f"did you mean `{near}`?" if near else hint
         elif path is None:
@@ -186,7 +187,7 @@ class _Choices:
         return path
 
     def _merge_into(self, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
-        """Merge the edit of another element's file into a text, with the text's names; None for a contradiction."""
+        """Merge the edit of another element's file into a text of the element `new`; None for a contradiction."""
         from urdfsync.merge import merge  # imports the parser
         from urdfsync.modelica.lexer import words_in
 

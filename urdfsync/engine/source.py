@@ -39,20 +39,20 @@ if TYPE_CHECKING:
     from urdfsync.git.revisions import Revision
 
 MAX_TEMPLATE = 10_000_000
-"""The most bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
+"""The greatest number of bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
 
 _COMMENT = re.compile(rb"<!--.*?(?:-->|\Z)", re.DOTALL)
 _XACRO = re.compile(rb"<xacro:(?:macro|if|unless|insert_block|call|element|attribute)\b|\$\{")
 _LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
 """The references to lines in a message."""
 NEVER: tuple[str, ...] = ("no expansion is recorded",)
-"""Why a source without expansion is stale."""
+"""The only entry of `Source.stale` if no expansion is recorded."""
 
 
 def is_xacro(file: Path, content: bytes) -> bool:
     """Return whether a file is xacro, by its name or by its elements.
 
-    An expanded URDF may still have elements of xacro, left over or in comments; but it has links, and no `${…}`.
+    An expanded URDF may still have elements of xacro, unused or in comments; but it has links, and no `${…}`.
     """
     if file.suffix == ".xacro" or b"xmlns:xacro" not in content:
         return file.suffix == ".xacro"
@@ -65,21 +65,21 @@ class Source(msgspec.Struct, frozen=True):
 
     content: bytes
     name: str
-    """Its name in diagnostics."""
+    """The source's name in diagnostics."""
     places: Sequence[tuple[int, str, int]] = ()
-    """Line of each element in an expanded text, with its original file and line."""
+    """Line of each element in an expanded text, with the element's original file and line."""
     diagnostics: tuple[Diagnostic, ...] = ()
     expansion: Expansion | None = None
     stale: tuple[str, ...] = ()
-    """Changed inputs of the source, if it was not expanded again."""
+    """Changed inputs of the source, if this build could not expand it again."""
     is_made_here: bool = False
-    """Whether this machine has expanded it, now or before."""
+    """Whether this machine has expanded the source, now or before."""
     parts: tuple[bytes, ...] = ()
     """The text and the files that were joined with it; empty if there is no such file."""
 
     @property
     def is_missing(self) -> bool:
-        """Whether the source was never made, and this build does not make it."""
+        """Whether the source has no text: no build made it, and this build does not make it."""
         return bool(self.stale) and not self.content
 
     def locate(self, found: Diagnostic) -> Diagnostic:
@@ -88,16 +88,16 @@ class Source(msgspec.Struct, frozen=True):
             return found
         file, line = self._place(found.line)
         message = self._with_places(found.message, file)
-        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # calls of one macro repeat them
+        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # calls of one macro repeat details
         return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
 
     def _place(self, line: int) -> tuple[str, int]:
-        """Return the original place of the element at a line of the text; above the root, return that of the root."""
+        """Return the original place of the element at a line of the text; above the root element, the root's place."""
         number = bisect_right(self.places, line, key=lambda place: place[0])
         return self.places[max(number - 1, 0)][1:]
 
     def _with_places(self, text: str, told: str = "") -> str:
-        """Return a message with original files and lines in place of expanded lines; leave out the place `told`."""
+        """Return a message with original files and lines instead of expanded lines; leave out the file `told`."""
 
         def replace(match: re.Match[str]) -> str:
             lines = [int(line) for line in match[2].split(", ")]
@@ -112,7 +112,7 @@ class Source(msgspec.Struct, frozen=True):
 
     @contextlib.contextmanager
     def locating(self) -> Iterator[None]:
-        """Locate the diagnostics of errors that the `with` block raises."""
+        """Give errors of the `with` block the files and lines that the user wrote."""
         try:
             yield
         except UrdfsyncError as error:
@@ -120,12 +120,11 @@ class Source(msgspec.Struct, frozen=True):
 
 
 def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
-    """Read the robot's source with the file that an option names; xacro or a command may have to make the source first.
+    """Read the robot's source, with the file that an option names; xacro or a command may make the source first.
 
-    `name` is the robot's name in the state, if it differs. xacro expands the source again, unless this machine has
-    noted the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command.
-    Raises SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted
-    command.
+    `name` is the robot's name in the state, if it differs. The source is expanded again, unless this machine has noted
+    the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command. Raises
+    SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
     """
     return with_named_file(config, robot, _read_source(config, robot, store, options, name))
 
@@ -135,7 +134,7 @@ def _read_source(config: Config, robot: RobotConfig, store: Store, options: Buil
         content = _read(config, robot)  # reports a file that xacro can't read
         if robot.arguments is None and not is_xacro(robot.source, content):
             return _with_file_beside(registry.domain(robot.domain), robot.source, content, robot.options)
-    from urdfsync.engine import expansion  # 5 ms, and few robots need it
+    from urdfsync.engine import expansion  # takes 5 ms, and few robots need it
 
     inputs = expansion.SourceFiles(config.root, robot.source, (*robot.package_paths, *options.package_paths))
     made = store.load_expansion(name or robot.name)
@@ -184,28 +183,28 @@ def _expand(config: Config, robot: RobotConfig, inputs: SourceFiles, options: Bu
     else:
         raise ConfigError(untrusted)
     if inputs.find_changes(robot, made):
-        mark_incomplete()  # a file was saved meanwhile
+        mark_incomplete()  # somebody saved a file meanwhile
     return made
 
 
 class Beside(Protocol):
-    """Reads a further file that may stand beside a source; a domain's attribute `beside`."""
+    """Reads a second file beside a source, if there is one; a domain's attribute `beside`."""
 
     SUFFIX: str
-    """The suffix of this file; otherwise its path is that of the source."""
+    """The suffix of this file; its path is the source's path with this suffix."""
     OPTION: str
-    """The option that has to name this file in a configuration, as `NamedFile.OPTION`; empty if none has to."""
+    """The option that must name this file in a configuration (see `NamedFile.OPTION`); empty if it needs no option."""
 
     def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
-        """Return a source with new lines for the content of the other file, and their numbers in both files.
+        """Return a source with new lines for the other file's content, and the numbers of these lines in both files.
 
-        `file` is how diagnostics name it. Raises SourceError if it can't be read.
+        `file` is the other file's name in diagnostics. Raises SourceError for an unreadable content.
         """
         ...
 
 
 class NamedFile(Protocol):
-    """Adds the content of a file that options name to a source; a domain's attribute `named_file`."""
+    """Adds to a source the content of a file that options name; a domain's attribute `named_file`."""
 
     OPTION: str
     """The option with the file's path from the configuration's folder."""
@@ -224,8 +223,8 @@ def with_named_file(
 ) -> Source:
     """Return a source with the content of the file that its robot's options name, on disk or in a revision.
 
-    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file, and for one
-    beside the source that has to be named: else its content would vanish in silence once either is renamed.
+    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file. Raises
+    SourceError for a file beside the source that no option names: a rename would silently remove its content.
     """
     domain = registry.domain(robot.domain)
     named: NamedFile | None = domain.named_file
@@ -248,7 +247,7 @@ def with_named_file(
 
 
 def file_beside(domain: Domain, source: Path, options: Any = None) -> Path | None:
-    """Return the path of the file that may stand beside a source; None if `options` name it."""
+    """Return the path of the second file beside a source, existing or not; None if `options` name the file."""
     beside: Beside | None = domain.beside
     if beside is None or (beside.OPTION and getattr(options, beside.OPTION, "")):
         return None
@@ -256,7 +255,7 @@ def file_beside(domain: Domain, source: Path, options: Any = None) -> Path | Non
 
 
 def _with_file_beside(domain: Domain, source: Path, content: bytes, options: Any) -> Source:
-    """Return a source that may have a file beside it, unless the options name it. Raises SourceError."""
+    """Return a source with the content of the file beside it, unless the options name that file. Raises SourceError."""
     path = file_beside(domain, source, options)
     return joined(domain, content, shown(source), read_file(path) if path and is_file(path) else b"", path)
 
@@ -271,7 +270,10 @@ def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path |
 def _with_lines(
     source: Source, text: bytes, lines: Sequence[tuple[int, int]], other: bytes, path: Path | None
 ) -> Source:
-    """Return a source with another text, whose `lines` are those of the file at `path` with the content `other`."""
+    """Return a source with another text, which has the content `other` of the file at `path`.
+
+    `lines` pairs lines of the text with their lines in that file.
+    """
     if not lines or path is None:
         return source
     own = source.places or [(line, source.name, line) for line in range(1, lines[0][0])]
@@ -285,12 +287,12 @@ def read_file_source(
 ) -> Source:
     """Read a source that no configuration names, with these arguments if it is xacro. Raises SourceError.
 
-    A file beside it is left out if `options` name it: see `with_named_file`.
+    A file beside the source is left out if `options` name it: see `with_named_file`.
     """
     try:
         content = read_unrecorded(file)
     except OSError as error:
-        message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
+        message, hint = f"the source can't be read: {error.strerror}", "name an existing, readable file"
         raise SourceError.of("no-source", message, shown(file), hint=hint) from None
     if not is_xacro(file, content):
         return _with_file_beside(domain, file, content, options)
@@ -303,7 +305,7 @@ def read_file_source(
 
 
 def _warnings(made: Expansion, file: Path, place: tuple[str, int], robot: str = "") -> tuple[Diagnostic, ...]:
-    """Return the warnings of xacro about a source, and about unknown arguments, which are given at `place`."""
+    """Return xacro's warnings about a source, and warnings about unknown arguments, at `place`."""
     findings = []
     for name in made.unused:
         message = f"{robot}the source has no argument `{name}`"
@@ -343,13 +345,13 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
 
 
 def domain_templates(domain: Domain, *own: Path) -> Templates:
-    """Return the templates of a domain; files in the user's folders hide them."""
+    """Return the templates of a domain; files in the user's folders hide templates of the same name."""
     folders = (*own, templates_folder(domain))
     return Templates(folders, templates_digest(folders))
 
 
 def _check_templates(folder: Path) -> None:
-    """Refuse links that lead out of a template folder, and too large files: they may be a stranger's.
+    """Refuse links that lead out of a template folder, and too large files: a stranger may have made them.
 
     Raises ConfigError.
     """
@@ -364,8 +366,8 @@ def _check_templates(folder: Path) -> None:
                 depend_on(path)
                 message = f"the file has more than {MAX_TEMPLATE:,} bytes, which is too large for a template"
                 hint = "move it out of the template folder"
-            elif path.exists() and not (path.is_file() or path.is_dir()):  # reading a FIFO would never end
-                message = f"this is {kind_of(path.stat().st_mode)}, and so no template"
+            elif path.exists() and not (path.is_file() or path.is_dir()):  # reading a FIFO might never end
+                message = f"this is {kind_of(path.stat().st_mode)}, not a template"
                 hint = "move it out of the template folder"
             else:
                 continue
@@ -373,7 +375,7 @@ def _check_templates(folder: Path) -> None:
 
 
 def check_options(config: Config, robot: RobotConfig, reading: Reading) -> tuple[Diagnostic, ...]:
-    """Return the findings about the robot's options for this model, at their lines in the configuration.
+    """Return the findings about the robot's options for this model, at the lines of the options.
 
     Raises ConfigError with all options that do not suit the model.
     """
@@ -396,7 +398,7 @@ def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snaps
 
     Raises SourceError with all faults.
     """
-    return _without_errors(_read_model(domain, msgspec.json.encode(options), content, name))  # type: ignore[arg-type] # it is an object
+    return _without_errors(_read_model(domain, msgspec.json.encode(options), content, name))  # type: ignore[arg-type] # the domain is an object
 
 
 def _without_errors(reading: Reading) -> tuple[Snapshot, Reading]:
@@ -413,7 +415,7 @@ def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
     """
     options = msgspec.json.encode(domain.permissive_options or domain.options())
     with text.locating():
-        reading = _read_model(domain, options, text.content, text.name)  # type: ignore[arg-type] # it is an object
+        reading = _read_model(domain, options, text.content, text.name)  # type: ignore[arg-type] # the domain is an object
         diagnostics = tuple(
             msgspec.structs.replace(one, severity=Severity.WARNING) if one.code in domain.cured else one
             for one in reading.diagnostics
@@ -423,7 +425,7 @@ def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
 
 @functools.lru_cache(maxsize=4)
 def _read_model(domain: Domain, options: bytes, content: bytes, name: str) -> Reading:
-    """Read a source; remember the last one, since the daemon confirms each build by a second build.
+    """Read a source. The last result is kept: the daemon confirms each build by a second build.
 
     Serves the rows "one mass changed in the daemon" of docs/speed.md. Options are JSON, since they may not be hashable.
     """

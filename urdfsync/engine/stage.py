@@ -1,9 +1,9 @@
 """Stages one robot's plan with all its writes: files, texts saved beside them, bases, and last the record.
 
 Two kinds of texts are saved below `.urdfsync/`. `aside` has a copy of each replaced text that this machine did not
-generate, for `--undo`. Its list drops a text once its file is saved again and another build writes files; the copy
-itself stays. `conflicts` has the versions of each file in conflict: base, generated, and a proposed merge. A proposal
-that a person has changed is never overwritten, and `resolve --edit` begins with it.
+generate, for `--undo`. Once the user saves a text's file, and a build writes files, the list in `aside` drops the text;
+the copy stays. `conflicts` has the versions of each file in conflict: base, generated, and a proposed merge. If a
+person changed a proposal, builds never overwrite it, and `resolve --edit` begins with it.
 """
 
 from __future__ import annotations
@@ -43,30 +43,31 @@ from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
 
 Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any], str | None]
-"""Returns the main model's diagram as SVG text, or None if it has none. Pure. A domain's attribute `drawing`."""
+"""Returns the main model's diagram as SVG text; None for a model without a diagram. Pure. A domain's attribute
+`drawing`."""
 
 
 class _Versions(msgspec.Struct, frozen=True):
-    """The versions of all conflicts of a robot."""
+    """The saved versions of all conflicts of a robot."""
 
     conflicts: tuple[Conflict, ...]
     """The conflicts, with the files of their versions."""
     changes: tuple[FileChange, ...]
     noted: Mapping[str, tuple[str, str]]
-    """Hash of each proposal as urdfsync wrote it, and of its two sides, by path."""
+    """Two hashes for each proposal, by path: of its text as urdfsync wrote it, and of its two sides."""
     diagnostics: tuple[Diagnostic, ...]
 
 
 class Plan(msgspec.Struct, frozen=True):
-    """All writes of one robot's build, and its result afterwards."""
+    """All writes of one robot's build, and the result after them."""
 
     result: Result
     state: StateHashes
     """Hashes of the recorded state when the plan was made."""
     shared: tuple[SharedFile, ...] = ()
-    """Changes of files around the package."""
+    """Changes of the `package.mo` and `package.order` files around the package."""
     writes: tuple[FileChange, ...] = ()
-    """The files to write, without those in `shared`; the record is the last one."""
+    """The files to write, without `shared`; the record is the last one."""
     emptied: tuple[Path, ...] = ()
     """The folders that become empty, innermost first."""
     notes: Notes | None = None
@@ -74,7 +75,7 @@ class Plan(msgspec.Struct, frozen=True):
 
 
 def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
-    """Return the plan with all its writes. A dry run gets the same plan, so it gives the same verdict."""
+    """Return the plan with all its writes. A dry run gets the same plan, so it reports the same as a build."""
     store, robot, old, differences = inputs.store, inputs.robot, inputs.last.notes, decision.differences
     uses = find_uses(inputs, generation, decision)
     findings = [*find_all(inputs, generation, decision), *tell_uses(uses)]
@@ -96,7 +97,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         findings += _tell_aside(inputs, actions, index, texts)
         changes += [*versions.changes, *store.save_aside(robot.name, index, texts)]
         state = []
-        # `status` and some other commands do not renew a complete state if there is nothing else to write
+        # without other writes, `status` and some other commands leave a complete state
         if not (inputs.last.record.files and decision.is_complete) or is_writing or inputs.options.renews:
             state = _source_changes(inputs)
             recorded = store.save(store.path(robot.name), statefile.dumps(record).encode())
@@ -106,7 +107,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
             state += _base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)
             state += recorded  # the last one
         renamed = differences.identifiers if differences.renames or differences.respelled else {}
-        is_later = is_writing and not inputs.options.choices  # a choice like --undo may bring old names back
+        is_later = is_writing and not inputs.options.choices  # a choice like `--undo` may bring old names back
         notes = msgspec.structs.replace(
             _notes(inputs, generation, record),
             renamed=renamed if is_later or (renamed and is_writing) else old.renamed,
@@ -119,7 +120,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
     changes += state
     news = differences.changes
     if news and not is_writing and decision.is_complete:
-        # if the record keeps the old generator and options, each later plan would report them again
+        # else the next plan would report them again: the record keeps the old generator and options
         news = msgspec.structs.replace(news, generator=False, options=())
     result = Result(
         robot.name,
@@ -142,7 +143,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
 
 
 def _actions_after(actions: Actions, settled: Settled) -> Actions:
-    """Return the actions of the choices and of the build together."""
+    """Return the actions of the build, and those of the choices."""
     after = {action.path: action for action in actions}
     for key, chosen in settled.actions.items():
         decided = after.get(key)
@@ -178,7 +179,7 @@ def _tell_aside(
 
 
 def _notes(inputs: Inputs, generation: Generation, record: Record) -> Notes:
-    """Return this machine's notes with what this build has made; `record` is the one after it."""
+    """Return this machine's notes with the results of this build; `record` is the new record."""
     old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
     recorded, texts = inputs.last.record.hashes | record.hashes, generation.package.notes()
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
@@ -199,7 +200,7 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
     old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
     if not decision.is_complete:
-        # keep the model of the last complete build; record the files that are renewed, but not those in a former folder
+        # keep the model of the last complete build; record renewed files, but none in a former folder
         files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
         files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
         renewed = {
@@ -210,7 +211,7 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         }
         asked = frozenset(action.path for action in decision.actions if action.reason is Reason.ASKED)
         renames = differences.renames
-        if pending(inputs):  # a declaration may be taken back
+        if pending(inputs):  # the user may delete a declaration
             renames = match_with_last(inputs, generation.now.snapshot, {}).renames
         open_ = Open(as_recorded(generation.now.snapshot), renames, asked)
         contents = (text for text in inputs.settled.contents.values() if text is not None)
@@ -238,7 +239,7 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
     )
     if news is None or any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in news.changes):
         return new
-    # changes that no file of the package shows are not worth a commit, such as unmodelled parts of the source
+    # a change without effect on the package, such as an unmodelled part of the source, is not worth a commit
     silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
 
@@ -287,7 +288,7 @@ def _content(inputs: Inputs, generation: Generation, decision: Decision, action:
 
 
 def _source_changes(inputs: Inputs) -> list[FileChange]:
-    """Return the changes of the state that follow from the robot's name and its expansion."""
+    """Return the changes of the state after a new name of the robot, or a new expansion of its source."""
     store, name, last, expanded = inputs.store, inputs.robot.name, inputs.last, inputs.source.expansion
     changes = [*(store.remove(last.name) if last.name != name else ()), *store.for_git()]
     if not inputs.source.stale:
@@ -298,20 +299,20 @@ def _source_changes(inputs: Inputs) -> list[FileChange]:
 def _base_changes(
     inputs: Inputs, package: Package, record: Record, needed: Collection[str] | None, *, is_writing: bool
 ) -> Iterator[FileChange]:
-    """Yield the changes of the stored bases. Only a complete build deletes texts: those that are not `needed`.
+    """Yield the changes of the stored bases.
 
-    A missing or damaged text is written if it is generated now. A text that is no longer needed is deleted by the next
-    complete build that writes: it is no reason for a build.
+    A missing or damaged text is written again if the present package has it. The next complete build that writes
+    anything deletes texts that are not `needed`.
     """
     store, last, settled = inputs.store, inputs.last, inputs.settled
     stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
     absent = record.hashes - {sha256 for texts in stored.values() for sha256 in texts or ()}
     missing = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
     if absent:
-        made = package.paths_by_hash  # by hash, since a text may have another path now
+        made = package.paths_by_hash  # found by hash, since a text may have another path now
         missing |= {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
     cleans = needed is not None and (is_writing or bool(missing))
-    # if git has united lines, they may be in another order
+    # git may have united lines in another order
     is_united = last.record.is_united and is_writing
     is_whole = inputs.options.full or inputs.former_name or inputs.damage or is_united
     for digit, texts in stored.items():
@@ -322,7 +323,7 @@ def _base_changes(
 
 
 def _save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> _Versions:
-    """Return the writes that save the versions, and their files."""
+    """Return the writes that save the versions of conflicts, and the paths of the versions."""
     store, robot, noted = inputs.store, inputs.robot.name, inputs.last.notes.proposals
     existing = store.conflict_files(robot)
     persons = store.persons_proposals(robot, noted)
@@ -344,7 +345,7 @@ def _save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> _Versions:
                 name = f"{stem}.merge{number}{ending}"
                 if name not in persons or noted.get(name, ("", ""))[1] == sides or existing[name] == proposal:
                     break
-                message = "you changed this proposal, so it stays: a new one is beside it"
+                message = "you changed this proposed merge, so it stays: a new proposal is beside it"
                 place = shown(store.conflicts(robot) / name)
                 findings.append(Diagnostic(Severity.NOTE, "proposal-kept", message, place))
             files["merge"] = name
@@ -376,7 +377,7 @@ def _put_aside(
         elif is_unsaved or not contents:
             index[path] = aside
     for key in settled.contents:
-        index.pop(folder.path(key), None)  # another choice replaces it, or it is undone
+        index.pop(folder.path(key), None)  # another choice replaces this text, or this text was restored
     chosen = {
         moved.get(key, key): _follow(inputs, former, moved[key], decision.names) if key in moved else former
         for key, former in settled.before.items()
@@ -394,7 +395,7 @@ def _put_aside(
 
 
 def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
-    """Return whether a file is unchanged since the build that put its former text aside."""
+    """Return whether a file is unchanged since the build that saved its former text in `aside`."""
     try:
         state = files.state_on_disk(key)
     except OutputError:  # the user replaced it by a link or a folder
@@ -403,7 +404,7 @@ def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
 
 
 def _follow(inputs: Inputs, former: Former, key: str, names: Mapping[str, str]) -> Former:
-    """Return a text and its base for the file's new path: with new names, and with its `within` clause."""
+    """Return a text and its base for the file's new path: with new names, and a new `within` clause."""
     from urdfsync.merge.renames import rename, without_clashes  # imports the parser
     from urdfsync.modelica.layout import with_within
 
@@ -417,9 +418,9 @@ def _follow(inputs: Inputs, former: Former, key: str, names: Mapping[str, str]) 
 def _replaced(
     inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
 ) -> Iterator[tuple[str, Former]]:
-    """Yield the key and text of each replaced or deleted file; leave out texts that this machine generated.
+    """Yield the key and the former text of each replaced or deleted file; leave out texts that this machine generated.
 
-    A `package.order` is saved only after a union by git: then a build may remove more than its recorded lines.
+    A `package.order` is saved only if git has united two states: then a build may remove the user's lines.
     """
     files, last, folder = inputs.files, inputs.last, inputs.folder.key("")
     origins = {action.origin for action in decision.actions if action.origin and action.writes}
@@ -442,10 +443,10 @@ def _replaced(
 def _bases_given_back(
     inputs: Inputs, package: Package, action: Action, text: bytes
 ) -> tuple[FileRecord, Mapping[str, str]]:
-    """Return the bases that a text has after `--undo`."""
+    """Return the bases of a text after `--undo`."""
     place = (action.origin or "") if action.reason is Reason.MOVE else action.path
     record = inputs.last.files.get(place, FileRecord())
-    # with the old base, the next build would merge the text again, or take it for a generated one
+    # with the old base, the next build would merge the text again, or take it for generated
     merging = {robot.name for robot in inputs.config.robots if robot.on_conflict == "merge"}  # not only this command
     is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.robot.name in merging
     is_own_base = text_digest(text) in record.hashes

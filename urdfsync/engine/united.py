@@ -1,4 +1,4 @@
-"""Files that git has merged from two branches: finds their versions, and what each file means."""
+"""Finds the versions of files that git has merged from two branches, and the meaning of each file."""
 
 from __future__ import annotations
 
@@ -33,26 +33,28 @@ _UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
 """The references under which git keeps the commit that it is merging into HEAD."""
 
 _IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
-"""Reasons that keep a file that is still generated."""
+"""Reasons for which a generated file stays."""
 _SETTLED = frozenset({Reason.MERGE, Reason.FORGET}) | ORPHANS
-"""Reasons for which a file gets its meaning."""
+"""Reasons for which a build writes a file's meaning."""
 _Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
-"""Changed lines and their replacements. The order of lines does not count: added blocks can be cut in several ways."""
+"""Changed lines and their replacements. The order of lines does not count: a diff can cut added blocks in several
+ways."""
 
 
 class Sides(NamedTuple):
     """The versions of a file that git merged; lines end with line feeds."""
 
     base: str
-    """The common ancestor; empty if there is none."""
+    """The text in the common ancestor; empty without one."""
     ours: str
     theirs: str
 
 
 def lay_over(inputs: Inputs, key: str) -> bool:
-    """Overlay a file with its meaning if it still is git's merge of two branches.
+    """Overlay a file with its meaning if the file still is git's merge of two branches.
 
-    If nobody edited the versions, the meaning is our version. Otherwise it is their merge by elements, if it succeeds.
+    If nobody edited the versions, the meaning is our version. Otherwise it is a merge by elements without
+    contradictions.
     """
     found = _find_meaning(inputs, key)
     if isinstance(found, str):
@@ -71,7 +73,7 @@ def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
     sides = find_sides(file, text)
     if sides is None and has_markers:
         ours, theirs = markers.read_sides(_plain(text))
-        # both sides are generated texts, so the user has settled nothing
+        # both sides are generated texts, so no edit is lost
         return ours if _are_generated(last, (ours, theirs)) else None
     if sides and _are_generated(last, (sides.ours, sides.theirs)):
         return sides.ours
@@ -81,9 +83,9 @@ def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
 
 
 def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ...]:
-    """Merge two versions by their elements: as they are; if that fails, as two edits of the same generated text.
+    """Merge two versions by their elements; if that fails, merge their edits into the same generated text.
 
-    The second way ignores differences that come from different exports: these are no contradictions between people.
+    The second way ignores differences between exports: these are no contradictions between people.
     """
     from urdfsync.merge.texts import merge_file  # imports the parser
 
@@ -105,7 +107,7 @@ def describe(contradictions: Sequence[str]) -> str:
 def write_meanings(
     files: PackageFiles, actions: Iterable[Action], merged: Mapping[str, str]
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
-    """Return actions that write the meanings of files in which git left another text, and all merged texts, by key."""
+    """Return actions that write the meanings of files that git merged, and all merged texts, by key."""
     settled, texts = list[Action](), dict(merged)
     for action in actions:
         if action.is_left_by_git and action.reason in _IN_STEP:
@@ -124,9 +126,9 @@ def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
 
 
 def can_join(file: Path, text: str, *, is_united: bool) -> bool:
-    """Return whether a list of names with markers is as git left it: then the lines of both sides may be joined.
+    """Return whether a `package.order` with markers is still git's merge, so that its lines may be joined.
 
-    If git does not tell, `is_united` decides: whether git has united the recorded state.
+    Without a readable repository, `is_united` decides: whether git has united the recorded state.
     """
     try:
         Revision(file.parent, "HEAD")
@@ -136,26 +138,26 @@ def can_join(file: Path, text: str, *, is_united: bool) -> bool:
 
 
 def find_sides(file: Path, text: str) -> Sides | None:
-    """Return the versions of a file that git merged, in the present merge or in the last one.
+    """Return the versions of a file that git merged, in the present merge or in the last merge.
 
-    None if there are none, or if somebody has changed the file since.
+    Return None if there are none, or if somebody has changed the file since the merge.
     """
     import pygit2
 
-    dependencies.mark_incomplete()  # a commit may change the answer without a change of files
+    dependencies.mark_incomplete()  # a commit may change this result without changing a file
     text = _plain(text)
     try:
         repository = Revision(file.parent, "HEAD").repository
         candidates = itertools.chain(_staged(repository, file, text), _committed(repository, file))
         return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
-        return None  # a damaged or shallow repository counts as none
+        return None  # as without a repository: it is damaged or shallow
 
 
 def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileRecord]:
-    """Return the records of files that one branch edited and the other deleted, by key.
+    """Return the records of files that one branch edited and the other branch deleted, by key.
 
-    Git leaves such a file in the working tree, but the united record does not list it.
+    Git leaves such a file in the working tree, but the united record does not list this file.
     """
     top = Path(git.find_top(inputs.config.root) or "")
     folder = top / ".git"
@@ -165,7 +167,7 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
         return {}  # importing pygit2 takes 55 ms
     import pygit2
 
-    dependencies.mark_incomplete()  # a commit may change the answer without a change of files
+    dependencies.mark_incomplete()  # a commit may change this result without changing a file
     wanted = {os.path.relpath(os.path.realpath(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
     found = dict[str, FileRecord]()
     try:
@@ -184,7 +186,7 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
 
 
 def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:
-    """Yield the versions in the index, if git stopped at the file."""
+    """Yield the versions in the index, if git reports a conflict in the file."""
     folder = Path(os.path.realpath(file.parent)).relative_to(os.path.realpath(repository.workdir))
     path, label = (folder / file.name).as_posix(), re.search(r"(?m)^>{7,} ([^\s:]+)", text)
     for base, ours, theirs in repository.index.conflicts or ():
@@ -194,14 +196,14 @@ def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Si
         if ours and theirs and entries:
             yield Sides(*texts)
         elif entries and text in texts[1:]:
-            # if both branches renamed a file, git writes its merge to both paths; each path is in one branch only
+            # if both branches renamed a file, git writes the merge to both paths; each branch has only one path
             for name in ("HEAD",) if ours else (*_UNDER_WAY, label[1] if label else ""):
                 if (own := _read(name, file)) is not None:
                     yield Sides(own, own, own)
 
 
 def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
-    """Yield the versions of the two commits that git unites, and of the parents of a merge."""
+    """Yield the versions in the two commits that git is merging, and in the parents of the last merge."""
     import pygit2
 
     for names in (*(("HEAD", name) for name in _UNDER_WAY), ("HEAD^1", "HEAD^2")):
@@ -210,7 +212,7 @@ def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
             continue
         commits = [repository.revparse_single(name).peel(pygit2.Commit) for name in names]
         ancestor = repository.merge_base(commits[0].id, commits[1].id)
-        # the base of a merge is the common ancestor, that of a picked commit its parent
+        # the base of a merge is the common ancestor; the base of a cherry-pick is the commit's parent
         for base in dict.fromkeys([str(ancestor or ""), f"{names[1]}^"]):
             yield Sides(_read(base, file) or "", ours, theirs)
 
@@ -230,8 +232,8 @@ def _plain(text: str) -> str:
 def _is_untouched(text: str, sides: Sides) -> bool:
     """Return whether a text is git's merge of two versions, with the driver or by lines.
 
-    In a merge by lines, each side of a conflict has its own version, with those changes of the other version that touch
-    none of its own. The test compares these changes, since git may compare lines in several ways.
+    After a merge by lines, each side of a conflict has one version, with the other version's changes to unchanged
+    lines. This compares the changes, since git may compare lines in several ways.
     """
     from urdfsync.merge.texts import merge_file
 
@@ -257,7 +259,7 @@ def _changes(old: str, new: str) -> _Changes:
 
 
 def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
-    """Return the changes of each side that touch none of the other side's."""
+    """Return the changes of each side that do not touch changes of the other side."""
     from urdfsync.merge.lines import find_regions
 
     lines = [_lines(text) for text in sides]
@@ -271,7 +273,7 @@ def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
 
 
 def _lines(text: str) -> list[str]:
-    """Return the lines of a text; a missing line feed at its end does not matter: a merge adds it before a marker."""
+    """Return the lines of a text, ignoring a missing line feed at the end: git adds one before a marker."""
     return text.removesuffix("\n").split("\n")
 
 

@@ -13,15 +13,15 @@ from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_that_use, modelica_files
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
-"""Names of files that show that a folder is another project, or a virtual environment of Python."""
+"""Files that mark a folder as another project, or as a virtual environment of Python."""
 _MOST = 20_000
-"""The most folders to search, which takes a second: a stranger's configuration may name the whole disk."""
+"""The greatest number of folders to search, in about a second: a stranger's configuration may name the whole disk."""
 _MOST_KEPT = 50_000_000
-"""The most bytes of files in memory; further files are read again each time."""
+"""The greatest number of bytes of files in memory; further files are read again each time."""
 
 
 class _Files(Mapping[Path, bytes]):
-    """Files that are read on demand. An unreadable one is empty."""
+    """Files that are read on demand. An unreadable file counts as empty."""
 
     def __init__(self, paths: Iterable[Path]) -> None:
         self._paths, self._kept, self._size = dict.fromkeys(paths), dict[Path, bytes](), 0
@@ -50,13 +50,13 @@ class UsersFiles(msgspec.Struct, frozen=True, dict=True):
 
     all: Mapping[Path, bytes]
     mentioning: Mapping[Path, bytes]
-    """The files that use the robot, or a class of another file that uses it."""
+    """The files that use the robot, or a class of another file in this list."""
     is_too_wide: bool = False
-    """Whether there are too many folders, so that no file was searched."""
+    """Whether there are too many folders to search."""
 
     @cached_property
     def tops(self) -> dict[str, Path]:
-        """Return the files or folders of top-level classes, by name; a name that several of them have is left out."""
+        """Return the files or folders of top-level classes, by name; names of several classes are left out."""
         places_by_name = dict[str, set[Path]]()
         for path in self.all:
             folder = path.parent.parent if path.name == "package.mo" else path.parent
@@ -71,8 +71,8 @@ def find_users_files(
 ) -> UsersFiles:
     """Return the user's Modelica files, and those that mention a name of a robot's package.
 
-    They are below the configuration's folder, `output` and the paths of `users`. The packages of all robots are left
-    out, also one in `former_folder`; so are other projects, virtual environments, and unreadable files.
+    This searches below the configuration's folder, `output` and the paths of `users`. It leaves out the packages of all
+    robots, the package in `former_folder`, other projects, virtual environments, and unreadable files.
     """
     packages = {str(configured.folder) for configured in config.robots} | {str(former_folder)}
     places = (config.root, robot.output, *robot.users)

@@ -1,7 +1,8 @@
-"""Evaluates expressions of xacro. They are Python, so their syntax tree is checked first: they can't reach other code.
+"""Evaluates expressions of xacro.
 
-Expressions use numbers, texts, lists and dictionaries, and call documented functions of xacro. They may read attributes
-of these values only: attributes of other objects, such as the frame of a generator, lead to all of Python.
+Expressions are Python, so this checks their syntax tree first: they can't reach other code. Expressions use numbers,
+texts, lists and dictionaries, and call documented functions of xacro. Expressions may read attributes of these values
+only. Attributes of other objects, such as the frame of a generator, lead to all of Python.
 """
 
 from __future__ import annotations
@@ -26,18 +27,18 @@ _BUILTINS = frozenset(
     "list dict map len str float int bool True False min max round sorted range abs all any complex divmod enumerate "
     "filter frozenset hash isinstance issubclass ord repr reversed slice set sum tuple zip".split()
 )
-"""The functions of xacro's `python`, without `type` and `vars`, by which an expression could reach other code."""
+"""The functions of xacro's `python`, except `type` and `vars`: with these, an expression could reach other code."""
 _VALUES = frozenset(
     {str, int, float, complex, bool, list, dict, tuple, set, frozenset, xacro.YamlListWrapper, xacro.YamlDictWrapper}
 )
-"""Types whose methods are safe: they work only with values."""
+"""Types with safe methods: these work only with values."""
 _HIDDEN = frozenset({"format_map", "mro"})
 """Public attributes of these types that lead to other objects."""
 _GET = "__attribute"
 
 
 class ForbiddenError(Exception):
-    """An expression has a part by which it could reach other code."""
+    """An expression has a part that could reach other code."""
 
 
 class _Reader(ast.NodeTransformer):
@@ -52,12 +53,12 @@ class _Reader(ast.NodeTransformer):
         return super().visit(node)
 
     def visit_Name(self, node: ast.Name) -> ast.Name:
-        """Refuse a name of Python's own. A name with one `_` is allowed: only a property can have it."""
+        """Refuse a name of Python's own. A name with one leading `_` is allowed: only properties have such names."""
         _check_name(node.id)
         return node
 
     def visit_arg(self, node: ast.arg) -> ast.arg:
-        """Refuse the same names for arguments."""
+        """Refuse names of Python's own for arguments."""
         _check_name(node.arg)
         return node
 
@@ -105,13 +106,13 @@ def _compile(text: str) -> CodeType:
 
 
 def evaluate(text: str, names: MutableMapping[str, Any], _locals: None = None) -> Any:
-    """Evaluate an expression with these names alone. Raises ForbiddenError, and all errors of the expression."""
+    """Evaluate an expression that knows only these names. Raises ForbiddenError, and all errors of the expression."""
     names.update({"__builtins__": {_GET: _attribute}})
     return eval(_compile(text.strip()), names)  # type: ignore[arg-type] # noqa: S307 - `_compile` has checked it
 
 
 def _substitute(text: str, context: Mapping[str, Mapping[str, str]]) -> str:
-    """Evaluate `$(eval …)`, in which arguments are names."""
+    """Evaluate `$(eval …)`; its names are the arguments."""
     convert: Callable[[str, str], Any] = substitution_args.convert_value
     arguments = {name: convert(value, "auto") for name, value in context.get("arg", {}).items()}
     return str(evaluate(text, {**xacro._global_symbols, "true": True, "false": False, **arguments}))

@@ -1,7 +1,7 @@
 """The program that expands one xacro file, within limits; `expansion` starts it.
 
-A stranger may have written the xacro file. It may read files and environment variables, which are recorded here.
-`xacro_expressions` forbids everything else to its expressions.
+A stranger may have written the xacro file. The file may read other files and environment variables, which the answer
+lists. `xacro_expressions` forbids everything else to expressions.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ if sys.platform != "win32":
     import resource
 
 _GRACE = 2
-"""Further seconds of CPU time for native code."""
+"""Seconds of CPU time beyond the limit, for native code."""
 _PLACE = "place"
 _LONGEST = 500
-"""The most characters of a message: it quotes the expression, which may have any length."""
+"""The greatest number of characters of a message: a quoted expression may have any length."""
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
 """Beginnings of lines in which xacro states its place."""
 
@@ -57,7 +57,7 @@ class Request(msgspec.Struct, frozen=True):
     memory: int
     """The bytes that the expansion may allocate."""
     folder: str = "."
-    """The value of `$(cwd)`. The process works elsewhere: PYTHONPATH may have relative entries."""
+    """The value of `$(cwd)`. The process has another working folder: PYTHONPATH may have relative entries."""
 
 
 class Problem(msgspec.Struct, frozen=True):
@@ -74,29 +74,29 @@ class Problem(msgspec.Struct, frozen=True):
 NOT_UNICODE = Problem(
     "xacro",
     "a text or a path that it works with is not UTF-8",
-    hint="give its folders and files other names, or correct the text, then build again",
+    hint="rename its folders and files, or correct the text, then build again",
 )
 
 
 class TimeLimitError(Exception):
-    """The CPU time is used up."""
+    """The expansion has used all its CPU time."""
 
 
 class Answer(msgspec.Struct, frozen=True):
-    """The expanded text, and all that it depends on, even if it failed; files are absolute."""
+    """The expanded text, and all inputs, even after a failure; files are absolute."""
 
     text: str = ""
     places: tuple[tuple[int, str, int], ...] = ()
-    """Line of each element in the text, and its original file and line."""
+    """Line of each element in the text, and the element's original file and line."""
     files: Mapping[str, str | None] = {}
     """Hash of each file that was read; None for a missing one."""
     patterns: tuple[str, ...] = ()
     variables: tuple[str, ...] = ()
-    """The environment variables that were asked for."""
+    """The environment variables that the source has asked for."""
     packages: Mapping[str, str] = {}
-    """Folders of the ROS packages that were asked for."""
+    """Folders of the ROS packages that the source has asked for."""
     unknown: tuple[str, ...] = ()
-    """Arguments that the source did not ask for."""
+    """Given arguments that the source does not declare."""
     warnings: tuple[str, ...] = ()
     problem: Problem | None = None
 
@@ -106,7 +106,7 @@ class PackageNotFoundError(Exception):
 
 
 class PatternError(Exception):
-    """A pattern of files has wildcards outside of the file's name."""
+    """A pattern has wildcards outside of the file's name."""
 
 
 class NotTextError(Exception):
@@ -133,20 +133,20 @@ class _Asked(dict[str, str]):
         return super().__getitem__(key)
 
     def get(self, key: str, default: Any = None) -> Any:
-        """Return a value, or the default."""
+        """Return a value, or the default; record the key."""
         self.asked[key] = None
         return super().get(key, default)
 
 
 def find_matches(pattern: str) -> list[str]:
-    """Return the files that a pattern matches, sorted, hidden ones left out as xacro does.
+    """Return the files that a pattern matches, sorted; leave out hidden files, as xacro does.
 
-    Only the name of the file may have wildcards: a search through folders and links may take forever.
+    Only the file's name may have wildcards: a search through folders and links may take forever.
     """
     folder, name = os.path.split(pattern)
     try:
         names = list_folder(folder)
-    except (OSError, ValueError):  # a stranger may have written the pattern: it may be invalid
+    except (OSError, ValueError):  # a stranger may have written an invalid pattern
         return []
     is_hidden = name.startswith(".")
     matches = [match for match in filter_names(names, name) if match.startswith(".") == is_hidden]
@@ -154,7 +154,7 @@ def find_matches(pattern: str) -> list[str]:
 
 
 class _Files:
-    """Opens and finds files and packages for xacro, and records each."""
+    """Opens and finds files and packages for xacro, and records all of them."""
 
     def __init__(self, packages: ros_packages.Packages) -> None:
         self.hashes: dict[str, str | None] = {}
@@ -181,9 +181,9 @@ class _Files:
         return find_matches(pattern)
 
     def open(self, path: object) -> IO[Any]:
-        """Open a file as text; parsers of XML get its bytes. Raises OSError, TypeError."""
-        if not isinstance(path, str):  # YAML may have bytes
-            raise TypeError(f"the name of a file is text, not {path!r}")
+        """Open a file as text; XML parsers get the bytes. Raises OSError, TypeError."""
+        if not isinstance(path, str):  # a YAML file may give bytes as a name
+            raise TypeError(f"the name of a file must be text, not {path!r}")
         path = os.path.abspath(path)  # noqa: PTH100 - links are not followed
         self.hashes[path] = None
         content = read_unrecorded(path)
@@ -207,7 +207,7 @@ class _File(io.TextIOWrapper):
 
 
 class _Builder(expatbuilder.ExpatBuilderNS):
-    """Builds a document whose elements have their file and line."""
+    """Builds a document; each element knows its file and line."""
 
     file = ""
 
@@ -218,10 +218,10 @@ class _Builder(expatbuilder.ExpatBuilderNS):
 
 
 class _Copied(xml.dom.UserDataHandler):
-    """Gives copies of an element, such as in a macro, the place of the original."""
+    """Gives a copy of an element, such as in a macro, the place of the original."""
 
     def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:  # noqa: ARG002 - DOM's signature
-        """Take part in the copying of an element."""
+        """Record the place of a copied element."""
         if operation == self.NODE_CLONED and dst is not None:
             dst.setUserData(key, data, self)
 
@@ -231,7 +231,7 @@ _macros = set[str]()
 _defaults = set[str]()
 """Names of the arguments with a default in all files that were read."""
 _uses: dict[str, None] = {}
-"""Names of the arguments that all files that were read use, in order."""
+"""Names of the arguments in all files that were read, in order of use."""
 
 
 def _parse(file: _File) -> Any:
@@ -248,7 +248,7 @@ def _parse(file: _File) -> Any:
 
 
 def expand(request: Request) -> Answer:
-    """Expand a file as the program `xacro` does, without the comment at its top. The changes to this process stay."""
+    """Expand a file as the program `xacro` does, without the comment at the top. Changes modules of this process."""
     try:
         import xacro
 
@@ -257,7 +257,7 @@ def expand(request: Request) -> Answer:
         return Answer(problem=Problem("no-xacro", f"xacro can't be loaded: {error}"))
     files = _Files(ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source)))
     said = io.StringIO()
-    # xacro asks ROS 2 for packages, which need not be installed
+    # xacro asks ROS 2 for packages; ROS 2 need not be installed
     ament = types.ModuleType("ament_index_python.packages")
     ament.get_package_share_directory = files.find  # type: ignore[attr-defined]
     sys.modules.update({"ament_index_python": types.ModuleType("ament_index_python"), ament.__name__: ament})
@@ -265,7 +265,7 @@ def expand(request: Request) -> Answer:
     xacro.open, xacro.glob, xacro.root_dir = files.open, files, request.folder
     xml.dom.minidom.parse = _parse  # type: ignore[assignment]
     arguments, environment = _Asked(request.arguments), _Asked(os.environ)
-    os.environ = environment  # type: ignore[assignment] # noqa: B003 - it only records which variables are read
+    os.environ = environment  # type: ignore[assignment] # noqa: B003 - this mapping only records which variables are read
     text, problem = "", None
     places: tuple[tuple[int, str, int], ...] = ()
     try:
@@ -275,7 +275,7 @@ def expand(request: Request) -> Answer:
             document = xacro.parse(None, request.source)
             xacro.process_doc(document, mappings=arguments)
             text = document.toprettyxml(indent="  ")
-            # the text is the same on every machine
+            # so the text is the same on every machine
             for name, folder in sorted(files.packages.items(), key=lambda item: -len(item[1])):
                 text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
             places = tuple(_places(document, text))
@@ -283,7 +283,7 @@ def expand(request: Request) -> Answer:
                 if element.tagName in _macros:
                     name, (_, line) = element.tagName, element.getUserData(_PLACE)
                     said.write(f"warning: <{name}> of line {line} calls no macro: write <xacro:{name} …>\n")
-    except Exception as error:  # noqa: BLE001 - expressions may raise anything
+    except Exception as error:  # noqa: BLE001 - expressions may raise any exception
         unset = [name for name in _uses if name not in _defaults.union(request.arguments)]
         problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source, files.packages, unset)
     lines = [line.strip() for line in said.getvalue().splitlines()]
@@ -303,7 +303,7 @@ def expand(request: Request) -> Answer:
 def _raise_at_limit(seconds: float) -> None:
     """Raise TimeLimitError when the CPU time is over, so that the message can name the place.
 
-    Python can't raise it within native code; there, `limits` ends the process a little later.
+    Python can't raise this error within native code: there, `limits` ends the process a little later.
     """
     if sys.platform == "win32":
         return
@@ -318,11 +318,11 @@ def _raise_at_limit(seconds: float) -> None:
 
 
 def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
-    """Yield the line of each element in a text, and its original place."""
+    """Yield the line of each element in a text, and the element's original place."""
     lines = list[int]()
     parser = expat.ParserCreate()
     parser.StartElementHandler = lambda *_: lines.append(parser.CurrentLineNumber)
-    parser.Parse(text.encode(), True)  # noqa: FBT003 - it has no keywords
+    parser.Parse(text.encode(), True)  # noqa: FBT003 - this method has no keywords
     elements = document.getElementsByTagName("*")
     for line, element in zip(lines, elements, strict=True):
         file, origin = element.getUserData(_PLACE)
@@ -330,9 +330,9 @@ def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
 
 
 def _problem(error: BaseException, current: str, packages: Mapping[str, str], unset: Sequence[str]) -> Problem:
-    """Return why an expansion failed: the innermost cause, and xacro's place; `current` is its present file.
+    """Return why an expansion failed: the innermost cause, and the place; `current` is xacro's present file.
 
-    `packages` are the folders of the ROS packages that the file named, `unset` names arguments without a value.
+    `packages` has the folders of the ROS packages that the file named, `unset` has arguments without a value.
     """
     place, frame = None, error.__traceback__
     while frame is not None:  # the innermost element that xacro is processing
@@ -363,7 +363,7 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str], un
             message = f"{cause.filename} can't be read: {cause.strerror}"
             missing = Path(cause.filename).parents if isinstance(cause, FileNotFoundError) else ()
             package = next((name for name, folder in packages.items() if Path(folder) in missing), None)
-            # a package may install its files into other folders, as the demos of ros2_control do
+            # packages may install files into other folders, as the demos of ros2_control do
             hint = f"if package `{package}` has this file once it is installed, name the installed xacro file as source"
             return Problem("xacro", message, file, line, hint if package else "")
     if type(cause).__name__ == "ArgException":
@@ -383,7 +383,7 @@ def _kind(content: bytes) -> FileKind | None:
 
 
 def _encode(answer: Answer) -> bytes:
-    """Return an answer as JSON; if it can't be JSON or is too large, return an answer that says so."""
+    """Return an answer as JSON; if that is impossible or too large, return an answer with this problem."""
     try:
         content = msgspec.json.encode(answer)
     except UnicodeEncodeError:

@@ -1,4 +1,4 @@
-"""Runs git in the repository around the working folder. It only reads the index, and does not refresh it."""
+"""Runs git in the repository around the working folder. Nothing here writes or refreshes the index."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Collection
 from functools import cached_property
 
 _SETTINGS = ("-c", "safe.bareRepository=explicit", "-c", "core.fsmonitor=false", "-c", "diff.relative=false")
-"""Override settings of the repository: these may name programs that git runs, such as fsmonitor."""
+"""Override the repository's settings: a setting such as fsmonitor names a program that git would run."""
 _PATHSPECS = {f"GIT_{kind}_PATHSPECS" for kind in ("LITERAL", "GLOB", "NOGLOB", "ICASE")}
 
 
@@ -18,7 +18,7 @@ class GitError(Exception):
 class Index:
     """The index of the repository around the working folder.
 
-    Files are named by their path from the top, with forward slashes. A submodule is one path, without its files.
+    Paths are from the top of the repository, with forward slashes. A submodule is one path, without its files.
     """
 
     def __init__(self) -> None:
@@ -29,22 +29,22 @@ class Index:
         unusual = [(entry[0], entry[2:]) for entry in entries if not entry.startswith("H ")]
         self.unmerged = {path for tag, path in unusual if tag == "M"}
         self.unstaged = {path for tag, path in unusual if tag == "C"}
-        """Tracked files that differ in the working tree from the index, deleted ones included."""
+        """Tracked files that differ in working tree and index, including deleted files."""
         self.hidden = {path for tag, path in unusual if tag not in "MC"}
-        """Tracked files that git ignores by a flag, so their differences are unknown."""
+        """Tracked files with a flag (such as `assume-unchanged`) that hides changes."""
 
     def has_staged(self, paths: Collection[str]) -> bool:
-        """Return whether all paths are tracked, and staged as they are.
+        """Return whether all paths are tracked, and staged as on disk.
 
-        A path that ends with `/` means all files below it.
+        A path that ends with `/` stands for all files below.
         """
         folders, differing = tuple(set(paths) - self.tracked), self.unstaged | self.hidden
         if not all(path.endswith("/") for path in folders):
-            return False  # a file is not tracked
+            return False  # an untracked file
         return differing.isdisjoint(paths) and not any(path.startswith(folders) for path in differing)
 
     def find_committed(self) -> set[str]:
-        """Return the files that the commit changes, deleted ones included."""
+        """Return the files that the commit changes, including deleted files."""
         try:
             return set(_list("diff-index", "--cached", "--name-only", "--no-renames", "HEAD", "--"))
         except GitError:  # there is no commit yet
@@ -63,7 +63,7 @@ class Index:
 
 
 def find_top(folder: str | os.PathLike[str]) -> str | None:
-    """Return the nearest folder around another, itself included, that has a `.git`; None if there is none.
+    """Return the folder, or the nearest folder above, that has a `.git`; None if there is none.
 
     A bare repository, without a `.git`, is skipped: a stranger may have committed its files. Git never commits or
     checks out a `.git`.
@@ -80,22 +80,23 @@ def find_top(folder: str | os.PathLike[str]) -> str | None:
 
 
 def _list(command: str, *arguments: str) -> list[str]:
-    """Run a command of git that lists paths. Raises GitError."""
+    """Run a git command that lists paths. Raises GitError."""
     return run(command, "-z", *arguments).split("\0")[:-1]
 
 
 def run(*arguments: str) -> str:
-    """Run git at the top of the repository around the working folder; return its output. Raises GitError.
+    """Run git at the top of the repository around the working folder; return its output.
 
-    Git's variables are passed on: GIT_DIR and GIT_INDEX_FILE name the commit under way.
+    Raises GitError. Git's environment variables stay: GIT_DIR and GIT_INDEX_FILE name the commit's repository and
+    index.
     """
     # git before 2.38 ignores safe.bareRepository; later versions fail instead of skipping such a folder
     top = None
     if "GIT_DIR" not in os.environ and (top := find_top(os.curdir)) is None:
         raise GitError("git failed: not a git repository")
-    variables = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}  # they redefine `:/`
+    variables = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}  # these change `:/`
     variables |= {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}  # English messages; git must not refresh the index
-    import subprocess  # 5 ms that most builds save: they look for a repository, and run nothing
+    import subprocess  # takes 5 ms, which most builds save: they run nothing
 
     command = ["git", *_SETTINGS, *arguments]
     try:

@@ -1,4 +1,4 @@
-"""Decides by saved answers whether a commit passes: `urdfsync hook` imports only this if there is nothing to do."""
+"""Decides by saved answers whether a commit passes: if there is no work, `urdfsync hook` imports no other module."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ def is_answered(arguments: list[str]) -> bool:
 
 
 def passes(index: git.Index, configuration: str) -> bool:
-    """Return whether, by a saved answer, a configuration (named from the top) is in step and completely staged.
+    """Return whether, by a saved answer, a configuration (a path from the top) is in step and completely staged.
 
-    An answer lists the files that have to be staged. It holds until a file changes that a build of the robots
-    reads.
+    A saved answer lists the files that must be staged. The answer holds until a file changes that builds of the robots
+    read.
     """
     file, key = answer_place(index, configuration)
     answer = uptodate.find_answer(file, "hook", key)
@@ -28,14 +28,14 @@ def passes(index: git.Index, configuration: str) -> bool:
 
 
 def answer_place(index: git.Index, configuration: str) -> tuple[str, str]:
-    """Return the file of a configuration, and the key of its answer: all its inputs other than files."""
+    """Return the file of a configuration, and the key of its answer: a text of all inputs other than files."""
     file = f"{index.top}/{configuration}"
     variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH"))
     return file, repr(("hook", file, os.getcwd(), *variables))
 
 
 def find_configurations(index: git.Index) -> set[str]:
-    """Return the configurations that git tracks, and those on disk whose states git tracks."""
+    """Return the tracked configurations, and untracked configurations on disk with tracked state."""
     name, states = uptodate.CONFIGURATION, ".urdfsync/robots/"
     configurations = {path for path in index.tracked if path.endswith(name) and path.rpartition("/")[2] == name}
     of_states = {path.rpartition(states)[0] + name for path in index.tracked if states in path}

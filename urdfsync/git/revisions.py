@@ -1,6 +1,6 @@
-"""Reads sources in git revisions, with the files that they refer to.
+"""Reads sources in git revisions, and the files that these sources refer to.
 
-libgit2 reads the object database: no program is run, nothing is fetched, and nothing in the repository changes.
+libgit2 reads the object database: this runs no program, fetches nothing, and changes nothing in the repository.
 """
 
 from __future__ import annotations
@@ -24,22 +24,19 @@ if TYPE_CHECKING:
 
 _HINT = "name an existing file, or a branch, tag or commit such as HEAD~1"
 _LFS_POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
-"""Content in git that stands for a file in Git LFS."""
+"""Content of a Git LFS pointer in git."""
 
 
 def open_repository(folder: Path) -> pygit2.Repository | None:
-    """Return the repository whose working tree a folder lies in; None if there is none.
-
-    Raises SourceError if it can't be read.
-    """
-    import pygit2  # 55 ms that a comparison with the last build saves
+    """Return the repository around a folder; None if there is none. Raises SourceError for an unreadable repository."""
+    import pygit2  # takes 55 ms: a comparison with the last build does not need it
 
     from urdfsync import git  # likewise
 
     if (top := git.find_top(folder)) is None:
         return None
     try:
-        # discover_repository of libgit2 may find a bare repository that a stranger has committed as files
+        # libgit2's discover_repository may find a bare repository that a stranger has committed as files
         flags = pygit2.enums.RepositoryOpenFlag.NO_SEARCH | pygit2.enums.RepositoryOpenFlag.NO_DOTGIT
         repository = pygit2.Repository(Path(top, ".git"), flags)
     except pygit2.GitError as problem:  # for example, it belongs to another user
@@ -49,7 +46,7 @@ def open_repository(folder: Path) -> pygit2.Repository | None:
 
 
 class Revision:
-    """One revision of the repository that holds a folder."""
+    """One revision of the repository around a folder."""
 
     def __init__(self, folder: Path, name: str) -> None:
         """Raises SourceError if the repository or the revision is missing."""
@@ -83,7 +80,7 @@ class Revision:
         return content
 
     def holds(self, file: Path) -> bool:
-        """Return whether a revision of this repository can have a file at this path; False for one in a submodule."""
+        """Return whether a revision of this repository can have a file at this path; False inside of a submodule."""
         place = Path(os.path.realpath(file))
         if self._top not in place.parents:
             return False
@@ -91,7 +88,10 @@ class Revision:
         return not any((folder / ".git").exists() for folder in inside)
 
     def contents(self, files: Sequence[Path]) -> Mapping[Path, bytes]:
-        """Return the contents of the files that this revision has. Raises SourceError if the clone lacks a content."""
+        """Return the contents of those files that this revision has.
+
+        Raises SourceError if the clone lacks a content.
+        """
         import pygit2
 
         contents = {}
@@ -112,7 +112,7 @@ class Revision:
     def locate(self, dependencies: Sequence[Dependency], scratch: Path) -> Sequence[Dependency]:
         """Replace candidates by this revision's files; candidates outside of the repository stay.
 
-        Files that are missing or different on disk are written to `scratch`.
+        This writes files that are missing or different on disk to `scratch`.
         """
         held = {path for dependency in dependencies for path in dependency.candidates if self.holds(path)}
         places = {}
@@ -131,7 +131,7 @@ class Revision:
 
 
 def _is_on_disk(path: Path, content: bytes) -> bool:
-    """Return whether the file has this content; if it is a pointer of Git LFS, the content that it points to."""
+    """Return whether the file on disk has this content; for a Git LFS pointer, the content that the pointer names."""
     try:
         now, pointer = read_unrecorded(path), _LFS_POINTER.match(content)
     except OSError:

@@ -1,4 +1,4 @@
-"""Three-way merge of generated text with hand edits; the same result on every machine."""
+"""Three-way merge of generated texts and hand edits, with the same result on every machine."""
 
 from urdfsync.merge.texts import Merge, merge
 

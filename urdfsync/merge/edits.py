@@ -1,4 +1,4 @@
-"""The changes of a text, by the elements of its class."""
+"""Finds the changes of a text, by elements of its class."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ from urdfsync.modelica.tree import (
 )
 
 _ITEM = re.compile(r" #\d+$")
-"""Matches the end of the key of a thing that has a number instead of a name."""
+"""The number at the end of the key of a thing without a name."""
 _DOCUMENTATION = "the Documentation"
-"""The element that an edit of a documentation is told of."""
+"""The name of the element for edits of a documentation."""
 
 
 class Edit(msgspec.Struct, frozen=True):
-    """One difference from base; a missing text is None."""
+    """One difference between base and *mine*; a missing text is None."""
 
     element: str
     """The element, such as "component `body`"."""
     part: str
-    """The changed part of it, such as `inertial.mass`, "type" or "layout"; empty for the whole element."""
+    """The changed part of the element, such as `inertial.mass`, "type" or "layout"; empty for the whole element."""
     base: str | None
     mine: str | None
 
@@ -50,15 +50,15 @@ class Edit(msgspec.Struct, frozen=True):
 
     @property
     def is_for_readers(self) -> bool:
-        """Whether only words changed that no simulation reads."""
+        """Whether only a documentation or a description changed: no simulation reads these."""
         return self.element == _DOCUMENTATION or self.part == "description"
 
 
 def find_edits(base: str, mine: str) -> list[Edit] | None:
-    """Return the differences of two versions of a class; None if a text is no class of Modelica.
+    """Return the differences of two versions of a class; None if a text is not one Modelica class.
 
-    Blanks are no difference. The order of declarations is no difference either, except that of a function's inputs and
-    outputs. All new comments together are one difference.
+    Blanks and the order of declarations are no differences, but the order of a function's inputs and outputs is. All
+    changed comments together are one difference.
     """
     base_tree, mine_tree = read_tree(base), read_tree(mine)
     if not (base_tree and mine_tree):
@@ -84,7 +84,7 @@ def _edit(path: tuple[str, ...], old: Node | None, new: Node | None) -> Edit:
 def _differences(
     path: tuple[str, ...], old: Node, new: Node
 ) -> Iterator[tuple[tuple[str, ...], Node | None, Node | None]]:
-    """Yield both versions of each innermost thing that differs, and the keys that lead to it, the outermost first."""
+    """Yield both versions of each innermost difference, and the keys that lead there, the outermost first."""
     if is_same(old, new):
         return
     if not (isinstance(old, SyntaxTree) and isinstance(new, SyntaxTree) and old.kind is new.kind) or (
@@ -110,10 +110,10 @@ def _differences(
 
 
 def in_words(edits: Sequence[Edit]) -> list[tuple[str, str]]:
-    """Return the elements and their changes in words, words for readers last; layout and comments are one line each."""
+    """Return the elements and their changes in words, texts for readers last; layout and comments are one line each."""
     told = [edit for edit in edits if edit.element != "comments" and edit.part != "layout"]
     lines = [(edit.element, edit.told) for edit in sorted(told, key=lambda edit: edit.is_for_readers)]
     if moved := {edit.element for edit in edits if edit.part == "layout"}:
         what = "1 element" if len(moved) == 1 else f"{len(moved)} elements"
-        lines.append(("layout", f"{what} placed or drawn in another way"))
+        lines.append(("layout", f"{what} placed or drawn differently"))
     return [*lines, *(("comments", "changed") for edit in edits if edit.element == "comments")]

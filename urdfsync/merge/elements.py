@@ -1,14 +1,14 @@
 """Three-way merge of classes: applies the changes from base to generated to the user's text, thing by thing.
 
-A thing is an element, an equation, a modifier or a part of one (`urdfsync.modelica.tree`).
+A thing is an element, an equation, a modifier, or a part of these (`urdfsync.modelica.tree`).
 
 - A change, an addition or a removal by one side is taken. If both sides add things, all stay, the user's first.
-- A thing that both sides changed is merged part by part; a part that they changed differently is a contradiction.
+- A thing that both sides changed is merged part by part; a part that the sides changed differently is a contradiction.
 - Things stand in the generated order. A thing that the user added or moved stands behind its predecessor in his text.
 - Arrays, and the inputs and outputs of a function, are sequences (`urdfsync.merge.lines`).
-- Where the user changed blanks or comments, his stay.
-- Where the user changed a number, rounding by the export is no change.
-- Where the user changed some of the layout, his layout stays (`urdfsync.merge.layout`).
+- Where the user changed blanks or comments, his blanks and comments stay.
+- If the user changed a number, rounding of this number by the export is no change.
+- If the user changed the layout of a diagram or icon, its layout stays (`urdfsync.merge.layout`).
 
 Between two people, comments and layout count as content: a change by one side is taken. Comments are merged statement
 by statement.
@@ -43,22 +43,22 @@ from urdfsync.modelica.tree import (
 from urdfsync.spelling import same_count
 
 ROUNDING = 1e-6
-"""Two numbers are equal up to rounding if they differ by less than this, relative to the larger one."""
+"""The greatest difference of two numbers by rounding, relative to the larger number."""
 
 _ROLES = (
     "within prefixes word head type name sizes connect equation import external components arguments sign expression "
     "value condition constraint description annotation definition body end ;"
 ).split()
-"""The order of the roles that the parts of an element have."""
+"""The roles of an element's parts, in order."""
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _BLOCKS = frozenset({"if", "for", "when"})
 _MOVABLE = frozenset({"arguments", "annotation"})
-"""Lists that mean nothing if they are empty."""
+"""Lists without a meaning if they are empty."""
 
 
 Path: TypeAlias = tuple[str, ...]
 Layout: TypeAlias = frozenset[str] | None
-"""The annotations with the user's layout. None between two people: then all layout and comments count."""
+"""The annotations with the user's layout. None for a merge between two people: all layout and comments count."""
 
 
 def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree, *, is_export: bool) -> list[Piece]:
@@ -70,7 +70,7 @@ def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree, *, is
 
 
 def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_layout: Layout) -> list[Piece]:
-    """Merge a thing that both sides have."""
+    """Merge a thing that exists on both sides."""
     if base and base.text == mine.text and not users_layout:
         return [generated.text]
     is_two_people, key = users_layout is None, path[-1] if path else ""
@@ -95,7 +95,7 @@ def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_lay
 
 
 def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, users_layout: Layout) -> list[Piece]:
-    """Merge one part of a class between two people, with its comments: `_merge` would keep only the first side's."""
+    """Merge one part of a class between two people, with comments: `_merge` would keep only the comments of `mine`."""
     merged = _merge_comments(base.text if base else "", mine.text, other.text)
     if merged is None:
         return [_contradiction(path, base, mine, other)]
@@ -106,7 +106,7 @@ def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, use
 
 
 def _merge_comments(base: str, mine: str, other: str) -> str | None:
-    """Return the text with the comments merged between two people; None if both changed them."""
+    """Return the text whose comments both people can accept; None if both changed the comments."""
     if base == mine:
         return other
     old, own, new = map(comments, (base, mine, other))
@@ -121,7 +121,7 @@ def _has_body(node: Node) -> bool:
 
 
 def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
-    """Merge a thing without parts: take it whole from one side, or merge blocks, algorithms and strings by lines."""
+    """Merge a thing without parts: take one side's text, or merge blocks, algorithms and strings by lines."""
     is_users = base is None or not is_same(base, mine)
     has_lines = all("\n" in node.text for node in (mine, generated)) and (not is_users or _has_lines(path, generated))
     if base and has_lines and "\n" in base.text:
@@ -140,7 +140,7 @@ def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> 
 
 
 def _has_lines(path: Path, node: Node) -> bool:
-    """Whether a text that the user changed can be merged line by line; any other text is merged as a whole."""
+    """Whether a text that the user changed is merged line by line; other texts are merged as a whole."""
     if not isinstance(node, Leaf):
         return False
     is_block = path[-1] == "equation" and node.words[0] in _BLOCKS
@@ -160,7 +160,7 @@ def _contradiction_of_lines(path: Path, texts: Sequence[str]) -> list[Piece]:
 
 
 def _is_rounding(old: Node, new: Node) -> bool:
-    """Whether two texts differ only in the last digits of numbers; all digits of Integers count."""
+    """Whether two texts differ only by rounding of numbers; Integers must be equal."""
     if not (isinstance(old, Leaf) and isinstance(new, Leaf)) or len(old.words) != len(new.words):
         return False
     return all(
@@ -199,7 +199,7 @@ def _merge_parts(
     has_sequence = mine.kind is TreeKind.BODY or (mine.kind is TreeKind.ARRAY and PICTURES.isdisjoint(path))
     sequence = _sequence(trees) if has_sequence else []
     items: dict[str, _Item] = {}
-    notes = ""  # the user's comments in removed parts, for the next item
+    notes = ""  # comments of the user from removed parts, for the next item
     for part in mine.parts:
         old, new, here = base.find(part.key), generated.find(part.key), (*path, part.key)
         pieces: list[Piece] = [part.node.text]
@@ -217,7 +217,7 @@ def _merge_parts(
             pieces = _merge(here, old.node, part.node, nothing, users_layout)
         elif not is_picture and part.key not in (users_layout or ()):
             pieces = [_contradiction(here, old.node, part.node, None)]
-        # inside of an element, the blanks depend on neighbouring blanks
+        # inside of an element, keep the user's blanks: they depend on each other
         blanks = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
         if is_two_people and is_class and new:
             blanks, pieces = _merge_around(here, old, part, new, pieces)
@@ -238,7 +238,7 @@ def _merge_parts(
             pieces = [_contradiction((*path, part.key), old.node, None, part.node)]
         items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
     order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
-    # the order may name an element that one side moved and the other removed
+    # the order may name an element that one side moved and the other side removed
     if sequence is None or set(order) - items.keys() or [key for key in order if key in sequence] != sequence:
         place = (*path, "order") if mine.kind is TreeKind.BODY else path
         return [_contradiction(place, base, mine, generated)]
@@ -251,7 +251,7 @@ def _merge_parts(
 
 
 def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
-    """Merge an ordered sequence by keys; None if both sides changed it."""
+    """Merge an ordered sequence by keys; None if both sides changed the same place."""
     kind = trees[1].kind
     keys = [tree.signature if kind is TreeKind.BODY else [part.key for part in tree.parts] for tree in trees]
     base, mine, generated = keys
@@ -263,7 +263,7 @@ def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
 
 
 def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree, users_layout: Layout) -> bool:
-    """Whether one side left a thing of base, and the thing's section, unchanged.
+    """Whether one side has a thing of base, and the thing's section, unchanged.
 
     Layout and comments count only between two people.
     """
@@ -283,7 +283,7 @@ def _with_blanks(part: Part | None) -> str:
 def _merge_around(
     path: Path, base: Part | None, mine: Part, other: Part, pieces: list[Piece]
 ) -> tuple[Sequence[str], list[Piece]]:
-    """Merge the comments around a part between two people; if both changed them, the whole part is a contradiction."""
+    """Merge the comments around a part between two people; comments that both changed make the part a contradiction."""
     before = _merge_comments(base.before if base else "", mine.before, other.before)
     remark = _merge_comments(base.remark if base else "", mine.remark, other.remark)
     if before is None or remark is None:
@@ -293,14 +293,14 @@ def _merge_around(
 
 
 def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[str]:
-    """Return the blanks and comments around a part and its separator: the user's, if he changed them."""
+    """Return the blanks and comments around a part and its separator: the user's if changed, else the generated."""
     own = mine.before, mine.after, mine.remark
     is_changed = not (base and generated) or own != (base.before, base.after, base.remark)
     return own if is_changed or not generated else (generated.before, generated.after, generated.remark)
 
 
 def _remaining_notes(part: Part, old: Part) -> str:
-    """Return the user's comments at a removed thing, each with the blanks before it."""
+    """Return the user's comments at a removed thing, each with a line break or blank before."""
     had = comments(_with_blanks(old))
     lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", part.before)), " ")
     notes = [note for note in comments(_with_blanks(part)) if note not in had]
@@ -324,7 +324,7 @@ def _order(trees: Sequence[SyntaxTree], keys: Iterable[str]) -> list[str]:
 
 
 def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
-    """Return the section of a merged part: the user's, unless the export alone has moved it."""
+    """Return the section of a merged part: the user's section, unless only the export moved the part."""
     old, own, new = (tree.sections.get(key) for tree in trees)
     if own is None or new is None:
         return own if new is None and own is not None else new or ""
@@ -336,7 +336,7 @@ def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
 
 
 def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str, end: list[Piece]) -> list[Piece]:
-    """Return the text of the merged things, with the blanks and separators around them; `end` is the merged closing."""
+    """Return the text of the merged things, with blanks and separators; `end` is the merged closing."""
     base, mine, generated = trees
     empty = _empty_sections([[part.key for part in tree.parts] for tree in (mine, generated)], items)
     items = [item for item in items if item.key not in empty or comments(item.before + item.remark)]
@@ -362,18 +362,18 @@ def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str, end: l
 
 
 def append_blanks(pieces: list[Piece], blanks: str) -> None:
-    """Add blanks and comments, separated from the lines before and after them."""
+    """Add blanks and comments, and keep them apart from the lines before and after."""
     last = pieces[-1] if pieces else ""
     if isinstance(last, str) and last.endswith("\n") and re.match(r"\s*\n", blanks):
-        pieces[-1] = last[:-1]  # the end of a comment
-    # match one comment after the other: a single pattern would try all combinations of their ends
+        pieces[-1] = last[:-1]  # it ended a comment
+    # match comment by comment: a single pattern would try all combinations of comment ends
     *_, comment = "", *_COMMENT.findall(blanks)
     runs_on = comment.startswith("//") and blanks.endswith(comment)
     pieces.append(f"{blanks}\n" if runs_on else blanks)
 
 
 def _empty_sections(sides: Sequence[Sequence[str]], items: Sequence[_Item]) -> set[str]:
-    """Return the keys of sections that are empty only in the merge."""
+    """Return the keys of sections that are empty in the merge, but not in the two sides."""
     return _sections_without_parts([item.key for item in items]).difference(*map(_sections_without_parts, sides))
 
 
@@ -383,7 +383,7 @@ def _sections_without_parts(keys: Sequence[str]) -> set[str]:
 
 
 def _space_items(mine: SyntaxTree, items: Sequence[_Item]) -> None:
-    """Give the items of a merged list the blanks that stand between the items of the user's list."""
+    """Give the items of a merged list the blanks between items of the user's list."""
     usual = next((part.before for part in mine.parts[1:] if not part.before.strip()), None)
     between = (part.after for part in mine.parts[:-1] if part.after.isspace())
     behind = next(between, "" if mine.separator == "," else " ")

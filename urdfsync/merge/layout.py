@@ -1,7 +1,8 @@
 """Finds places for new things in a diagram that the user has arranged.
 
-A new thing gets its generated place relative to its neighbour, or the nearest free place. A new line goes from one end
-to the other with a bend in the middle. Lengths are in units of the diagram; a place or a shift is a complex number.
+A new thing is placed relative to its neighbour, as in the generated diagram, or at the nearest free place. A new line
+goes from one end to the other with a bend in the middle. Lengths are in units of the diagram; a place or a shift is a
+complex number.
 """
 
 from __future__ import annotations
@@ -17,16 +18,16 @@ from typing import TypeAlias
 from urdfsync.modelica.tree import Node, Part, SyntaxTree, is_same
 
 PICTURES = frozenset({"Icon", "Diagram"})
-"""Annotations with graphics: even if the user's layout stays, it gets graphics that the export adds."""
+"""Annotations with graphics: new graphics of the export are added even to a layout that stays."""
 _DIAGRAM, _ICON = frozenset({"transformation", "Line", "Diagram"}), frozenset({"iconTransformation", "Icon"})
-"""The annotations that belong together, for each of the two layers of a class."""
+"""The annotations of each of the two layers of a class."""
 
 _STEP = 20.0
 """Step between candidate places."""
 _REACH = 40
-"""The most steps from the wanted place to a candidate."""
+"""The greatest number of steps from the wanted place to a candidate."""
 _MOST_COMPARISONS = 1_000_000
-"""The most comparisons of two boxes, which take a second. After these, new things may overlap others."""
+"""The greatest number of comparisons of two boxes, in about a second. Further new things may overlap other things."""
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 _PLACEMENTS = {
     place: re.compile(rf"\b{place}\s*\(((?:[^()]|\([^()]*\))*)\)") for place in ("transformation", "iconTransformation")
@@ -34,13 +35,13 @@ _PLACEMENTS = {
 _ARRAYS = {key: re.compile(rf"\b{key}\s*=\s*(\{{[^()=]*\}})") for key in ("extent", "origin", "points")}
 
 Box: TypeAlias = tuple[complex, complex]
-"""The place of a component, by its lower left and its upper right corner."""
+"""The place of a component: its lower left and its upper right corner."""
 
 
 def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
-    """Return the annotations with the user's layout: all of the diagram, or of the icon, if he moved a thing in it.
+    """Return the annotations with the user's layout: all of the diagram or icon in which the user moved a thing.
 
-    A thing that he added does not count as moved.
+    A thing that the user added does not count as moved.
     """
     moved: set[str] = set()
     for part in base.parts:
@@ -66,9 +67,9 @@ def _has_all(mine: Node, base: Node) -> bool:
 
 
 def arrange(mine: SyntaxTree, generated: SyntaxTree, users_layout: Collection[str]) -> dict[str, str]:
-    """Return the parts of a generated body that `mine` lacks, by key: texts with places that fit `mine`.
+    """Return the parts of a generated body that `mine` lacks, by key: texts with places that fit into `mine`.
 
-    `users_layout` are the annotations whose layout is the user's.
+    `users_layout` has the annotations with the user's layout.
     """
     lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
     shifts = {place: _shifts(mine, generated, lines, place) for place in _PLACEMENTS if place in users_layout}
@@ -103,7 +104,7 @@ def _shifts(
     comparisons, previous = _MOST_COMPARISONS, ""
     for key, (low, high) in planned.items():
         if not mine.find(key):
-            # shift a new part like the part that it is connected to, else like the part before it
+            # shift a new part like a connected part, else like the part before
             neighbour = next((other for other in neighbours[key] if other != key and other in shifts), previous)
             wanted = shifts.get(neighbour, 0)
             shifts[key] = wanted
@@ -125,7 +126,7 @@ def _touch(box: Box, other: Box) -> bool:
 
 @functools.cache
 def _steps() -> list[complex]:
-    """Return the shifts to the places around a place, the nearest first; of equally near ones, the lower first."""
+    """Return the shifts to places around a place, sorted by distance, then by height."""
     reach = [number * _STEP for number in range(-_REACH, _REACH + 1)]
     ways = itertools.starmap(complex, itertools.product(reach, reach))
     return sorted(ways, key=lambda way: (abs(way.real) + abs(way.imag), way.imag))
@@ -135,7 +136,7 @@ def _steps() -> list[complex]:
 
 
 def _inside(node: Node, keys: Sequence[str]) -> Node | None:
-    """Return a value in nested lists of modifiers; `keys` lead to it, from the element's `annotation` on."""
+    """Return a value in nested lists of modifiers; `keys` lead from the element's `annotation` to the value."""
     inner: Node | None = node
     for key in keys:
         arguments = inner.find("arguments") if isinstance(inner, SyntaxTree) else None
@@ -159,13 +160,13 @@ def _arrays(text: str, place: str) -> Iterator[re.Match[str] | None]:
 
 
 def _box(part: Part, place: str) -> Box | None:
-    """Return the place of a component in the diagram or in the icon; None if it has none."""
+    """Return the place of a component in the diagram or in the icon; None without a place."""
     corners, origins = map(_points, _arrays(part.node.text, place))
     if len(corners) != 2 or not part.key.startswith("component "):
         return None
     xs, ys = sorted(corner.real for corner in corners), sorted(corner.imag for corner in corners)
     box = [complex(xs[0], ys[0]) + sum(origins), complex(xs[1], ys[1]) + sum(origins)]
-    if not all(math.isfinite(abs(corner)) for corner in box):  # 1e999, for example, is infinite
+    if not all(math.isfinite(abs(corner)) for corner in box):  # for example, 1e999 is infinite
         return None
     return box[0], box[1]
 

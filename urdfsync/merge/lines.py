@@ -1,6 +1,6 @@
-"""Compares sequences with git's algorithm, by libgit2, and merges them; for lines, as `git merge-file` does.
+"""Compares sequences with git's algorithm, by libgit2, and merges sequences; lines as `git merge-file` does.
 
-A change of one side is taken, equal changes are taken once, and overlapping or touching changes are a contradiction.
+A change of one side is taken; equal changes are taken once; overlapping or touching changes are a contradiction.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ class Contradiction(NamedTuple):
     """A thing with different texts on the two sides; the text is empty on a side without the thing."""
 
     path: tuple[str, ...]
-    """The keys that lead to the thing, from the outermost thing to itself; empty for lines."""
+    """The keys that lead to the thing, from the outermost thing to this thing; empty for lines."""
     base: str
     mine: str
     generated: str
@@ -29,7 +29,7 @@ Piece: TypeAlias = str | Contradiction
 
 
 class Change(NamedTuple):
-    """`old[start:stop]` became `new[new_start:new_stop]`; both are half open, and one of them may be empty."""
+    """`old[start:stop]` became `new[new_start:new_stop]`; one of these two ranges may be empty."""
 
     start: int
     stop: int
@@ -38,7 +38,7 @@ class Change(NamedTuple):
 
 
 class Region(NamedTuple):
-    """A place where a side differs from base: the indices in the three sequences, and which sides differ."""
+    """A place where one or both sides differ from base: the indices in the three sequences, and which sides differ."""
 
     base: slice
     mine: slice
@@ -54,7 +54,7 @@ def split_lines(text: str) -> list[str]:
 
 
 def merge_lines(base: str, mine: str, generated: str) -> list[Piece]:
-    """Merge texts line by line. Kinds of line endings are no difference; a line that stays keeps its line ending."""
+    """Merge texts line by line. Kinds of line endings are no difference; unchanged lines keep those of `mine`."""
     written, new_written = split_lines(mine), split_lines(generated)
     old, own, new = (split_lines(text.replace("\r\n", "\n")) for text in (base, mine, generated))
     pieces: list[Piece] = []
@@ -77,7 +77,7 @@ def merge_whole_lines(base: str, mine: str, generated: str) -> str | None:
 
 
 def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str] | None:
-    """Merge sequences of different things; None if both sides changed one place, or moved a thing differently."""
+    """Merge sequences without repeated things; None if both sides changed one place, or moved a thing differently."""
     merged: list[str] = []
     place = 0
     for region in find_regions(base, mine, generated):
@@ -93,7 +93,7 @@ def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequenc
 def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str]:
     """Return all items of `mine` and `generated`, in the generated order.
 
-    An item that the user added or moved stands behind its predecessor in `mine`; without one, it is the first.
+    An item that the user added or moved stands behind its predecessor in `mine`; without a predecessor, it is first.
     """
     old, own = set(base), set(mine)
     before, after = [key for key in base if key in own], [key for key in mine if key in old]
@@ -112,10 +112,10 @@ def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[st
 
 
 def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
-    """Return the changes that turn `old` into `new`, in order; two changes have a common item between them.
+    """Return the changes that turn `old` into `new`, in order; between two changes there is a common item.
 
-    Of several shortest lists of changes, git's is returned. As in git, the list may be longer than necessary if items
-    are frequent, or if long sequences have little in common.
+    If several lists of changes are shortest, this returns git's list. As in git, the list may be too long if items are
+    frequent, or if long sequences are very different.
     """
     # importing pygit2 takes 55 ms and 20 MB, which only a conflict needs ("one mass changed" in docs/speed.md)
     import pygit2
@@ -127,23 +127,23 @@ def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
     )
     changes = []
     for hunk in pygit2.Patch.create_from(old_text.encode(), new_text.encode(), context_lines=0).hunks:
-        # libgit2 numbers lines from 1, and names an empty range by the line before it
+        # libgit2 numbers lines from 1, and gives an empty range the number of the line before
         start, new_start = hunk.old_start - (hunk.old_lines > 0), hunk.new_start - (hunk.new_lines > 0)
         changes.append(Change(start, start + hunk.old_lines, new_start, new_start + hunk.new_lines))
     return changes
 
 
 def find_regions(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> Iterator[Region]:
-    """Yield the places where a side differs from base, in order; changes that overlap or touch are one."""
+    """Yield the places where a side differs from base, in order; overlapping or touching changes are one place."""
     changes = [(change, side) for side, text in enumerate((mine, generated)) for change in compare(base, text)]
     groups: list[list[tuple[Change, int]]] = []
     stop = -1
     for change, side in sorted(changes):
-        if change.start > stop:  # an unchanged line separates it from the changes before
+        if change.start > stop:  # an unchanged line separates this change from the changes before
             groups.append([])
         groups[-1].append((change, side))
         stop = max(stop, change.stop)
-    shifts = [0, 0]  # offset of a base line in each side
+    shifts = [0, 0]  # difference of line numbers between base and each side
     for group in groups:
         start, stop = group[0][0].start, max(change.stop for change, _ in group)
         starts = [start + shift for shift in shifts]

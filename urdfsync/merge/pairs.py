@@ -1,7 +1,7 @@
-"""Pairs things of three versions of a body whose names differ.
+"""Pairs things of three versions of a body that have different keys.
 
 Equations, connections and base classes have their texts as keys, so a changed thing looks removed and added. If both
-sides removed a thing of base, this finds its new version on each side. Otherwise both new versions would stay.
+sides changed a thing of base, this finds the new version on each side. Without this, both new versions would stay.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ import msgspec
 from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, is_equation, key_by_whole_equation
 
 _ALIKE = 0.5
-"""The least share of words that an equation and its new version have in common."""
+"""The least share of common words in an equation and its new version."""
 _MOST_COMPARISONS = 400_000
-"""The most pairs of equations that are compared, which takes a second."""
+"""The greatest number of pairs of equations to compare, in about a second."""
 
 
 class TooManyPairsError(Exception):
-    """There are too many changed things: comparing each with each would take minutes."""
+    """There are too many changed equations: comparing all pairs would take minutes."""
 
 
 def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[SyntaxTree, SyntaxTree, SyntaxTree]:
-    """Return the three bodies with one key for each thing. Raises TooManyPairsError."""
+    """Return the three bodies; all versions of a thing have the same key. Raises TooManyPairsError."""
     base, *sides = key_by_whole_equation(base, mine, generated)
     removed = [part for part in base.parts if not any(side.find(part.key) for side in sides)]
     new = [[part for part in side.parts if not base.find(part.key)] for side in sides]
@@ -41,11 +41,11 @@ def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[Syn
 
 
 class _Candidates:
-    """The new things of one side; each may be the new version of a thing in base."""
+    """The new things of one side: candidates for new versions of things in base."""
 
     def __init__(self, parts: Sequence[Part]) -> None:
         self.taken: dict[str, str] = {}
-        """Keys of the new versions that were found: the key in base by the side's key."""
+        """Keys in base by the keys of their new versions on this side."""
         self._by_word = defaultdict[tuple[str, str], deque[Part]](deque)
         self._words = {part.key: _words(part) for part in parts if is_equation(part)}
         for part in parts:

@@ -1,4 +1,4 @@
-"""Applies the new names that one side gave to components to texts with the old names."""
+"""Renames components in texts, after one side has renamed them."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from urdfsync.modelica.tree import Part, SyntaxTree, words_of
 
 _COMPONENT = "component "
 _MODIFIER = "("
-"""Stands for the text before the name of a modifier."""
+"""Stands for the text before a modifier's name."""
 _OPEN, _CLOSED = ("(", "[", "{"), (")", "]", "}")
 
 
 def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool = True) -> tuple[str, str]:
-    """Return both texts with new names; `names` has the new names by the old ones.
+    """Return both texts with new names; `names` has new names by old names.
 
     A name without a dot before it is renamed if base has it without a dot, too. A name after a dot is renamed if base
-    has it after the same word. So `robot.elbow` is renamed, and the user's own variable `elbow` is not. Names of
-    modifiers belong to another class: they are renamed if base has them, too; without `modifiers`, they stay.
+    has it after the same word. So `robot.elbow` is renamed, and the user's own variable `elbow` is not. A modifier's
+    name belongs to another class: it is renamed if base has it, too, but not without `modifiers`.
     """
     used = {(before, token.text) for before, token in _uses(base) if token.text in names}
     places = {place for place, _ in used} - (set() if modifiers else {_MODIFIER})
@@ -37,9 +37,9 @@ def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool =
 
 
 def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
-    """Return the new names that are free in the user's text, by the old ones.
+    """Return the new names that are free in the user's text, by old names.
 
-    A new name is not free if the text has both it and the old name, and the new name is not renamed itself.
+    A new name is taken if the text has both names, unless the new name is renamed, too.
     """
     alone = {token.text for before, token in _uses(mine) if not before}
     free = dict(names)
@@ -50,10 +50,10 @@ def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
 
 
 def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int]]:
-    """Yield the uses of these names for elements of other classes, with their places in the text.
+    """Yield the uses of these names for elements of other classes, with places in the text.
 
-    Such a name follows a dot, or is that of a modifier. If the text extends classes, any other name may be inherited,
-    and counts, too.
+    Such a name follows a dot, or is a modifier's name. If the text extends classes, any other name may be inherited: it
+    counts, too.
     """
     uses = list(_uses(text))
     extends = any(token.text == "extends" for _, token in uses)
@@ -61,7 +61,7 @@ def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int
 
 
 def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
-    """Return the components that the user renamed, new names by old ones: unique pairs that differ only in name."""
+    """Return the components that the user renamed, as new names by old names: unique pairs that differ only in name."""
     old, new, others = (_components(tree) for tree in (base, mine, generated))
     removed = {name: _likeness(part, name) for name, part in old.items() if name not in new}
     added = {name: _likeness(part, name) for name, part in new.items() if name not in old and name not in others}
@@ -82,14 +82,14 @@ def _components(file: SyntaxTree) -> dict[str, Part]:
 
 
 def _likeness(part: Part, name: str) -> Hashable:
-    """Return a value that is equal for components that differ only in their names and layout."""
+    """Return a value that is equal for two components if only their names and layouts differ."""
     parts = part.node.parts if isinstance(part.node, SyntaxTree) else ()
     texts = (inner.node.text for inner in parts if inner.key != "annotation")
     return tuple("" if word == name else word for text in texts for word in words_of(text))
 
 
 def _uses(text: str) -> Iterator[tuple[str, Token]]:
-    """Yield each token with the name before its dot; without a dot, with `_MODIFIER` or an empty text."""
+    """Yield each token with the name before its dot, or with `_MODIFIER`, or with an empty text."""
     tokens, _ = lex(text)
     depth = 0
     for number, token in enumerate(tokens):

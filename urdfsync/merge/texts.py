@@ -1,4 +1,4 @@
-"""Three-way merge of a file: a class of Modelica by its elements, any other text by lines."""
+"""Three-way merge of a file: a Modelica class by its elements, any other text by lines."""
 
 from __future__ import annotations
 
@@ -25,28 +25,31 @@ class Merge(msgspec.Struct, frozen=True):
     """The result of a merge."""
 
     text: str | None
-    """The merged text; None if there is a conflict or a flaw."""
+    """The merged text; None if there is a contradiction or a flaw."""
     proposal: str
-    """The merged text for people, with all three versions of a conflict between markers; never in a `.mo` file."""
+    """The merged text for people, with all three versions of a contradiction between markers; never written to a `.mo`
+    file."""
     contradictions: tuple[str, ...]
-    """The contradictions in words; an empty text for one of lines."""
+    """The contradictions in words; an empty text for a contradiction of lines."""
     flaw: str = ""
     """Why the merged text is wrong Modelica, as the end of a sentence that begins with "the merge"."""
     with_mine: str | None = None
-    """The merged text with the user's side of each contradiction; None without any, or if it is wrong Modelica."""
+    """The merged text with the user's side of each contradiction; None without contradictions, or if it is wrong
+    Modelica."""
     with_generated: str | None = None
-    """The merged text with the generated side of each contradiction; None without any, or if it is wrong Modelica."""
+    """The merged text with the generated side of each contradiction; None without contradictions, or if it is wrong
+    Modelica."""
 
     @property
     def rejected(self) -> Merge:
-        """The same merge without texts to apply: people can only read its proposal."""
+        """The same merge without texts to apply: only the proposal for people stays."""
         return msgspec.structs.replace(self, text=None, with_mine=None, with_generated=None)
 
 
 def merge(
     base: str, mine: str, generated: str, *, is_modelica: bool = False, names: Mapping[str, str] | None = None
 ) -> Merge:
-    """Apply to `mine` the changes from `base` to `generated`; `names` has new names by the old ones.
+    """Apply to `mine` the changes from `base` to `generated`; `names` has new names by old names.
 
     Line endings are no difference. Lines of `mine` keep theirs; other lines get the most frequent ending of `mine`.
     With `is_modelica`, classes are merged by their elements, and the merge is checked for flaws that neither side has.
@@ -63,7 +66,7 @@ def merge(
         flaw = find_flaw(merged, sides, statements) if is_modelica and merged != mine else ""
         return Merge(None if flaw else merged, merged, told, flaw)
     if any(map(_is_new_part, contradictions)):
-        return Merge(None, merged, told)  # both added a part of this name, and they may mean different parts
+        return Merge(None, merged, told)  # both sides added a component of this name, and may mean different things
     preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
     sound = [text if not is_modelica or not find_flaw(text, sides, statements) else None for text in preferred]
     return Merge(None, merged, told, "", sound[0], sound[1])
@@ -75,7 +78,7 @@ def _is_new_part(contradiction: Contradiction) -> bool:
 
 
 def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
-    """Return the text with one side of each contradiction."""
+    """Return the text in which `side` wins all contradictions."""
     texts = (piece if isinstance(piece, str) else _with_ending(getattr(piece, side), ending) for piece in pieces)
     return "".join(texts)
 
@@ -83,7 +86,7 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
 def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, tuple[str, ...]]:
     """Merge the versions of two people: return the text with markers in it, and the element of each conflict.
 
-    If the merge by elements has a flaw, the texts are merged by lines: then the elements are empty texts.
+    If the merge by elements has a flaw, the texts are merged by lines, and the elements are empty texts.
     """
     ending = _ending(mine)
     merged, elements = "", tuple[str, ...]()
@@ -112,7 +115,7 @@ def _merge_pieces(
 ) -> Sequence[Piece]:
     """Return the merged text in pieces; new lines get the `ending`.
 
-    `statements` gets the elements and equations that were read; with None, all is merged by lines.
+    `statements` gets the elements and equations that were read; if it is None, texts are merged by lines.
     """
     base, generated = _with_ending(base, ending), _with_ending(generated, ending)
     written = base, mine, generated
@@ -130,7 +133,7 @@ def _merge_pieces(
 
 
 def _merge_classes(texts: Sequence[str], statements: KnownStatements, *, is_export: bool) -> list[Piece] | None:
-    """Merge texts that are one class each; None if one of them is not, or if they differ too much."""
+    """Merge texts of one class each; None for any other text, or if the texts differ too much."""
     base, _, generated = texts
     base_tree, mine_tree, generated_tree = (read_tree(text, statements) for text in texts)
     if not (base_tree and mine_tree and generated_tree):
@@ -148,7 +151,7 @@ def _merge_classes(texts: Sequence[str], statements: KnownStatements, *, is_expo
 
 
 def _with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]) -> str:
-    """Return the pieces as one text; a line with a contradiction is there in all versions, each after its marker."""
+    """Return the pieces as one text; for a line with a contradiction, all versions, each after its marker."""
     result: list[str] = []
     row: list[Piece] = []
     for piece in pieces:
@@ -164,7 +167,7 @@ def _with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[
 
 
 def _shown(row: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]) -> list[str]:
-    """Return one line as it is, or in several versions between markers."""
+    """Return one line; if it has contradictions, return its versions between markers."""
     if all(isinstance(piece, str) for piece in row):
         return [piece for piece in row if isinstance(piece, str)]
     versions: list[str] = []
@@ -192,10 +195,10 @@ def _version(row: Sequence[Piece], side: str) -> str:
 
 
 def find_flaw(text: str, sides: Sequence[str], statements: KnownStatements | None = None) -> str:
-    """Return why a merged text is wrong Modelica; empty if it is right.
+    """Return why a merged text is wrong Modelica; empty if the text is right.
 
-    Names and types are not checked. The known `statements` of the sides are not read again. A fault is no flaw if one
-    side has it as often as the merge.
+    Names and types are not checked. The known `statements` of the sides are not read again. A fault does not count if
+    one side has it as often as the merge.
     """
     faults = [*find_markers(text), *find_faults(text, statements or {})]
     counts = Counter[str]()

@@ -1,4 +1,4 @@
-"""Describes things in a class, and contradictions about them, in words."""
+"""Describes things in a class, and contradictions, in words."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from urdfsync.merge.lines import Contradiction
 from urdfsync.spelling import same_count
 
 _LONGEST = 60
-"""The most characters of a text that a sentence quotes."""
+"""The greatest number of characters of a text that a sentence quotes."""
 _SILENT = frozenset("body value expression definition import components".split())
-"""Parts that sentences do not name, since the things in them have names."""
+"""Parts that sentences do not name, since they contain things with names."""
 _ROLES = {
     "annotation": "annotation",
     "arguments": "modifiers",
@@ -23,11 +23,10 @@ _ROLES = {
     "sizes": "size",
     "type": "type",
 }
-"""Parts of an element in words."""
 
 
 def place_of(path: tuple[str, ...]) -> tuple[str, str]:
-    """Return the element at a path of keys, and the part of it: ("component `body`", "m")."""
+    """Return the element at a path of keys, and the part of this element: ("component `body`", "m")."""
     names = [key for key in path if key not in _SILENT and key not in _ROLES]
     kind, _, name = names[0].partition(" ") if names else ("class", "", "")
     role = _ROLES.get(path[-1], "") if path else ""
@@ -56,7 +55,7 @@ def describe(contradiction: Contradiction) -> str:
     elif not contradiction.generated:
         told = f"you changed {what}, the export removes it"
     elif not contradiction.base:
-        is_named = part.endswith(contradiction.path[-1])  # then the texts begin with the name
+        is_named = part.endswith(contradiction.path[-1])  # true if the texts begin with the name
         lead = part.removesuffix(contradiction.path[-1]) if is_named else f"{part} " if part else ""
         told = f"you added `{lead}{mine}`, the export `{lead}{generated}`"
     elif is_value:
@@ -69,7 +68,7 @@ def describe(contradiction: Contradiction) -> str:
         shared = f"changed {what} "
         is_alike = yours.startswith(shared) and theirs.startswith(shared)
         told = f"you {yours}, the export {theirs.removeprefix(shared if is_alike else '')}"
-    is_base = element.startswith("extends ") and is_value  # the name of the value is enough
+    is_base = element.startswith("extends ") and is_value  # for a base class, the value's name is enough
     return told if is_base else f"{element}: {told}"
 
 

@@ -1,4 +1,4 @@
-"""Classes from files, or of the language, with the modifiers that are applied to them."""
+"""Classes from files, or of the language, with their modifiers."""
 
 from __future__ import annotations
 
@@ -12,23 +12,22 @@ from urdfsync.modelica.syntax import Class, Component, Modifier, Name
 
 
 class Node(msgspec.Struct, eq=False, dict=True):
-    """A class at its place. Equal only to itself."""
+    """A class at its place. Each node equals only itself."""
 
     definition: Class
     name: tuple[str, ...]
     """Its full name."""
     file: str = ""
-    """The path of its file, as `StoredClasses` has it; empty for none."""
+    """The path of the class's file, as in `StoredClasses`; empty without a file."""
     parent: Node | None = None
-    """The class around it."""
     classes: dict[str, Node | None] = msgspec.field(default_factory=dict)
-    """Its own classes that were read so far."""
+    """Classes inside of this class that were read so far."""
     bases: tuple[Type, ...] | None = None
-    """The classes that it extends, once they are resolved."""
+    """The resolved base classes; None before they are resolved."""
 
     @functools.cached_property
     def components(self) -> dict[str, Component]:
-        """Its own components by their names."""
+        """Components of this class by name, without inherited components."""
         return {component.name.parts[0]: component for component in self.definition.components}
 
     def __str__(self) -> str:
@@ -36,14 +35,14 @@ class Node(msgspec.Struct, eq=False, dict=True):
 
 
 class Scoped(NamedTuple):
-    """Modifiers, and the class in whose scope they are written."""
+    """Modifiers, and the class in which they are written."""
 
     arguments: tuple[Modifier, ...]
     scope: Node | None
 
 
 class Type(NamedTuple):
-    """The class of a component or a derived class, with all modifiers that are applied to it."""
+    """The class of a component, or a base class, with all its modifiers."""
 
     node: Node
     modifiers: tuple[Scoped, ...] = ()
@@ -62,4 +61,4 @@ def predefined(name: str, components: Iterable[str] = ()) -> Node:
 
 
 OPAQUE = predefined("")
-"""A class that is unknown or unreadable."""
+"""Stands for an unknown or unreadable class."""

@@ -1,4 +1,4 @@
-"""Finds files of Modelica, the class of each, and the words in them, without parsing."""
+"""Finds Modelica files, their classes, and the words in these files, without parsing."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ ClassName: TypeAlias = tuple[str, ...]
 PACKAGE_FILE = "package.mo"
 NOT_CLASSES = "Resources"
 _NO_CODE = re.compile(rb"('(?:[^'\\\n]|\\.)*')|\"(?:[^\"\\]|\\.)*\"|//[^\n]*|/\*.*?\*/", re.DOTALL)
-"""Matches strings and comments. Quoted names may look like these: they match as a group."""
+"""Matches strings and comments. A quoted name may contain what looks like a comment, so quoted names match, too: as a
+group."""
 
 
 def class_path(file: PurePosixPath) -> PurePosixPath:
-    """Return the path of a stored class, without suffix; for a `package.mo`, the path of its folder."""
+    """Return the path of a class's file without suffix; for a `package.mo`, the path of its folder."""
     return file.parent if file.name == PACKAGE_FILE else file.with_suffix("")
 
 
@@ -37,9 +38,8 @@ def modelica_files(
 ) -> Iterator[str]:
     """Yield all Modelica files below folders, each once; links, hidden folders and `Resources` are left out.
 
-    A folder below them is also left out if it holds a file with a name in `others`, or if it is in `left_out`. All
-    files and folders that are read are recorded as dependencies. Unreadable folders are left out. Raises
-    TooManyFoldersError beyond `most` folders.
+    Folders in `left_out`, and folders with a file of a name in `others`, are left out, too. Everything that this reads
+    is recorded as a dependency. Unreadable folders are left out. Raises TooManyFoldersError beyond `most` folders.
     """
     tops, seen = [*map(str, folders)], set[str]()
     waiting = tops[::-1]
@@ -66,14 +66,14 @@ def modelica_files(
 
 
 def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
-    """Return the files that use one of these names, or the class of another such file.
+    """Return the files that use one of these names, or the class of another file in the result.
 
-    A file is named like its class. Strings and comments do not count: a documentation may mention a name.
+    A class has the name of its file. Strings and comments do not count: a documentation may mention a name.
     """
     users, words, known = dict[Path, bytes](), set(names), set[str]()
     while words:
         known |= words
-        for path, content in files.items():  # contents may be read lazily
+        for path, content in files.items():  # this may read contents on demand
             if path not in users and any(_is_used(word, content) for word in words):
                 users[path] = content
         words = {*map(class_of_file, users)} - known
@@ -81,17 +81,17 @@ def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Pa
 
 
 def has_word(text: bytes, name: bytes) -> bool:
-    """Whether a name stands in a text as a word of its own."""
+    """Whether a text contains a name as a whole word."""
     return name in text and re.search(rb"\b" + re.escape(name) + rb"\b", text) is not None
 
 
 def text_of(content: bytes) -> str:
-    """Return the text of a file for parsing; it keeps bytes that are not UTF-8."""
+    """Return the text of a file for parsing; bytes that are not UTF-8 stay (as surrogates)."""
     return content.decode(errors="surrogateescape").replace("\r\n", "\n")
 
 
 def code_of(content: bytes) -> bytes:
-    """Return the content of a file without its strings and comments; it need not parse."""
+    """Return the content of a file without strings and comments; the file may have syntax errors."""
     return _NO_CODE.sub(rb"\1 ", content)
 
 

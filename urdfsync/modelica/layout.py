@@ -14,11 +14,11 @@ from urdfsync.modelica.syntax import StoredText
 from urdfsync.spelling import nearest
 
 _BYTE_ORDER_MARK = "\ufeff"
-_ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language allows these twice
+_ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language allows repetitions
 
 
 def with_within(text: str, name: str) -> str:
-    """Return the file of a class with this full name, with its `within` clause."""
+    """Return the text of a file with the `within` clause for a class of this full name."""
     tokens = lex(text)[0]
     end = next((number for number, token in enumerate(tokens) if token.text == ";"), 0)
     if tokens[0].text != "within" or not end:
@@ -27,7 +27,7 @@ def with_within(text: str, name: str) -> str:
 
 
 def first_fault(text: str, declared: StoredText) -> Fault:
-    """Return the first fault of a text that has some: a marker of a merge, else a break, else a repetition."""
+    """Return the most important fault of a text with faults: a merge marker, else a syntax error, else a repetition."""
     faults = find_markers(text) or [fault for fault in declared.faults if not fault.is_repetition] or declared.faults
     return min(faults, key=lambda fault: fault.line)
 
@@ -35,9 +35,9 @@ def first_fault(text: str, declared: StoredText) -> Fault:
 def check_class_file(
     text: str, path: PurePosixPath, name: str, stored: StoredText | None = None
 ) -> tuple[StoredText | None, list[Diagnostic]]:
-    """Check one file; returns its declarations, None if it can't be read, and findings without their file.
+    """Check one file; returns its declarations (None for an unreadable file), and findings without file.
 
-    `name` is the full name of the file's class; `stored` is the text, if it was parsed before.
+    `name` is the full name of the file's class; `stored` is the parsed text, if it is known.
     """
     findings: list[Diagnostic] = []
 
@@ -45,12 +45,12 @@ def check_class_file(
         findings.append(Diagnostic(severity, code, message, line=line, hint=hint))
 
     if text.startswith(_BYTE_ORDER_MARK):
-        hint = "save it without: some compilers refuse it"
+        hint = "save the file without this mark: some compilers refuse it"
         say(Severity.WARNING, "byte-order-mark", "the file begins with a byte order mark", 1, hint)
     declared = stored or parse(text)
-    if declared.is_broken:  # report only the first place: others may follow from it
+    if declared.is_broken:  # report only one fault: other faults may follow from it
         first = first_fault(text, declared)
-        hint = "correct it first: other errors in the file may follow from it" if declared.faults[1:] else ""
+        hint = "correct this first: other errors in the file may follow from it" if declared.faults[1:] else ""
         say(Severity.ERROR, "syntax", f"the file {first.reason}", first.line, hint)
         return None, findings
     for fault in declared.faults:
@@ -64,7 +64,7 @@ def check_class_file(
         say(Severity.ERROR, "no-class", "the file holds no class", 0, hint)
         return declared, findings
     if (declared.within or "") != parent:
-        message, hint = f"the file lacks `{within(name)}`", "put it into the first line"
+        message, hint = f"the file lacks `{within(name)}`", "add it as the first line"
         if declared.within is not None:
             message = f"the file says `within {declared.within};`, but stands in `{parent or 'no package'}`"
             hint = f"write `{within(name)}`"
@@ -79,7 +79,7 @@ def check_class_file(
     for other in declared.classes:
         if other is not main:
             message = f"the file holds `{other.name}` besides `{main.name}`"
-            hint = "move it to a file of its own: a file in a package holds one class"
+            hint = "move this class to a file of its own: a file in a package holds one class"
             say(Severity.ERROR, "second-class", message, other.name.line, hint)
     return declared, findings
 
@@ -87,11 +87,11 @@ def check_class_file(
 def check_places(
     paths: Iterable[str], declarations: Mapping[str, Mapping[str, int]]
 ) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a finding for each class of a package that has two places, at one of them.
+    """Yield a finding for each class that is stored in two places of a package.
 
-    `paths` are its files, and `declarations` the lines of classes in each `package.mo`.
+    `paths` are the files of the package, `declarations` has the lines of classes in each `package.mo`.
     """
-    places, hint = dict[tuple[str, ...], str](), "put all of it into one file, and delete the other"
+    places, hint = dict[tuple[str, ...], str](), "put the whole class into one file, and delete the other file"
     for path in sorted(path for path in paths if path.endswith(".mo")):
         parts = class_parts(path)
         if (first := places.setdefault(parts, path)) != path:
@@ -105,23 +105,23 @@ def check_places(
 
 
 def check_order(text: str, present: Collection[str], others: Collection[str] | None) -> Iterator[Diagnostic]:
-    """Check whether a `package.order` names each class that is `present` in its folder once.
+    """Check whether a `package.order` names each class that is `present` in its folder exactly once.
 
-    It may name `others`, too. None means that `package.mo` can't be read: then any name is allowed.
+    It may name `others`, too. If `others` is None (`package.mo` can't be read), any name is allowed.
     """
     names = [line.strip() for line in text.removeprefix(_BYTE_ORDER_MARK).split("\n")]
     lacking = sorted({*present}.difference(names))
     for name in lacking:
-        hint = "add a line for it: without one, tools put it last, or warn"
+        hint = "add a line for this class: without a line, tools list the class last, or warn"
         yield Diagnostic(Severity.WARNING, "order-lacks", f"`{name}` is not named", hint=hint)
     lines: dict[str, int] = {}
     for number, name in enumerate(names, start=1):
         first = lines.setdefault(name, number)
         if name and first != number:
-            message, hint = f"`{name}` is named twice, first in line {first}", "take one of the lines out"
+            message, hint = f"`{name}` is named twice, first in line {first}", "delete one of the lines"
             yield Diagnostic(Severity.WARNING, "order-twice", message, line=number, hint=hint)
         elif name and others is not None and name not in present and name not in others:
             near = nearest(name, lacking)
-            message = f"`{name}` is named, but is no class and no constant of the package"
-            hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
+            message = f"`{name}` is named, but the package has no such class or constant"
+            hint = f"did you mean `{near}`?" if near else "delete the line, or restore the class"
             yield Diagnostic(Severity.ERROR, "order-unknown", message, line=number, hint=hint)

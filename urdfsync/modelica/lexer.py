@@ -26,26 +26,26 @@ _TOKEN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 _WORD = 2
-"""The number of the group that is a token."""
+"""The number of the group that matches a token."""
 STATEMENT = re.compile(
     rf"""(?:[^;"'/]++|{_STRING}|{_QUOTED_NAME}|'|//[^\n]*+|/\*.*?\*/|/(?![/*]))*+;""", re.VERBOSE | re.DOTALL
 )
-"""Matches a text up to the next semicolon, unless a string or comment before it has no end."""
+"""Matches a text up to the next semicolon, unless a string or comment before the semicolon has no end."""
 _ENDLESS_STRING = re.compile(r'"(?:[^"\\]++|\\.)*+\\?', re.DOTALL)
 _ESCAPE = re.compile(r"""\\(['"?\\abfnrtv]|(?P<meaningless>.))""", re.DOTALL)
 
 
 class Fault(NamedTuple):
-    """A fault of a text: words that continue a sentence (`lacks ; before x`), and the line, from 1."""
+    """A fault of a text: the end of a sentence (`lacks ; before x`), and the line, from 1."""
 
     reason: str
     line: int
     is_repetition: bool = False
-    """Whether it is only a repetition, which does not hinder the reading."""
+    """Whether the fault is only a repetition: the text can be read nevertheless."""
 
 
 class Token(NamedTuple):
-    """One token, and where it begins in the text, from 0."""
+    """One token, and its place in the text, from 0."""
 
     text: str
     start: int
@@ -59,11 +59,11 @@ class Lexer:
         self.words: list[str] = []
         """The tokens that were read so far; an empty token stands for the end of the text."""
         self.starts: list[int] = []
-        """Where each token begins in the text."""
+        """The place of each token in the text."""
         self.position = int(text.startswith("\ufeff"))
-        """The place of the next token."""
+        """The place in the text from which the next token is read."""
         self.endless: list[Fault] = []
-        """Comments, strings and quoted names without an end."""
+        """Faults: comments, strings and quoted names without an end."""
 
     def read_statement(self) -> None:
         """Add the tokens up to the next semicolon, or to the end of the text."""
@@ -75,7 +75,7 @@ class Lexer:
             add_start(match.start(_WORD))
             if not word:
                 break
-        if statement:  # the text goes on after the end of a statement
+        if statement:  # more text follows the end of this statement
             del self.words[-1], self.starts[-1]
         elif match["endless_comment"]:
             self._add_endless("comment", match.start("endless_comment"))
@@ -88,7 +88,7 @@ class Lexer:
         self.position = stop
 
     def read_all(self) -> Lexer:
-        """Add the tokens of all of the text, with an empty one at its end."""
+        """Add all tokens of the text, and an empty token at the end."""
         while not self.words or self.words[-1]:
             self.read_statement()
         return self
@@ -105,7 +105,7 @@ class Lexer:
         if "\\" not in self.text:
             return []
         return [
-            Fault(f"has the escape `{escape[0]}`, which Modelica does not know", self.line_at(start + escape.start()))
+            Fault(f"has the escape `{escape[0]}`, which Modelica does not define", self.line_at(start + escape.start()))
             for word, start in zip(self.words, self.starts, strict=True)
             if word[:1] in {'"', "'"}
             for escape in _ESCAPE.finditer(word)
@@ -123,21 +123,21 @@ def words_in(text: str) -> list[str]:
 
 
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
-    """Return the tokens of a text, then an empty one; and its unterminated comments, strings and quoted names."""
+    """Return the tokens of a text, an empty token, and faults: comments, strings and quoted names without an end."""
     lexer = Lexer(text).read_all()
     return list(map(Token, lexer.words, lexer.starts)), lexer.endless
 
 
 def find_markers(text: str) -> list[Fault]:
-    """Return the lines that look like conflict markers; they may also stand in a documentation."""
+    """Return the lines that look like conflict markers; a documentation may also contain such lines."""
     return [Fault(f"has the conflict marker `{sign}`", line) for sign, line in markers.find_markers(text, "<|=>")]
 
 
 def is_number(token: str) -> bool:
-    """Whether a token is a number, which has no sign."""
+    """Whether a token is a number; a sign is a token of its own."""
     return token[:1].isdecimal() or (token[:1] == "." and len(token) > 1)
 
 
 def is_name(token: str) -> bool:
-    """Whether a token can be a name, also a quoted one."""
+    """Whether a token can be a name, quoted or not."""
     return (token[:1].isalpha() or token[:1] == "_" or (token[:1] == "'" and len(token) > 1)) and token not in KEYWORDS

@@ -1,4 +1,4 @@
-"""Writes values as Modelica: literals that read back as the same value, and text that can't end a string."""
+"""Writes values as Modelica: literals that tools read as the same value, and text that can't end a string."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ INFINITY = "Modelica.Constants.inf"
 
 _ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"})
 _CONTROLS = "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
-"""Characters that could end a line, turn the direction of text around, or can't be written as UTF-8."""
+"""Characters that end lines, reverse the direction of text, or have no UTF-8."""
 _LITERAL = r"""(?xs)
     "(?:[^"\\]|\\.)*"                        # a string
     | (?:[-+]\s*)?(?:
@@ -18,13 +18,13 @@ _LITERAL = r"""(?xs)
         | (?<![\w.])\d+(?:\.\d*)?(?:[eE][-+]?\d+)?
       )
     """
-_LARGEST_INTEGER = 2**31 - 1  # every Modelica tool accepts it without a decimal point
+_LARGEST_INTEGER = 2**31 - 1  # every Modelica tool accepts this without a decimal point
 
 
 def real(value: float | None, absent: str = INFINITY) -> str:
-    """Return the shortest Modelica Real literal that reads back as the same number; `absent` for None.
+    """Return the shortest Modelica Real literal with the value of the number; for None, return `absent`.
 
-    Zero has no sign. Raises ValueError for numbers that have no literal.
+    Zero gets no sign. Raises ValueError for numbers that have no literal.
     """
     if value is None:
         return absent
@@ -37,7 +37,7 @@ def real(value: float | None, absent: str = INFINITY) -> str:
 
 
 def vector(values: Iterable[float]) -> str:
-    """Return a Modelica array constructor; must not be empty, since `{}` is not Modelica."""
+    """Return a Modelica array constructor. Raises ValueError for an empty array, since `{}` is not Modelica."""
     items = ", ".join(map(real, values))
     if not items:
         raise ValueError("an empty array has no Modelica literal")
@@ -45,7 +45,7 @@ def vector(values: Iterable[float]) -> str:
 
 
 def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
-    """Return a Modelica matrix `[a, b; c, d]`, or an empty one with `columns` columns."""
+    """Return a Modelica matrix `[a, b; c, d]`, or an empty matrix with `columns` columns."""
     if not rows:
         return f"fill(0, 0, {columns})"
     return "[" + "; ".join(", ".join(map(real, row)) for row in rows) + "]"
@@ -71,7 +71,7 @@ def capitalize_first(value: str) -> str:
 
 
 def numbers_only(old: str, new: str) -> bool:
-    """Whether two texts differ at most in the values of number and string literals."""
+    """Whether two texts are equal except for the values of number and string literals."""
     return without_literals(old) == without_literals(new)
 
 

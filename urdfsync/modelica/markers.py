@@ -1,4 +1,4 @@
-"""Merge markers of version control: git's have seven signs, nested markers have more."""
+"""Merge markers of git: they have seven signs; nested markers have more."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ _MARKER = re.compile(r"^(<{7,}|\|{7,}|={7,}|>{7,})(?=\s|\Z)", re.MULTILINE)
 
 
 def find_markers(text: str, signs: str = "<>") -> list[tuple[str, int]]:
-    """Return the markers of these signs with their lines, from 1. `=======` may also be an ornament in a comment."""
+    """Return the markers of these signs with their lines, from 1. `=======` alone may also be a line in a comment."""
     found = (marker for marker in _MARKER.finditer(text) if marker[1][0] in signs)
     return [(marker[1], text.count("\n", 0, marker.start()) + 1) for marker in found]
 
 
 def read_sides(text: str) -> tuple[str, str]:
-    """Return two texts: between the outermost markers, one has only our lines, the other has only their lines."""
+    """Return two texts: between the outermost markers, one text has only our lines, the other text only their lines."""
     pattern = _conflict(_size(text))
     return pattern.sub(r"\g<ours>", text), pattern.sub(r"\g<theirs>", text)
 
@@ -25,7 +25,7 @@ def join_sides(text: str) -> str:
 
 
 def without_labels(text: str) -> str:
-    """Return the text without the labels behind the outermost markers; lines end with line feeds."""
+    """Return the text without labels after the outermost markers; lines end with line feeds."""
     return re.sub(rf"(?m)^([<>]{{{_size(text)}}}) .*$", r"\1", text)
 
 

@@ -1,4 +1,4 @@
-"""Modelica's names for the core: identifiers, reserved words, and `within` clauses."""
+"""Names in Modelica: identifiers, reserved words, and `within` clauses."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ KEYWORDS = frozenset(
 """Modelica's reserved words (language specification 3.6, section 2.3.3)."""
 
 LIBRARY = "UrdfSync"
-"""The library that urdfsync brings along."""
+"""The library that is part of urdfsync."""
 STANDARD_LIBRARIES = ("Modelica", "ModelicaServices", "Complex")
-"""The libraries that make up the Modelica Standard Library."""
+"""The libraries of the Modelica Standard Library."""
 
 RESERVED_CLASSES = frozenset(
     """
@@ -26,7 +26,7 @@ RESERVED_CLASSES = frozenset(
     stateselect string urdfsync visualization2
     """.split()
 )
-"""Types and libraries, in lower case, that a class of the same name would hide from generated models."""
+"""Types and libraries, in lower case: a class of the same name would hide them from generated models."""
 
 FUNCTIONS = frozenset(
     """
@@ -41,10 +41,10 @@ FUNCTIONS = frozenset(
 """Functions and operators of the language, and its variable `time`: a package of the same name would hide them."""
 
 DEVICES = frozenset(["con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))])
-"""Names, in lower case, that Windows reserves, with any suffix."""
+"""Names, in lower case, that Windows reserves, even with a suffix."""
 
 GENERATED_CLASSES = frozenset({"joints", "links", "package"})
-"""Files and folders beside a robot's model, in lower case."""
+"""Names of files and folders beside a robot's model, in lower case."""
 
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 
@@ -60,7 +60,7 @@ def is_identifier(name: str) -> bool:
 
 
 def is_class_name(name: str) -> bool:
-    """Whether `name` can be the name of a robot's model: it begins with a capital, unlike components."""
+    """Whether `name` can be the name of a robot's model: it must begin with a capital, unlike components."""
     free = name.lower() not in RESERVED_CLASSES | DEVICES | GENERATED_CLASSES
     return free and is_identifier(name) and name[:1].isupper()
 

@@ -1,8 +1,8 @@
-"""Reads Modelica text: its names, its faults, and its parts.
+"""Reads Modelica text: names, faults, and parts.
 
-The grammar is the concrete syntax of the language specification 3.6 (appendix A). It is generous: it ignores
-restrictions of kinds of classes, and the precedence of operators. Elements and equations are read one by one, so a
-fault in one does not hide faults in others.
+The grammar is the concrete syntax of the language specification 3.6 (appendix A). It ignores restrictions for kinds of
+classes, and the precedence of operators. Elements and equations are read one by one, so a fault in an element does not
+hide faults in others.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from urdfsync.modelica.lexer import Fault, Lexer, is_name, is_number
 from urdfsync.modelica.syntax import Class, Component, Extends, ImportClause, Modifier, Name, StoredText
 
 _DEEPEST = 50
-"""Deepest nesting of brackets, classes and blocks: a deeper one would exhaust Python's stack."""
+"""Deepest nesting of brackets, classes and blocks: deeper nesting would exhaust Python's stack."""
 _NUMBER = r"[-+]?\d++(?:\.\d*+)?(?:[eE][-+]?\d++)?\s*+"
 _ARRAY = rf"\{{\s*+{_NUMBER}(?:,\s*+{_NUMBER})*+\}}\s*+"
 _NUMBERS = re.compile(rf"{_ARRAY}|\{{\s*+{_ARRAY}(?:,\s*+{_ARRAY})*+\}}")
 """An array of numbers, or of arrays of numbers."""
 _LONGEST = 60
-"""The most characters of a quote."""
+"""The greatest number of characters of a quote."""
 
 SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
 _BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *SECTIONS})
@@ -40,15 +40,15 @@ _OPERATORS = frozenset("or and < <= > >= == <> :".split()) | _ARITHMETIC
 _BLOCKS = frozenset({"if", "when", "for", "while"})
 _BRANCHES = {"if": ("elseif", "else"), "when": ("elsewhen",)}
 _CALLED = frozenset({"assert", "der", "initial", "pure"})
-"""Keywords that are called like functions."""
+"""Keywords that expressions call like functions."""
 _REPEATABLE = frozenset(
     "choice derivative file from inverse noDerivative noneFromVersion normallyConstant zeroDerivative".split()
 )
-"""Annotations that may stand more than once in one place."""
+"""Annotations that may be repeated in one place."""
 
 
 def parse(text: str) -> StoredText:
-    """Read a text that should be a file of Modelica; unreadable parts are left out."""
+    """Read the text of a Modelica file; unreadable parts are left out."""
     return Parser(text).read()
 
 
@@ -63,8 +63,8 @@ class _FaultError(Exception):
 class Parser(Lexer):
     """Reads one text from the first token to the last.
 
-    A method reads the part in its name, and returns its value. It raises _FaultError for a missing token; `_each`
-    catches this, and goes on behind the element or equation.
+    A method reads the part in its name, and returns the part's value. For a missing token it raises _FaultError;
+    `_each` catches this error, and continues after the element or equation.
     """
 
     def __init__(self, text: str) -> None:
@@ -74,13 +74,13 @@ class Parser(Lexer):
         self._within: str | None = None
         self._within_line = 0
         self.open = [Class(Name(("",), 0), "")]
-        """The classes around this place, the innermost one last; the first stands for the file."""
+        """The classes around the present place, from the file itself to the innermost class."""
         self._libraries = list[str]()
         """Libraries that `uses` annotations name."""
         self._names = list[Name]()
-        """Names in expressions, until their element takes them."""
+        """Names in expressions that no element has taken yet."""
         self._seen = set[str]()
-        """Names that earlier elements or equations of the same section have taken."""
+        """Keys of earlier elements and equations in this section, to find repetitions."""
         self._depth = self._subscript_depth = 0
 
     def read(self) -> StoredText:
@@ -93,7 +93,7 @@ class Parser(Lexer):
 
     @property
     def word(self) -> str:
-        """The present token; empty behind the last one."""
+        """The present token; empty after the last token."""
         try:
             return self.words[self.at]
         except IndexError:
@@ -116,7 +116,7 @@ class Parser(Lexer):
         return word
 
     def _accept(self, *words: str) -> str:
-        """Consume the token if it is one of these, and return it; else return an empty text."""
+        """Consume and return the present token if it is one of these; else return an empty text."""
         word = self.word
         if word not in words:
             return ""
@@ -138,23 +138,23 @@ class Parser(Lexer):
         return _FaultError(f"lacks {what} before {before}", self.line)
 
     def _since(self, start: int) -> str:
-        """Return the tokens from number `start` on, with blanks where they would run together."""
+        """Return the tokens from number `start` to the present token, with blanks where tokens would run together."""
         return re.sub(r" ?([.()\[\]]) ?", r"\1", " ".join(self.words[start : self.at]))
 
     def _once(self, seen: set[str], key: str, reason: str) -> None:
-        """Note a fault if the key is in `seen`; else add it."""
+        """Record a fault if the key is in `seen`; else add the key."""
         if key in seen:
             self.faults.append(Fault(reason, self.line_at(self.starts[self.at - 1]), is_repetition=True))
         seen.add(key)
 
     def _declared_name(self, names: set[str]) -> Name:
-        """Read a declared name; `names` are those beside it."""
+        """Read a declared name; `names` has names that are declared beside it."""
         text, start = self._identifier(), self.starts[self.at - 1]
         self._once(names, text, f"declares `{text}` twice")
         return Name((text,), self.line_at(start), starts=(start,))
 
     def _take_names(self, mark: int) -> tuple[Name, ...]:
-        """Return the names that were read after the first `mark`, and drop them."""
+        """Return the names from number `mark` on, and remove them."""
         if len(self._names) == mark:
             return ()
         names = tuple(self._names[mark:])
@@ -162,7 +162,7 @@ class Parser(Lexer):
         return names
 
     def _leave_out(self, indices: set[str], mark: int) -> None:
-        """Remove the indices of a loop from the names that were read after the first `mark`."""
+        """Remove the indices of a loop from the names from number `mark` on."""
         names = self._take_names(mark)
         self._names += (name for name in names if name.is_global or name.parts[0] not in indices)
 
@@ -172,7 +172,7 @@ class Parser(Lexer):
         self._depth += 1
 
     def _list(self, opening: str = "(", closing: str = ")", *, separators: str = ",") -> Iterator[None]:
-        """Yield once before each item of a list in brackets, which may be empty."""
+        """Yield once before each item of a list in brackets; the list may be empty."""
         self._expect(opening)
         self._enter()
         if self.word != closing:
@@ -184,7 +184,7 @@ class Parser(Lexer):
             raise self._lack(f"`,` or `{closing}`")
 
     def _each(self, read: Callable[..., None], *arguments: object) -> None:
-        """Read one element or equation and its semicolon; after a fault go on behind it."""
+        """Read one element or equation with its semicolon; after a fault, continue behind the semicolon."""
         start, depth, subscript_depth, classes = self.at, self._depth, self._subscript_depth, len(self.open)
         mark = len(self._names)
         try:
@@ -202,10 +202,11 @@ class Parser(Lexer):
             if self.word == ";" or self.at == start:
                 self._step()
 
-    # --- for the tree (`urdfsync.modelica.tree`), which overrides these ---------------------------------------------
+    # --- hooks that the reader of trees (`urdfsync.modelica.tree`) overrides
+    # ---------------------------------------------
 
     def _mark(self) -> int:
-        """Return a `mark` for `_note`: the part that it notes then contains all parts that are noted after the mark."""
+        """Return a `mark` for `_note`: a part with this mark contains all parts that are noted after the mark."""
         return 0
 
     def _note(self, key: str, start: int, mark: int | None = None) -> None:
@@ -219,13 +220,13 @@ class Parser(Lexer):
         return self.word
 
     def _skips_rest(self) -> bool:
-        """Skip the rest of an element or equation if only its name counts; return whether it was skipped."""
+        """Skip the rest of an element or equation if only its name counts; return whether this skipped anything."""
         return False
 
     # --- names and expressions ------------------------------------------------------------------------------------
 
     def _name(self, *, has_subscripts: bool = False) -> Name:
-        """Read a name with dots. If it may have subscripts, the names in them are read, too."""
+        """Read a name with dots; with `has_subscripts`, also read subscripts, and the names in the subscripts."""
         word = self.word
         line, is_global = self.line_at(self.starts[self.at]), word == "."
         self.at += is_global
@@ -277,7 +278,7 @@ class Parser(Lexer):
                 branch = self._accept("elseif")
             self._depth -= 1
             self._expect("else")
-        operator = "or"  # a sign may stand first, and after any operator but an arithmetic one
+        operator = "or"  # a sign is allowed at the beginning, and after any operator that is not arithmetic
         while operator:
             if operator not in _ARITHMETIC:
                 self._accept("not")
@@ -294,7 +295,7 @@ class Parser(Lexer):
         is_literal = word[:1] == '"' or is_number(word) or word in ("true", "false")
         if is_literal or (word == "end" and self._subscript_depth):
             self._step()
-        elif word == "(":  # an expression, or outputs of a function, where some may be omitted
+        elif word == "(":  # an expression, or outputs of a function; some outputs may be omitted
             for _ in self._list():
                 if self.word not in (",", ")"):
                     self._expression()
@@ -321,7 +322,7 @@ class Parser(Lexer):
             self._names[place] = self._names[place]._replace(arguments=arguments)
 
     def _call(self) -> tuple[Name, ...]:
-        """Read the arguments of a function. Returns the names of named ones."""
+        """Read the arguments of a function. Returns the names of named arguments."""
         names, arguments = set[str](), list[Name]()
         for _ in self._list():
             if is_name(self.word) and self.following == "=":
@@ -376,7 +377,7 @@ class Parser(Lexer):
     def _stored_class(self, names: set[str]) -> None:
         prefixes = self._prefixes((("final",),))
         if self.word == "end":
-            raise _FaultError("has an `end` too many", self.line)
+            raise _FaultError("has one `end` too many", self.line)
         if self.word not in _CLASS_STARTS:
             raise self._lack("a class")
         self.open[-1].classes.append(self._class(names, prefixes))
@@ -390,7 +391,7 @@ class Parser(Lexer):
         return prefixes
 
     def _class(self, names: set[str], prefixes: set[str]) -> Class:
-        """Read a class; `names` are those declared before in the class around it, `prefixes` those read already."""
+        """Read a class; `names` are declared names in the class around it, `prefixes` are the prefixes already read."""
         start = self.at
         prefixes |= self._prefixes(_CLASS_PREFIXES, "")
         kind = self._accept(*_CLASSES)
@@ -412,7 +413,7 @@ class Parser(Lexer):
         self._composition()
         around = {
             str(enclosing.name) for enclosing in self.open
-        }  # another name is a mistake, unless it ends a class around this one
+        }  # a wrong name is a mistake, unless it ends a class around this class
         if self.word != "end" or not is_name(end := self.following) or (end in around and end != str(name)):
             raise self._lack(f"`end {name}`")
         self.at += 2
@@ -423,7 +424,7 @@ class Parser(Lexer):
         return definition
 
     def _short_class(self, definition: Class) -> None:
-        """Read the part of a class behind its equals sign."""
+        """Read the rest of a class after an equals sign."""
         start, mark = self.at, self._mark()
         if self._accept("enumeration"):
             names: set[str] = set()
@@ -467,7 +468,7 @@ class Parser(Lexer):
                 self._expect_end()
 
     def _expect_end(self) -> None:
-        """Note a fault if anything stands behind the annotation of a class."""
+        """Record a fault if anything follows the annotation of a class."""
         if self.word not in ("end", ""):
             self.faults.append(Fault(f"goes on after the annotation of `{self.open[-1].name}`", self.line))
 
@@ -581,7 +582,7 @@ class Parser(Lexer):
         self._note("sizes", start)
 
     def _constraint(self, prefixes: Collection[str]) -> Extends | None:
-        """Read the constraining class of a replaceable element, if it has one."""
+        """Read the constraining class of a replaceable element, if there is one."""
         start, mark = self.at, self._mark()
         if "replaceable" not in prefixes or not self._accept("constrainedby"):
             return None
@@ -608,7 +609,7 @@ class Parser(Lexer):
             self._note("description", start)
 
     def _annotation(self) -> None:
-        """Read an annotation, if there is one; its names have their own meanings."""
+        """Read an annotation, if there is one; names in annotations are not recorded."""
         if self._accept("annotation"):
             for argument in self._arguments("annotation"):
                 if argument.name.parts == ("uses",):
@@ -638,7 +639,7 @@ class Parser(Lexer):
         return modifiers
 
     def _argument(self, names: set[str]) -> Modifier | None:
-        """Read one modifier; None for a removed connection."""
+        """Read one modifier; returns None for a removed connection."""
         start, mark, names_mark = self.at, self._mark(), len(self._names)
         prefixes = self._prefixes(_ARGUMENT_PREFIXES)
         declares, is_redeclared = not prefixes.isdisjoint({"redeclare", "replaceable"}), "redeclare" in prefixes
@@ -680,7 +681,7 @@ class Parser(Lexer):
     # --- equations and statements ---------------------------------------------------------------------------------
 
     def _equation(self, seen: set[str] | None) -> None:
-        """Read an equation, or a statement if `seen` is None: statements may be repeated."""
+        """Read an equation; if `seen` is None, read a statement, which may be repeated."""
         start, mark, word = self.at, self._mark(), self.word
         if word == "annotation":
             self._annotation()
@@ -722,7 +723,7 @@ class Parser(Lexer):
         self._once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
 
     def _block(self, kind: str, *, repeats: bool) -> None:
-        """Read the rest of an equation or statement with nested ones, which may repeat each other."""
+        """Read the rest of an equation or statement with nested equations or statements, which may be repeated."""
         start, mark = self.at - 1, len(self._names)
         indices = set[str]()
         branch = kind

@@ -1,8 +1,9 @@
 """Resolves names in Modelica classes: scopes, inheritance, imports, modifiers and redeclarations.
 
-It follows chapters 5 and 7 of the language specification 3.6. A name means an element, or is missing. An unavailable
-class is `OPAQUE`: it counts as having every element. A redeclared element has the parts of its old, its constraining
-and its new type. The language allows less, so a name that is reported as missing is missing.
+The rules are in chapters 5 and 7 of the language specification 3.6. A name means an element, or is missing. An
+unavailable class is `OPAQUE`: any name counts as an element of this class. A redeclared element has the elements of its
+old, its constraining and its new type. The language allows fewer names, so each name that this reports as missing is
+missing.
 """
 
 from __future__ import annotations
@@ -41,18 +42,18 @@ _INTERFACES = {
     (*_ROTATIONAL, "Interfaces", "PartialElementaryTwoFlangesAndSupport2"): _SUPPORT,
     (*_TRANSLATIONAL, "Interfaces", "PartialTwoFlanges"): "flange_a flange_b",
 }
-"""The components of the Modelica Standard Library classes that UrdfSync extends: builds do not read that library."""
+"""The components of the Modelica Standard Library's classes that UrdfSync extends: builds do not read this library."""
 INTERFACES = {name: predefined(".".join(name), names.split()) for name, names in _INTERFACES.items()}
-"""The same classes as nodes, by their full names."""
+"""The classes of `_INTERFACES` as nodes, by their full names."""
 _DEEPEST = 40
-"""The deepest chain of lookups: a longer one is a circle."""
+"""The longest chain of lookups: a longer chain is a circle."""
 
 
 class Element(NamedTuple):
     """A named thing: a component, a class, a literal, an attribute, or a part of the language."""
 
     types: Types
-    """For a component its possible classes, the present one first; for a class its possible meanings."""
+    """The possible classes of a component, the present class first; for a class, its possible meanings."""
     is_component: bool = False
 
 
@@ -61,37 +62,38 @@ class Missing(NamedTuple):
 
     part: str
     types: Types = ()
-    """The classes that lack it; empty for the first part, which was looked for in all scopes."""
+    """The classes without this part; empty for the first part of a name, which may be in any scope."""
     is_certain: bool = True
-    """False if one of the classes extends an unavailable class, which may have the name."""
+    """Whether the part is missing for sure: False if a class extends an unavailable class, which may have the name."""
     number: int = 0
     """Number of the part in the name, from 0."""
 
 
 ANYTHING = Element((Type(OPAQUE),))
-"""An element of such a class."""
+"""Any element of an `OPAQUE` class."""
 _TYPES = {name: predefined(name, attributes.split()) for name, attributes in _PREDEFINED.items()}
 
 
 class Scopes:
-    """Resolves names, and keeps the classes that it has read."""
+    """Resolves names, and keeps the classes that were read."""
 
     def __init__(self, sources: StoredClasses) -> None:
         self._sources = sources
         self._tops: dict[str, Node | None] = {}
         self._resolving: frozenset[Node] = frozenset()
-        """Classes whose base classes are being resolved: meanwhile their inherited elements do not count."""
+        """Classes whose base classes are being resolved; until then, inherited elements of these classes do not
+        count."""
         self._depth = 0
 
     def node(self, name: Sequence[str]) -> Node | None:
-        """Return the class with this full name, not an inherited one; None if it is unavailable."""
+        """Return the class with this full name; None for an unavailable or inherited class."""
         node = self._top(name[0]) if name else None
         for part in name[1:]:
             node = node and self._child(node, part)
         return None if node is OPAQUE else node
 
     def users(self) -> Iterator[Node]:
-        """Yield the classes of the user's files at their places, in the order of the files."""
+        """Yield the classes of the user's files, each with the class around it, in the order of the files."""
         for node in self._sources.all_users:
             yield Node(node.definition, node.name, node.file, self.node(node.name[:-1]))
 
@@ -116,7 +118,7 @@ class Scopes:
     # --- lookup ---------------------------------------------------------------------------------------------------
 
     def lookup(self, name: Name, scope: Node | None) -> Element | Missing:
-        """Return the meaning of a name in a class; None stands for the file outside of all classes."""
+        """Return the meaning of a name in a class; `scope` is None outside of all classes."""
         meaning = self._first(name.parts[0], None if name.is_global else scope)
         for number, part in enumerate(name.parts[1:], start=1):
             if isinstance(meaning, Missing):
@@ -144,15 +146,15 @@ class Scopes:
         return Element(tuple(dict.fromkeys((*united, *more))), specific[0].is_component) if specific else ANYTHING
 
     def types_of(self, used: Extends, scope: Node | None) -> Types:
-        """Return the classes that a name stands for, with the modifiers beside it."""
+        """Return the classes that a name stands for, with the modifiers after the name."""
         meaning = self.lookup(used.type, scope)
         if isinstance(meaning, Missing) or meaning.is_component:
             return ANYTHING.types
         return _modified(meaning.types, [Scoped(used.arguments, scope)] if used.arguments else [])
 
     def types_in(self, component: Component, scope: Node) -> Types:
-        """Return the possible types of a component by its own declaration in a class."""
-        if not component.type.parts[0]:  # an attribute of a predefined type
+        """Return the possible types of a component by its declaration in a class."""
+        if not component.type.parts[0]:  # without a type: an attribute of a predefined type
             return ANYTHING.types
         types = self.types_of(Extends(component.type, component.arguments), scope)
         if component.constraint:
@@ -160,20 +162,20 @@ class Scopes:
         return types
 
     def bases(self, node: Node) -> Types:
-        """Return the classes that a class extends or stands for."""
+        """Return the base classes of a class, or the class that a short definition stands for."""
         if node.bases is not None:
             return node.bases
         if node in self._resolving:
             return ()
         with self._without_bases(node):
             types = self._bases(node)
-        if not self._resolving:  # while a class around it is being resolved, a name may only seem to be missing
+        if not self._resolving:  # during another resolution, a name may only seem to be missing
             node.bases = types
         return types
 
     @contextlib.contextmanager
     def _without_bases(self, node: Node) -> Iterator[None]:
-        """Inside of the `with` block, names are not looked for in inherited elements."""
+        """Inside of the `with` block, inherited elements of this class do not count."""
         before = self._resolving
         self._resolving = before | {node}
         try:
@@ -182,7 +184,7 @@ class Scopes:
             self._resolving = before
 
     def names_in(self, types: Types) -> dict[str, bool]:
-        """Return the names of the known elements of classes, inherited ones included, and whether each is a class."""
+        """Return the names of the known elements of classes, inherited or not, and whether each is a class."""
         names: dict[str, bool] = {}
         waiting, seen = [type_.node for type_ in types], {OPAQUE}
         while waiting:
@@ -217,14 +219,14 @@ class Scopes:
             is_certain &= meaning.is_certain
             if not is_certain and not name[:1].isupper():
                 return meaning
-            # from missing libraries, models inherit components but hardly ever classes
+            # models hardly ever inherit classes from missing libraries, only components
             scope = None if "encapsulated" in scope.definition.prefixes else scope.parent
         if name in _ANYTHING:
             return ANYTHING
         top = _TYPES.get(name) or self._top(name)
         if top is not None:
             return Element((Type(top),)) if top is not OPAQUE else ANYTHING
-        if self._sources.has_library(name):  # builds do not read it
+        if self._sources.has_library(name):  # builds read no libraries
             return ANYTHING
         return Missing(name, (), is_certain)
 
@@ -235,7 +237,7 @@ class Scopes:
         for clause in scope.definition.imports:
             if name in clause.names:
                 imported = self.lookup(clause.names[name], None)
-                return imported if isinstance(imported, Element) else ANYTHING  # the import reports it
+                return imported if isinstance(imported, Element) else ANYTHING  # the import's own check reports it
         for clause in scope.definition.imports:
             if not clause.names:
                 imported = self.lookup(clause.name._replace(parts=(*clause.name.parts, name)), None)
@@ -248,7 +250,7 @@ class Scopes:
     # --- elements of a class --------------------------------------------------------------------------------------
 
     def _member(self, type_: Type, name: str) -> Element | Missing:
-        """Return an element of a class, its own or an inherited one, with its modifiers."""
+        """Return an element of a class, inherited or not, with its modifiers."""
         if self._depth > _DEEPEST:
             return ANYTHING
         self._depth += 1
@@ -276,7 +278,7 @@ class Scopes:
         nested = _nested(modifiers, name)
         types = (*self._redeclared(modifiers, name), Type(child, nested))
         if "replaceable" in child.definition.prefixes and not child.definition.constraint:
-            # packages of media use names that only their redeclared classes have
+            # packages of media use names that exist only in redeclared classes
             types += ANYTHING.types
         if child.definition.constraint:
             types += _modified(self.types_of(child.definition.constraint, node), nested)
@@ -302,7 +304,7 @@ class Scopes:
         return Element(types, is_component=True)
 
     def _redeclared(self, modifiers: tuple[Scoped, ...], name: str) -> Types:
-        """Return the redeclared types of an element by the modifiers of its class."""
+        """Return the types to which the modifiers of its class redeclare an element."""
         nested = _nested(modifiers, name)
         types: Types = ()
         for arguments, scope in modifiers:
@@ -315,7 +317,7 @@ class Scopes:
     def _with_inherited(
         self, types: Types, node: Node, modifiers: tuple[Scoped, ...], name: str, prefixes: frozenset[str]
     ) -> Types:
-        """Add the types of the inherited element to one that redeclares it."""
+        """Return types; for an element that redeclares an inherited element, add the types of the inherited element."""
         before = self._inherited(node, modifiers, name) if "redeclare" in prefixes else None
         types += before.types if isinstance(before, Element) else ()
         return tuple(dict.fromkeys(types))
@@ -338,7 +340,7 @@ class Scopes:
 
 
 def _modified(types: Types, modifiers: Sequence[Scoped]) -> Types:
-    """Return types with more modifiers, in front of their present ones."""
+    """Return types with more modifiers before their present modifiers."""
     return tuple(type_ if type_.node is OPAQUE else Type(type_.node, (*modifiers, *type_.modifiers)) for type_ in types)
 
 

@@ -1,4 +1,4 @@
-"""Replaces plain statements that need no reading by blanks: nearly all of a robot model is unedited.
+"""Replaces plain statements that need no reading by blanks: most statements of a robot model are unedited.
 
 The other statements keep their lines and columns.
 """
@@ -25,18 +25,18 @@ _SEEN_BY_OTHERS = re.compile(r"\b(?:redeclare|uses)\b")
 
 
 _LONGEST = 1_000_000
-"""The most characters that are read of a text: more would take longer than 3 s."""
+"""The greatest number of characters of a text to read: more characters would take longer than 3 s."""
 TOO_LONG = StoredText([Fault(f"has more than {_LONGEST:,} characters of yours", 1)])
-"""Stands for a text with more characters to read."""
+"""Stands for a parsed text with more characters."""
 
 
 class Difference(NamedTuple):
-    """The difference between an edited text and the generated one."""
+    """The difference between an edited and the generated text."""
 
     same: frozenset[str]
-    """The plain statements that both texts have, and that mean the same unless a name has another meaning."""
+    """The plain statements in both texts; they mean the same in both, unless a name has another meaning."""
     names: frozenset[str]
-    """The names that other statements declare, in either text."""
+    """The names that all other statements declare, in either text."""
     is_whole: bool
     """Whether all names may have another meaning, such as after a changed `extends` or `import`."""
     generated: Class | None
@@ -44,29 +44,29 @@ class Difference(NamedTuple):
 
 
 class Reading(NamedTuple):
-    """A text with some statements passed over."""
+    """A parsed text without some statements."""
 
     text: str
     stored: StoredText
     passed: frozenset[int]
-    """Lines of the components of which only type and name are read."""
+    """Lines of components in left out statements: only their types and names were read."""
 
 
 # saves 110 ms in the row "robot model edited: 1,000 links, in the daemon" of docs/speed.md
 @functools.lru_cache(maxsize=64)
 def parse_without(text: str, passed: frozenset[str]) -> Reading:
-    """Parse a text without some of its plain statements; their components have only types and names.
+    """Parse a text without these plain statements; components in them get only types and names.
 
-    The parsed text is `TOO_LONG` if too many characters have to be read.
+    The parsed text is `TOO_LONG` if there are too many characters to read.
     """
     shortened, lines = _shorten(text, passed)
     size = len(text) - sum(map(len, passed))
     return Reading(shortened, parse(shortened) if size <= _LONGEST else TOO_LONG, lines)
 
 
-@functools.lru_cache(maxsize=8)  # saves 100 ms in the same row
+@functools.lru_cache(maxsize=8)  # saves 100 ms in the row of `parse_without`
 def compare(mine: str, generated: str) -> Difference:
-    """Compare an edited text with the generated one."""
+    """Compare an edited text with the generated text."""
     own, other = (Counter(text.split(_END)) for text in (mine, generated))
     same = frozenset(statement for statement, count in own.items() if other[statement] == count and is_plain(statement))
     texts = [_END.join(statement for statement in statements if statement not in same) for statements in (own, other)]
@@ -74,17 +74,17 @@ def compare(mine: str, generated: str) -> Difference:
         return Difference(same, frozenset(), is_whole=False, generated=None)
     rests = [*map(parse, texts)]
     paths = (declaration.path for rest in rests for declaration in declared(rest.classes))
-    names = frozenset(path[-1] for path in paths if path[1:])  # a wrong class name matters only in its own file
+    names = frozenset(path[-1] for path in paths if path[1:])  # without the class's own name
     visible = [dict(_visible(rest.classes)) for rest in rests]
     read = parse_without(mine, same)
-    # a comment or a string around it may hide a component
+    # a comment or a string may hide a component
     is_hidden = not read.passed <= {declaration.line for declaration in declared(read.stored.classes)}
     is_whole = visible[0] != visible[1] or is_hidden
     return Difference(frozenset() if is_whole else same, names, is_whole, next(iter(rests[1].classes), None))
 
 
 def _visible(classes: Iterable[Class]) -> Iterator[tuple[str, object]]:
-    """Yield what else gives names a meaning in a class: kind, base classes with redeclarations, imports."""
+    """Yield the parts of classes that change meanings of names: kind, base classes with redeclarations, imports."""
     for definition in classes:
         redeclared = [str(inner.type and inner.type.type) for base in definition.extends for inner in base.arguments]
         imported = [(str(clause.name), [*clause.names]) for clause in definition.imports]
@@ -101,7 +101,7 @@ def plain_statements(text: str) -> frozenset[str]:
 def is_plain(statement: str) -> bool:
     """Whether a statement, without its semicolon, only declares one component, connects, asserts or annotates.
 
-    It is not plain if other classes see more of it than a component's type and name.
+    A statement is not plain if other classes see more than a component's type and name, as with `redeclare`.
     """
     if ";" in statement or _SEEN_BY_OTHERS.search(statement):
         return False
@@ -121,13 +121,13 @@ def mentioning(statements: Collection[str], names: Collection[str]) -> set[str]:
 
 
 def component_of(statement: str) -> tuple[str, str] | None:
-    """Return the last part of the type, and the name, of the component that a plain statement declares."""
+    """Return the last part of the type, and the name, of a plain statement's component; None without a component."""
     component = _COMPONENT.match(statement)
     return (component[0].split()[-2].rpartition(".")[2], component[2]) if component else None
 
 
 def _shorten(text: str, passed: Collection[str]) -> tuple[str, frozenset[int]]:
-    """Return a text with blanks for statements, and the lines of components that keep type and name."""
+    """Return a text with blanks instead of statements, and the lines of components of which type and name stay."""
     pieces, lines, line = list[str](), set[int](), 1
     for statement in text.split(_END):
         piece, end = f"{statement}{_END}", 0

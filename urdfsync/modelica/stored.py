@@ -20,7 +20,7 @@ from urdfsync.modelica.syntax import StoredText
 
 
 class StoredClasses:
-    """The classes that are stored in files, for one robot's package; files are known by their absolute paths."""
+    """The classes in files, for one robot's package; files have absolute paths."""
 
     def __init__(
         self,
@@ -32,10 +32,10 @@ class StoredClasses:
         read: Callable[[bytes], StoredText] | None = None,
         former_package: str = "",
     ) -> None:
-        """`texts` are the files of the robot's package by their path below `folder`, `others` files of the user's.
+        """`texts` has the files of the robot's package by path below `folder`, `others` has the user's files.
 
-        `find` returns the folder or file of any other top-level class, None if there is none. `read` parses a file in
-        which no names are resolved. Files of `former_package` on disk do not count.
+        `find` returns the folder or file of any other top-level class, or None. `read` parses a file whose own names
+        need not be resolved. Files of `former_package` on disk do not count.
         """
         self._find = functools.cache(lambda name: find(name) or self._beside(name))
         self._read = read or parse_file
@@ -45,11 +45,11 @@ class StoredClasses:
         self.own: dict[ClassName, str] = {}
         """The files of the robot's package, by the full names of their classes."""
         self.users: dict[ClassName, Node] = {}
-        """The classes of the user's files, by their full names; if several have the same name, the first one."""
+        """The classes of the user's files, by their full names; of several with one name, the first class."""
         self.all_users: list[Node] = []
         """The classes of the user's files, in the order of the files."""
         self.unread: list[Path] = []
-        """The user's files that are no Modelica, or are in the wrong place: their classes are unknown."""
+        """The user's files with syntax errors or in the wrong folder: their classes are unknown."""
         self.libraries = {*STANDARD_LIBRARIES}
         """Libraries that need not be installed: their classes are not searched."""
         self.seen: dict[ClassName, str | None] = {}
@@ -73,7 +73,7 @@ class StoredClasses:
                 self.users.setdefault(name, self.all_users[-1])
 
     def stored(self, name: ClassName) -> Node | None:
-        """Return the class with this full name, `OPAQUE` if it can't be read; None if there is no file of it."""
+        """Return the class with this full name; `OPAQUE` for an unreadable class, None without a file."""
         file = self.seen[name] = self.file(name)
         if file is None:
             return None
@@ -94,7 +94,7 @@ class StoredClasses:
             return self.users[name].file
         if any(name[: len(package)] == package for package in self._not_on_disk):
             return None
-        # a misplaced file may belong to any package that lacks its class
+        # a file in the wrong folder may belong to any package without its class
         path = self._file(name) or next((path for path in self.unread if name[-1] == class_of_file(path)), None)
         return str(path) if path else None
 
@@ -106,11 +106,11 @@ class StoredClasses:
         return read_file(file) if other is None else other
 
     def path_below(self, file: str) -> str:
-        """Return the path of a file below the robot's package; empty if it is elsewhere."""
+        """Return the path of a file below the robot's package; empty for any other file."""
         return file.removeprefix(self._below) if file.startswith(self._below) else ""
 
     def has_library(self, name: str) -> bool:
-        """Whether a library may be missing: a `uses` annotation around the package, or of the user's, names it."""
+        """Whether a library may be missing: a `uses` annotation of the user or around the package names the library."""
         if name in self.libraries:
             return True
         for package in self._not_on_disk[:1]:
@@ -122,7 +122,7 @@ class StoredClasses:
         return False
 
     def names_in(self, name: ClassName) -> Iterable[str]:
-        """Return the names of classes that are stored below this package; for the empty name, top-level ones."""
+        """Return the names of classes that are stored below this package; for the empty name, of top-level classes."""
         names = {other[len(name)] for other in (*self.users, *self.own) if other[:-1] == name or not name}
         path = self._file(name) if name and name not in self.own else None
         if path is not None and path.name == PACKAGE_FILE:
@@ -132,13 +132,13 @@ class StoredClasses:
         return names
 
     def _beside(self, name: str) -> Path | None:
-        """Return the folder or file of a top-level class beside one of the user's; None if there is none."""
+        """Return the folder or file of a top-level class beside the user's top-level classes; None if there is none."""
         places = (folder / end for folder in self._folders for end in (f"{name}/{PACKAGE_FILE}", f"{name}.mo"))
         file = next((place for place in places if is_file(place)), None)
         return file.parent if file and file.name == PACKAGE_FILE else file
 
     def _file(self, name: ClassName) -> Path | None:
-        """Return the file of a library in which a class is stored."""
+        """Return the library's file in which a class is stored."""
         root = self._find(name[0])
         if root is None or root.suffix == ".mo":
             return root if len(name) == 1 else None

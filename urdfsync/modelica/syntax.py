@@ -1,7 +1,7 @@
-"""The parts of Modelica text that give names a meaning: classes, components, modifiers, and uses of names.
+"""The parts of Modelica text that matter for names: classes, components, modifiers, and uses of names.
 
-The parser makes these values. Lines count from 1. Annotations, descriptions and the arithmetic of expressions are left
-out; expressions keep only their names.
+The parser makes these values. Lines count from 1. They leave out annotations, descriptions and arithmetic; an
+expression is a list of its names.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ class Name(NamedTuple):
     parts: tuple[str, ...]
     line: int
     is_global: bool = False
-    """Whether it begins with a dot: then only top-level classes count."""
+    """Whether the name begins with a dot: it is looked up only among top-level classes."""
     is_called: bool = False
-    """Whether it is called as a function or record constructor."""
+    """Whether the name is called as a function or record constructor."""
     starts: tuple[int, ...] = ()
-    """The beginnings of its parts in the text, from 0."""
+    """The places of the name's parts in the text, from 0."""
     arguments: tuple[Name, ...] = ()
-    """The names of the arguments that it is called with."""
+    """The names of the named arguments of the call."""
 
     def __str__(self) -> str:
         return ".".join(self.parts)
@@ -39,7 +39,7 @@ class Modifier(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True)
     """The name of the modified element; only annotations have names with several parts."""
     arguments: tuple[Modifier, ...] = ()
     uses: tuple[Name, ...] = ()
-    """Names in its value."""
+    """Names in the modifier's value."""
     is_redeclared: bool = False
     type: Extends | None = None
     """Type or class of a redeclared element (`redeclare`, `replaceable`)."""
@@ -55,7 +55,7 @@ class Extends(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
 
 
 class Component(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
-    """A declared component; those of one declaration (`Real x, y;`) are one value each."""
+    """A declared component; a declaration of several (`Real x, y;`) gives one value for each."""
 
     name: Name
     type: Name
@@ -63,7 +63,7 @@ class Component(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True
     """Such as `parameter`, `inner`, `replaceable`, `redeclare`."""
     arguments: tuple[Modifier, ...] = ()
     uses: tuple[Name, ...] = ()
-    """Names in its value, sizes and condition."""
+    """Names in the component's value, sizes and condition."""
     constraint: Extends | None = None
 
 
@@ -71,13 +71,13 @@ class ImportClause(msgspec.Struct, frozen=True, array_like=True, omit_defaults=T
     """An import clause."""
 
     name: Name
-    """The class or package behind `import`; imported names count from the top."""
+    """The class or package after `import`; this name is looked up from the top level."""
     names: Mapping[str, Name] = {}
-    """The imported names, by their short names; empty for everything in the package (`import A.*`)."""
+    """The imported names by short names; empty for the whole package (`import A.*`)."""
 
 
 class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
-    """A class definition. Only the parser changes it. Equal only to itself."""
+    """A class definition. Only the parser changes a class. Each class equals only itself."""
 
     name: Name
     kind: str
@@ -89,9 +89,9 @@ class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
     literals: tuple[str, ...] | None = None
     """The literals of an enumeration; empty for `enumeration(:)`."""
     is_extension: bool = False
-    """Whether it is `model extends A`, which continues the inherited class of this name."""
+    """Whether this is `model extends A`, which continues the inherited class of this name."""
     is_derivative: bool = False
-    """Whether it is a function that is defined as the derivative of another one."""
+    """Whether this is a function that is defined as the derivative of another function."""
     arguments: tuple[Modifier, ...] = ()
     """Modifiers of the class that `is_extension` continues."""
     constraint: Extends | None = None
@@ -100,20 +100,20 @@ class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
     classes: list[Class] = msgspec.field(default_factory=list)
     components: list[Component] = msgspec.field(default_factory=list)
     uses: list[Name] = msgspec.field(default_factory=list)
-    """Names in equations and statements, those in connections included, without the indices of loops."""
+    """Names in equations, connections and statements, without the indices of loops."""
 
 
 class StoredText(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
-    """The readable parts of a file of Modelica."""
+    """The readable parts of a Modelica file."""
 
     faults: Sequence[Fault] = ()
     """All faults of its syntax, and all repetitions."""
     within: str | None = None
-    """The package that its `within` clause names; None if it has none."""
+    """The package in the `within` clause; None without a clause."""
     within_line: int = 0
     classes: Sequence[Class] = ()
     libraries: tuple[str, ...] = ()
-    """Libraries that its `uses` annotations name."""
+    """Libraries in the `uses` annotations."""
 
     @property
     def is_broken(self) -> bool:
@@ -125,12 +125,12 @@ class Declared(NamedTuple):
     """A class or component that a text declares."""
 
     path: tuple[str, ...]
-    """Its name, after those of the classes around it."""
+    """The names of the classes around it, then its own name."""
     line: int
 
 
 def declared(classes: Sequence[Class], around: tuple[str, ...] = ()) -> Iterator[Declared]:
-    """Yield all classes and components that are declared in classes, a class before its parts."""
+    """Yield all declared classes and components; a class comes before its parts."""
     for definition in classes:
         path = (*around, definition.name.parts[0])
         yield Declared(path, definition.name.line)

@@ -1,8 +1,8 @@
 """A class as a tree of things: elements, equations, modifiers. The tree keeps every byte.
 
-Things have keys, by which they are found in another version of the class: the name of a component or modifier, the
-words of an equation. Blanks and comments stand between the things: they are part of the tree, but of no thing. Only the
-name of an element or equation is read, until its parts are needed: most never are.
+A thing's key is the same in all versions of the class: a component's or modifier's name, or an equation's words.
+Blanks and comments stand between things, and belong to no thing. At first, only the name of an element or equation is
+read; the parts of most are never needed.
 """
 
 from __future__ import annotations
@@ -21,37 +21,37 @@ from urdfsync.modelica.lexer import STATEMENT, Fault, is_name, is_number, lex, w
 from urdfsync.modelica.parser import SECTIONS, Parser
 
 LAYOUT = frozenset({"Placement", "Line", "Icon", "Diagram"})
-"""Annotations with places and looks in a diagram."""
+"""Annotations about places and graphics in a diagram."""
 
 _REMARK = re.compile(r"[^\S\n]*(?://[^\n]*|/\*(?:(?!\*/)[^\n])*\*/)(?=\s*\n)")
 """A comment that ends a line."""
 
 _INITIAL = "initial equation "
 _EQUATION = re.compile(rf"(?:{_INITIAL})?(?:equation|if|for|when) ")
-"""The beginning of the key of an equation that is no connection."""
+"""The beginning of the key of an equation; connections have other keys."""
 _PASSED = frozenset({"input", "output"})
 _OPEN, _CLOSED = frozenset("([{"), frozenset(")]}")
 _PUNCTUATION = _OPEN | _CLOSED | {",", ";"}
 _LONGEST_INTEGER = 20
 
 _GEOMETRY = frozenset({"extent", "points", "origin", "rotation"})
-"""Arguments with places of graphics."""
+"""Arguments that contain places of graphics."""
 _TAIL = frozenset({"external", "annotation"})
-"""Keys of the parts that end a class, behind all sections."""
+"""Keys of the parts at the end of a class, after all sections."""
 
 Words: TypeAlias = tuple[str | float, ...]
-"""The tokens of a text without blanks and comments, numbers by their value. Integers stay integers."""
+"""The tokens of a text without blanks and comments; numbers are values. Integers stay integers."""
 
 
 class UnreadableError(Exception):
-    """An element or equation is no Modelica, or has two parts of one name."""
+    """An element or equation has a syntax error, or two parts of one name."""
 
 
 class TreeKind(Enum):
     """The arrangement of a tree's parts."""
 
     SLOTS = "slots"
-    """Parts with roles, such as `type`, in a fixed order; a role may be missing."""
+    """Parts with roles, such as `type`, in a fixed order; parts may be missing."""
     BODY = "body"
     """Elements and equations, and the words that begin sections."""
     LIST = "list"
@@ -74,7 +74,7 @@ class Leaf:
 
     @cached_property
     def words(self) -> Words:
-        """Its words; a connection has only its two ends, in alphabetical order."""
+        """The words of the text; a connection has only its two ends, in alphabetical order."""
         return words_of(self.text) if self._words is None else self._words
 
 
@@ -99,7 +99,7 @@ class SyntaxTree:
 
     @property
     def parts(self) -> Sequence[Part]:
-        """Its parts in the order of the text. Raises UnreadableError."""
+        """The parts in the order of the text. Raises UnreadableError."""
         return self._parts
 
     def with_parts(self, parts: Sequence[Part]) -> SyntaxTree:
@@ -113,7 +113,7 @@ class SyntaxTree:
 
     @cached_property
     def text(self) -> str:
-        """The text of the tree, every byte."""
+        """The text of the tree, byte for byte."""
         separators = [*(len(self.parts) - 1) * [self.separator], ""]
         inner = (
             f"{part.before}{part.node.text}{part.after}{separator}{part.remark}"
@@ -123,9 +123,9 @@ class SyntaxTree:
 
     @cached_property
     def sections(self) -> dict[str, str]:
-        """The key of the first word of each part's section, by the part's key; empty before any section, and in a list.
+        """The key of each part's section, by the part's key; empty before the first section, and in a list.
 
-        The parts that end a class are in the section `tail`.
+        The parts at the end of a class are in the section `tail`.
         """
         section, sections = "", dict[str, str]()
         for part in self.parts:
@@ -149,7 +149,7 @@ class SyntaxTree:
         return {part.key: part for part in self.parts}
 
     def says(self, *, layout: bool) -> list[tuple[str, str, Node]]:
-        """Return its parts with their keys. Without `layout`, they are sorted, without layout and words of sections."""
+        """Return the parts with their keys; without `layout`, sorted, and without layout and section words."""
         if layout:
             return [(part.key, "", part.node) for part in self.parts]
         parts = [
@@ -165,7 +165,7 @@ class SyntaxTree:
 
 
 class Statement(SyntaxTree):
-    """An element or equation with its semicolon; it is read when its parts are needed."""
+    """An element or equation with its semicolon; its parts are read when they are needed."""
 
     def __init__(self, text: str, *, is_equation: bool) -> None:
         super().__init__(TreeKind.SLOTS, ())
@@ -174,7 +174,7 @@ class Statement(SyntaxTree):
 
     @cached_property
     def parts(self) -> Sequence[Part]:
-        """Its parts in the order of the text. Raises UnreadableError."""
+        """The parts in the order of the text. Raises UnreadableError."""
         return _TreeReader(self.text, {}).statement(is_equation=self._is_equation)
 
 
@@ -182,16 +182,16 @@ Node: TypeAlias = Leaf | SyntaxTree
 
 
 class Part(msgspec.Struct, frozen=True, eq=False):
-    """A thing at its place among others."""
+    """A thing at its place in a tree."""
 
     key: str
     before: str
-    """Blanks and comments before it."""
+    """Blanks and comments before the thing."""
     node: Node
     after: str = ""
-    """Blanks and comments between it and the separator."""
+    """Blanks and comments between the thing and the separator."""
     remark: str = ""
-    """A comment at the end of its line, behind the separator if there is one."""
+    """A comment at the end of the thing's line, after the separator if there is one."""
 
 
 def is_same(node: Node, other: Node, *, layout: bool = True) -> bool:
@@ -216,7 +216,7 @@ def is_section(key: str) -> bool:
 
 
 def is_equation(part: Part) -> bool:
-    """Whether a part of a body is an equation that is no connection."""
+    """Whether a part of a body is an equation, but no connection."""
     return _EQUATION.match(part.key) is not None
 
 
@@ -241,14 +241,14 @@ def comments(text: str) -> list[str]:
 
 
 def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
-    """Key equations by all their words, in all versions of a body, if one version has several for one variable."""
+    """Key equations for a variable by all their words, in all versions, if one version has several of them."""
     counts = [Counter(_variable(part) for part in tree.parts) for tree in trees]
     several = {name for names in counts for name, count in names.items() if name and count > 1}
     return tuple(tree.with_parts(list(_keyed(tree.parts, several))) if several else tree for tree in trees)
 
 
 def _variable(part: Part) -> str:
-    """Return the variable that can name an equation; empty if there is none."""
+    """Return the variable that can be the key of an equation; empty if there is none."""
     return part.key.partition(" = ")[0] if is_equation(part) else ""
 
 
@@ -262,7 +262,7 @@ def _keyed(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
 
 
 def as_sum(node: Node) -> Node:
-    """Turn an expression that is only a name into a sum with one term; return others unchanged."""
+    """Turn an expression of only a name into a sum with one term; return any other expression unchanged."""
     if not isinstance(node, Leaf) or any(
         not isinstance(word, str) or not (is_name(word) or word == ".") for word in node.words
     ):
@@ -280,7 +280,7 @@ def _words(tokens: Sequence[str]) -> Words:
 
 
 def _number(text: str) -> float:
-    """Return the value of a number; one without a point is an Integer, unless it is too long for tools."""
+    """Return the value of a number; without a point it is an Integer, unless it is too long for tools."""
     return int(text) if text.isdecimal() and len(text) < _LONGEST_INTEGER else float(text)
 
 
@@ -289,7 +289,7 @@ def _said(words: Words) -> str:
 
 
 def _type_words(part: Part) -> Words:
-    """Return the prefixes and the type of a component, or of several; empty for anything else."""
+    """Return the prefixes and the type in a declaration of components; empty for anything else."""
     if not (isinstance(part.node, SyntaxTree) and part.key.startswith("component ")):
         return ()
     type_part = part.node.find("type") or part.node.find("components")
@@ -310,7 +310,7 @@ def _drawn(words: Words) -> Words:
 
 
 def _numbered(parts: Sequence[Part]) -> list[Part]:
-    """Return items or terms with their words as keys, without places in the diagram; equal keys get a number."""
+    """Return items or terms with their words, except places in the diagram, as keys; equal keys get a number."""
     seen = Counter[str]()
     numbered = []
     for part in parts:
@@ -321,10 +321,10 @@ def _numbered(parts: Sequence[Part]) -> list[Part]:
 
 
 class Span(NamedTuple):
-    """A part of a text: its tokens from number `start` up to the one before `stop`."""
+    """A part of a text: the tokens from number `start` up to the token before `stop`."""
 
     key: str
-    """Its role in the thing around it, such as `type`, or the name of a modifier."""
+    """The part's role in the thing around it, such as `type`, or the name of a modifier."""
     start: int
     stop: int
     inner: Sequence[Span] = ()
@@ -333,19 +333,19 @@ class Span(NamedTuple):
 
 
 class KnownStatement(NamedTuple):
-    """An element or equation that an earlier text has, too."""
+    """An element or equation that an earlier text contained, too."""
 
     part: Part
     names: Sequence[tuple[str, str]]
-    """Names that it takes, each with the fault for a second statement with this name."""
+    """Names that the statement takes, each with the fault for a second statement with this name."""
 
 
 KnownStatements: TypeAlias = dict[tuple[str, str], KnownStatement]
-"""Elements and equations that were read before, by their section and by their text with the blanks before it."""
+"""Elements and equations that were read before, by section and by text, with blanks before."""
 
 
 def read_tree(text: str, statements: KnownStatements | None = None) -> SyntaxTree | None:
-    """Read a text that is one class; None if it is no Modelica, has several classes, or things with the same name.
+    """Read a text of one class; None for a syntax error, several classes, or two things of one name.
 
     Known `statements` are not read again, and new ones are added.
     """
@@ -353,48 +353,48 @@ def read_tree(text: str, statements: KnownStatements | None = None) -> SyntaxTre
 
 
 def find_faults(text: str, statements: KnownStatements) -> Sequence[Fault]:
-    """Return the faults of a text, without those inside of a known element or equation."""
+    """Return the faults of a text, without faults inside of known elements and equations."""
     return _TreeReader(text, statements, reads_all=True).read().faults
 
 
 class _OpenBody:
-    """The body of a class during the reading."""
+    """The body of a class while it is read."""
 
     def __init__(self, mark: int, end: int, *, skips: bool) -> None:
         self.skips = skips
-        """Whether to read only names of elements and equations."""
+        """Whether to read only the names of elements and equations."""
         self.mark = mark
         """The number of spans before the present element or equation."""
         self.end = end
-        """The end of the text in parts."""
+        """The place in the text up to which `parts` reaches."""
         self.parts: list[Part] = []
         self.section = ""
         """The first words of the present section, such as `initial equation`."""
         self.sections = Counter[str]()
         self.names: list[tuple[str, str]] = []
-        """Names that the present element or equation takes."""
+        """Names that the present element or equation takes, each with the fault for a repetition."""
 
     def add(self, part: Part, text: str, stop: int) -> None:
-        """Add a part that ends at this place in the text, and the comment behind it."""
+        """Add a part that ends at this place in the text, and the comment after the part."""
         remark = _remark_at(text, stop)
         self.parts.append(msgspec.structs.replace(part, remark=remark) if remark else part)
         self.end = stop + len(remark)
 
 
 class _TreeReader(Parser):
-    """Makes the tree during the parsing: it notes the extent of each part."""
+    """Makes the tree while parsing: the hooks of the parser note the extent of each part."""
 
     def __init__(self, text: str, statements: KnownStatements, *, reads_all: bool = False) -> None:
         super().__init__(text)
         self._statements, self._reads_all = statements, reads_all
         self._spans: list[Span] = []
         self._body = _OpenBody(0, 0, skips=False)
-        """The body of the innermost class around this place."""
+        """The body of the innermost class around the present place."""
         self._end = 0
-        """The end of the text in the tree."""
+        """The place in the text up to which the tree reaches."""
 
     def file(self) -> SyntaxTree | None:
-        """Read the whole text; None if it is not one class that can be merged."""
+        """Read the whole text; None unless it is one class that can be merged."""
         try:
             stored = self.read()
             if stored.faults or len(stored.classes) != 1:
@@ -411,7 +411,7 @@ class _TreeReader(Parser):
             raise UnreadableError
         return self._slots(self._spans).parts
 
-    # --- what the parser notes --------------------------------------------------------------------------------------
+    # --- hooks of the parser --------------------------------------------------------------------------------------
 
     def _mark(self) -> int:
         return len(self._spans)
@@ -465,7 +465,7 @@ class _TreeReader(Parser):
             word = words[at]
             if word not in _PUNCTUATION:
                 continue
-            if word == ";":  # in brackets it ends a row of a matrix
+            if word == ";":  # in brackets, a semicolon ends a row of a matrix
                 self.at = at if not depth else self.at
                 return not depth
             if word == "," and not depth:  # several components in one declaration
@@ -486,7 +486,7 @@ class _TreeReader(Parser):
             if is_section(previous.key):
                 body.parts.append(previous)
                 part = Part(f"statements of {previous.key.partition(' ')[2]}", before, Leaf(own_text))
-            else:  # the statements of a section are one part
+            else:  # all statements of an algorithm section are one part
                 own_text = f"{previous.node.text}{previous.remark}{before}{own_text}"
                 part = Part(previous.key, previous.before, Leaf(own_text))
         elif self.faults or not body.skips:
@@ -500,7 +500,7 @@ class _TreeReader(Parser):
         body.add(part, text, stop)
 
     def _key(self, spans: Sequence[Span]) -> str:
-        """Return the key of an element or equation: other versions of the class have the same."""
+        """Return the key of an element or equation; it is the same in other versions of the class."""
         first = next(span for span in spans if span.key not in ("prefixes", "type"))
         inner = self.words[first.start : first.stop]
         if first.key == "import":
@@ -520,7 +520,7 @@ class _TreeReader(Parser):
         ends = [span for span in first.inner if span.key in ("header", "left")]
         if ends and ends[0].key == "header":
             return f"{kind}{_said(_words(self.words[ends[0].start : ends[0].stop]))}"
-        # a single variable on the left side names the equation
+        # a single variable on the left side is the key of the equation
         variable = self.words[ends[0].start : ends[0].stop] if ends else []
         is_alone = all(is_name(word) or word[0] in ".()[]" or word == "der" for word in variable)
         return f"{kind}equation {_said(_words(variable if variable and is_alone else inner))}"
@@ -532,27 +532,27 @@ class _TreeReader(Parser):
     # --- the parts --------------------------------------------------------------------------------------------------
 
     def _stop(self, at: int) -> int:
-        """Return the end of the token before the one with this number."""
+        """Return the end of the token before this token's number."""
         return self.starts[at - 1] + len(self.words[at - 1])
 
     def _blanks(self, at: int) -> str:
-        """Return the blanks before a token, and go beyond them."""
+        """Return the blanks before a token, and step over them."""
         before = self.text[self._end : self.starts[at]]
         self._end = self.starts[at]
         return before
 
     def _said(self, stop: int) -> str:
-        """Return the text up to the token with this number, and go beyond it."""
+        """Return the text up to the token with this number, and step over it."""
         text = self.text[self._end : self._stop(stop)]
         self._end += len(text)
         return text
 
     def _slots(self, spans: Sequence[Span]) -> SyntaxTree:
-        """Return a tree of parts that have roles. Raises UnreadableError if two have the same role."""
+        """Return a tree of parts with roles. Raises UnreadableError if two parts have the same role."""
         return _with_unique_keys(SyntaxTree(TreeKind.SLOTS, [self._slot(span) for span in spans]))
 
     def _slot(self, span: Span) -> Part:
-        """Return a part of an element, by its role."""
+        """Return a part of an element; the span's key is the part's role."""
         if span.body:
             self._end += len(span.body.text)
             return Part("body", "", span.body)
@@ -582,7 +582,7 @@ class _TreeReader(Parser):
         return SyntaxTree(TreeKind.LIST, parts, opening, closing)
 
     def _separated(self, part: Part, at: int, separator: str) -> Part:
-        """Return a part with the blanks before a following separator, and the comment behind it."""
+        """Return a part with the blanks before its separator, and the comment after the separator."""
         after = ""
         if self.words[at] == separator:
             after = self._blanks(at)
@@ -629,13 +629,13 @@ class _TreeReader(Parser):
 
 
 def _remark_at(text: str, place: int) -> str:
-    """Return the comment at a place in a text, if it ends the line."""
+    """Return the comment at a place in a text if the comment ends the line."""
     match = _REMARK.match(text, place)
     return match[0].rstrip("\r") if match else ""
 
 
 def _with_unique_keys(tree: SyntaxTree) -> SyntaxTree:
-    """Return a tree in which each part has a key of its own. Raises UnreadableError."""
+    """Return a tree of these parts. Raises UnreadableError if two parts have the same key. Raises UnreadableError."""
     if len({part.key for part in tree.parts}) < len(tree.parts):
         raise UnreadableError
     return tree

@@ -12,25 +12,25 @@ from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
 from urdfsync.spelling import nearest
 
 _RATHER_ALIKE, _ALIKE = 0.6, 0.75
-"""The least likeness (see `difflib`) of a misspelled name; the second one is for names that a library may have."""
+"""The least likeness (see `difflib`) of a misspelled name; the second value is for names that a library may have."""
 
 _CALLED = frozenset({"function", "operator function", "record"})
-"""Kinds of classes whose elements are their arguments."""
+"""Kinds of classes that are called with their elements as named arguments."""
 
 
 class UnresolvedKind(enum.Enum):
-    """The kind of a name's fault."""
+    """The kinds of faults of names."""
 
     CLASS = "class"
-    """It is used as a class, and there is no such class."""
+    """A name is used as a class, but there is no such class."""
     ELEMENT = "element"
     """A class has no component or function of this name."""
     CIRCLE = "circle"
     """A class extends itself, directly or through others: its elements are unknown."""
     NESTED_REDECLARE = "nested-redeclare"
-    """Legal: it redeclares an element inside of an element."""
+    """A modifier redeclares an element inside of an element: legal, but some tools ignore it."""
     DOTTED_MODIFIER = "dotted-modifier"
-    """Legal: a modifier of an element inside of an element, by a name with dots."""
+    """A modifier has a name with dots: some tools do not support it."""
 
 
 class Unresolved(NamedTuple):
@@ -38,18 +38,18 @@ class Unresolved(NamedTuple):
 
     kind: UnresolvedKind
     name: str
-    """The name as it is written, with dots."""
+    """The name in the text, with dots."""
     part: str
-    """The unresolved part of it."""
+    """The unresolved part of the name."""
     owner: str
-    """The full name of the class that lacks it."""
+    """The full name of the class without this part."""
     line: int
     near: str = ""
-    """The candidate that is most like the part; empty if none is."""
+    """The valid name that is most similar to the part; empty if no name is similar."""
     candidates: Collection[str] = ()
     """The valid names at this place."""
     is_library: bool = False
-    """Whether it may be the name of a library."""
+    """Whether the part may be the name of a library."""
 
     @property
     def message(self) -> str:
@@ -62,7 +62,7 @@ class Unresolved(NamedTuple):
 
     @property
     def meant(self) -> str:
-        """The name with the most similar known part; empty if no known part is similar."""
+        """The name with `near` in place of the unresolved part; empty without `near`."""
         parts = self.name.split(".") if self.near else []
         return ".".join(self.near if part == self.part else part for part in parts)
 
@@ -77,15 +77,15 @@ def unresolved(
 ) -> Iterator[Unresolved]:
     """Yield the faults of names in a class and in the classes inside of it.
 
-    A name that may come from an unread library is no fault. Neither is an element that a class may inherit from there,
-    unless its name is `lost`. With `all_libraries`, the names of all libraries are known, so any other library is
-    missing. Components in the lines `passed` are right.
+    A name that may come from an unread library is no fault. An element that a class may inherit from an unread library
+    is a fault only if its name is `lost`. With `all_libraries`, the names of all libraries are known, so any other
+    library is missing. Components in the lines `passed` are not checked.
     """
     yield from _Walk(scopes, all_libraries, lost, passed).find(node)
 
 
 def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
-    """Whether a class or one around it is a package that may inherit classes from an unavailable library."""
+    """Whether a class, or a class around it, is a package that may inherit classes from an unavailable library."""
     while scope is not None:
         if scope.definition.kind == "package" and any(base.node is OPAQUE for base in scopes.bases(scope)):
             return True
@@ -94,7 +94,7 @@ def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
 
 
 class _Walk(NamedTuple):
-    """A walk through a class; for the fields see `unresolved`."""
+    """The search in a class; for the fields see `unresolved`."""
 
     scopes: Scopes
     all_libraries: bool
@@ -135,7 +135,7 @@ class _Walk(NamedTuple):
         return bool(waiting)
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
-        """Yield the faults of a used class, and of the modifiers beside it."""
+        """Yield the faults of a used class, and of the modifiers after the class."""
         yield from self._missing(used.type, self.scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
         yield from self._arguments(used.arguments, self.scopes.types_of(used, scope), scope)
 
@@ -188,7 +188,7 @@ class _Walk(NamedTuple):
     ) -> Iterator[Unresolved]:
         if isinstance(meaning, Element):
             return
-        # from unread libraries, models inherit components but hardly ever classes
+        # models hardly ever inherit classes from unread libraries, only components
         is_class = kind is UnresolvedKind.CLASS and meaning.number == 0 and scope is not None
         is_missing = meaning.is_certain or (is_class and not _is_in_open_package(scope, self.scopes))
         if not (is_missing or (self.lost and self.lost(meaning.part))):
@@ -196,9 +196,9 @@ class _Walk(NamedTuple):
         owner = str(meaning.types[0] if meaning.types else scope or "")
         names = self.scopes.names_in(meaning.types) if meaning.types else self.scopes.names_around(scope)
         candidates = {key for key, is_class in names.items() if is_class or kind is not UnresolvedKind.CLASS}
-        is_dotted = len(name.parts) > 1 or name.is_global  # imported names are dotted, too
+        is_dotted = len(name.parts) > 1 or name.is_global  # imported names have dots, too
         is_library = not meaning.types and is_dotted and meaning.part[:1].isupper()
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(meaning.part, sorted(candidates - {meaning.part}), least)
-        if near or not is_library or self.all_libraries:  # compilers report missing libraries
+        if near or not is_library or self.all_libraries:  # otherwise a compiler reports a missing library
             yield Unresolved(kind, str(name), meaning.part, owner, name.line, near, candidates, is_library)

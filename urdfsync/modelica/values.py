@@ -1,4 +1,4 @@
-"""Reads the values in a class by their paths: those of its base class, of its components, and its connections."""
+"""Reads the values in a class by their paths: of base classes, of components, and of connections."""
 
 from __future__ import annotations
 
@@ -27,24 +27,24 @@ class Value(NamedTuple):
     path: str
     """`limits.effort` of a base class, `arm.inertial.mass` or `condition of arm` of a component; else `connect`."""
     type: str
-    """The base class, or the type of the component with its prefixes; `equation` for a connection or an equation."""
+    """The base class, or the component's type with prefixes; `equation` for a connection or an equation."""
     text: str
-    """The expression; for a connection, its two ends with a blank between them."""
+    """The expression; for a connection, its two ends, separated by a blank."""
     line: int
 
 
 class Values(NamedTuple):
-    """The values of a class in their order, with the descriptions and the types of its components."""
+    """The values of a class in order, with the descriptions and types of its components."""
 
     values: list[Value]
     titles: dict[str, str]
     types: list[Value]
-    """The type of each component, and the base classes with the path `extends`."""
+    """The types of the components by their names; a base class has the path `extends`."""
 
 
-@functools.lru_cache(maxsize=4096)  # most texts on disk are the generated ones
+@functools.lru_cache(maxsize=4096)  # cached: most texts on disk equal the generated texts
 def read_values(text: str) -> Values:
-    """Return the values in a text that is one class without faults of syntax."""
+    """Return the values in a text of one class without syntax errors."""
     read, statement, depth = Values([], {}, []), list[Token](), 0
     for token in lex(text)[0]:
         depth += _DEPTH.get(token.text, 0)
@@ -56,7 +56,7 @@ def read_values(text: str) -> Values:
 
 
 def literals(text: str) -> tuple[float, ...] | str | None:
-    """Return the numbers of an expression, or its string or truth; None if it is no literal."""
+    """Return the numbers of an expression, or its string or truth value; None if it is not a literal."""
     text = _EMPTY.sub("", text.strip())
     if text.startswith('"'):
         try:
@@ -119,7 +119,7 @@ def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: st
         while end < stop and (words[end] != "," or depth):
             depth += _DEPTH.get(words[end], 0)
             end += 1
-        if words[at] == "redeclare" and not {"(", "="} & {*words[at:end]}:  # its text is the type
+        if words[at] == "redeclare" and not {"(", "="} & {*words[at:end]}:  # the value is the type
             *type_words, name = (word for word in words[at + 1 : end] if word != "parameter")
             place = f"{path}.{name}" if path else name
             yield Value(place, type_, "".join(type_words), _line(text, tokens[at]))
@@ -136,7 +136,7 @@ def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: st
 
 
 def _close(words: Sequence[str], at: int) -> int:
-    """Return the place of the bracket that closes the one at a place."""
+    """Return the place of the bracket that closes the bracket at a place."""
     depth = 0
     for k in range(at, len(words)):
         depth += _DEPTH.get(words[k], 0)

@@ -15,15 +15,15 @@ from urdfsync.output.phrases import reason
 from urdfsync.spelling import counted
 
 FULL = 3
-"""The most conflicts of a robot that are shown in full without --verbose."""
+"""The greatest number of conflicts of a robot that are shown in full without --verbose."""
 LINES = 16
-"""The most lines of a conflict that are shown without --verbose."""
+"""The greatest number of lines of a conflict that are shown without --verbose."""
 _CONTEXT = 2
 """Unchanged lines that are shown around a difference."""
 _WIDTH = 240
-"""The most characters of a line that are shown."""
+"""The greatest number of characters of a line that are shown."""
 _ELEMENTS = 5
-"""The most changes of each side that are listed."""
+"""The greatest number of changes of each side that are listed."""
 _SIGNS = {"+": "green", "-": "red", "@": "cyan"}
 """Styles of the lines of a difference, by the first characters of a line."""
 

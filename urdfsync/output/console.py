@@ -34,7 +34,7 @@ Format: TypeAlias = Literal["text", "json", "markdown", "sarif"]
 PURPOSES: Mapping[Format, str] = {"markdown": "for a comment", "sarif": "for findings at their lines"}
 """The purpose of formats, for the help."""
 FEW = 5
-"""The most warnings of one code that are shown; further warnings are counted."""
+"""The greatest number of warnings of one code that are shown; further warnings are counted."""
 BAR_AFTER = 0.5
 """Seconds of work before a progress bar appears."""
 _SEVERITIES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}

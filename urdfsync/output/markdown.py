@@ -21,9 +21,9 @@ from urdfsync.spelling import visible
 FOLDED = 30
 """Tables and lists with more rows are folded."""
 MOST_ROWS = 100
-"""The most rows of a table that are written; further rows are counted."""
+"""The greatest number of rows of a table that are written; further rows are counted."""
 LONGEST = 50_000
-"""The most characters of details about robots; GitHub allows 65,536 for a comment."""
+"""The greatest number of characters of details about robots; GitHub allows 65,536 for a comment."""
 _TOO_LONG = " (the rest is too long for a comment: the command without `--format` shows it)"
 _CODE = re.compile("`([^`]+)`")
 

@@ -20,14 +20,14 @@ from urdfsync.output.sections import Table
 from urdfsync.spelling import same_count
 
 _NAMES = 140
-"""The most characters of the names in a title; a title has one name at least."""
+"""The greatest number of characters of the names in a title; a title has one name at least."""
 _SAME = 1e-9
 """Up to this value, a relative change of a sum is rounding, and a length (m) or an angle (rad) can't be measured."""
 _COMPONENT = r"(.*)\[(\d+)\]"
 _MOVED = 3
 """If more elements of a kind exchanged their names, they share one row."""
 _WIDTH = 40
-"""The most characters of a text that are shown."""
+"""The greatest number of characters of a text that are shown."""
 _CONTEXT = 12
 """Characters of a long text before the place where it differs."""
 _HASH = "[0-9a-f]{64}"

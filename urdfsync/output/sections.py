@@ -35,7 +35,7 @@ class Table(msgspec.Struct, frozen=True):
     line: Callable[..., StyledLine] | None = None
     """Turns the cells of a row into a line for terminals; None if terminals do not show the table."""
     most: int = 12
-    """The most rows that a terminal shows without --verbose."""
+    """The greatest number of rows that a terminal shows without --verbose."""
     noun: str = "line"
     heading: Sequence[StyledLine] = ()
     """Lines of a terminal above the rows."""
@@ -56,7 +56,7 @@ class Section(msgspec.Struct, frozen=True):
     hints: Sequence[str] = ()
     """Lines of a terminal about what to do next."""
     most: int = 12
-    """The most points that a terminal shows without --verbose."""
+    """The greatest number of points that a terminal shows without --verbose."""
 
     @property
     def has_details(self) -> bool:

@@ -42,7 +42,7 @@ FOLLOWER = "follow.js"
 _FOLDER = Path(__file__).parent
 _STYLE = re.compile("<style>(.*?)</style>", re.DOTALL)
 _MOST_INSTANTS = 1000
-"""The most instants of a simulation on the page."""
+"""The greatest number of instants of a simulation on the page."""
 _LEAST = 1e-17
 """The least relative error on the scale of a check."""
 _DATA = "against statuses renamed changes files diagram".split()

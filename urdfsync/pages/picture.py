@@ -21,11 +21,11 @@ from urdfsync.pages.scene import Pictures, Scene, Triangles
 from urdfsync.versions.comparison import Contents
 
 _MOST, _LEAST = 500_000, 200
-"""The most triangles of a page, and the least share of one mesh. A triangle takes some 13 bytes."""
+"""The greatest number of triangles of a page, and the least share of one mesh. A triangle takes some 13 bytes."""
 _FINE = 200
 """With fewer cells along a mesh's longest edge, in each of which corners are merged, the loss is visible."""
 _MOST_REFUSED = 4
-"""The most files that are too large for the package, but read for the picture: each may take 16 s."""
+"""The greatest number of files that are too large for the package, but read for the picture: each may take 16 s."""
 
 
 class Picture(msgspec.Struct, frozen=True):

@@ -31,7 +31,7 @@ _BY_URDFSYNC = "exported by urdfsync"
 _BEGINNING = 2**16
 """The first bytes of a description, so many of them, contain the attributes of its root element."""
 _MOST_BYTES = 2**28
-"""The most bytes of an FMU that is opened: its list of contents may be nearly the whole file."""
+"""The greatest number of bytes of an FMU that is opened: its list of contents may be nearly the whole file."""
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
 _MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
 

@@ -16,7 +16,7 @@ from urdfsync.simulation.results import JointResult, Range, SimulateResult
 _ROWS = ("position", "speed", "effort")
 _PER_COLUMN = 6
 _MOST = 12
-"""The most series of a picture without joints."""
+"""The greatest number of series of a picture without joints."""
 _WIDTH, _HEIGHT = 6.4, 2.6
 """Width and height of a panel, in inches."""
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")

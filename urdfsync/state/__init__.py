@@ -1,1 +1,1 @@
-"""State on disk between builds, and writes that survive a crash, a full disk and other writers."""
+"""State on disk between builds, and writes that survive crashes, a full disk, and other programs' writes."""

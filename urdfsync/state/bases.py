@@ -1,8 +1,9 @@
-"""Reads and writes the bases of one robot: every text that urdfsync generated last, by its hash.
+"""Reads and writes the bases of one robot: the last generated text of each file, by the text's hash.
 
-The files are `.urdfsync/bases/<robot>/0` to `f`, which are committed. A text is in the file named like the first digit
-of its hash. All sixteen files always exist, so that git sees no renames. A line has the hash, and the text as a JSON
-string. Git unites the lines of two branches (`merge=union`). A damaged line is skipped: its hash does not fit its text.
+The files are `.urdfsync/bases/<robot>/0` to `f`, which are committed. The name of a text's file is the first digit of
+the text's hash. All sixteen files always exist, so that git sees no renames. A line has the hash, and the text as a
+JSON string. Git unites the lines of two branches (`merge=union`). A damaged line is skipped: its hash and its text
+differ.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ import msgspec
 from urdfsync.files import digest
 
 DIGITS = "0123456789abcdef"
-"""The names of the files."""
 
 _DECODER = msgspec.json.Decoder(str)
 
@@ -26,7 +26,7 @@ def dumps(texts: Mapping[str, str]) -> bytes:
     return b"".join(b"%s %s\n" % (sha256.encode(), encode(text)) for sha256, text in sorted(texts.items()))
 
 
-@functools.lru_cache(maxsize=2 * len(DIGITS))  # the daemon reads all files in each build
+@functools.lru_cache(maxsize=2 * len(DIGITS))  # cached: the daemon reads all files in each build
 def loads(content: bytes) -> Mapping[str, str]:
     """Return the texts of one file by their hashes; damaged lines are skipped."""
     texts = {}
@@ -34,7 +34,7 @@ def loads(content: bytes) -> Mapping[str, str]:
         sha256, _, encoded = line.partition(b" ")
         try:
             text = _DECODER.decode(encoded)
-        except ValueError:  # not JSON or not UTF-8
+        except ValueError:  # the line is not JSON or not UTF-8
             continue
         if digest(text.encode()).encode() == sha256:
             texts[sha256.decode()] = text

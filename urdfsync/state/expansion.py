@@ -1,7 +1,7 @@
 """Reads and writes an expanded source, `.urdfsync/robots/<robot>.expanded`, which is committed.
 
-It holds the text of xacro or of a command, and the hashes of all its inputs. So a build expands only a changed source,
-and a clone needs no xacro. If git has united two versions, the hash of the whole does not fit, and the file is ignored.
+The file holds the text from xacro or a command, and the hashes of all inputs. So a build expands only a changed source,
+and a clone needs no xacro. If git has united two versions, the hash of the whole is wrong, and builds ignore the file.
 """
 
 from __future__ import annotations
@@ -14,37 +14,37 @@ from urdfsync.files import digest
 
 _HEADER = "# This robot's source, expanded, and what it is made of. Written by urdfsync: commit it, don't edit it.\n"
 _END = "\n}\n"
-"""Ends the JSON object in front of the text."""
+"""The end of the JSON object before the text."""
 
 
 class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
-    """A text with its inputs.
+    """An expanded text with its inputs.
 
     Files are named by a path from the configuration's folder, by `package://NAME/…`, or else by an absolute path.
     """
 
     format: int = 1
     source: str = ""
-    """The source as the configuration names it."""
+    """The source's path in the configuration."""
     arguments: Mapping[str, str] = {}
     command: tuple[str, ...] = ()
     """The command that wrote the source; empty for xacro."""
     files: Mapping[str, str | None] = {}
-    """Hashes of the files that were read, by name; None for a missing one."""
+    """Hashes of the files that were read, by name; None for a missing file."""
     patterns: Mapping[str, str] = {}
-    """Hashes of the names that patterns such as `parts/*.xacro` matched."""
+    """Hashes of the file names that match each pattern, such as `parts/*.xacro`."""
     variables: Mapping[str, str | None] = {}
-    """Hashes of the values of environment variables; None for a variable that was not set."""
+    """Hashes of the values of environment variables; None for an unset variable."""
     unused: tuple[str, ...] = ()
-    """Arguments in the configuration that the source lacks."""
+    """Arguments in the configuration that the source does not declare."""
     warnings: tuple[str, ...] = ()
     """Messages of xacro."""
     places: str = ""
     """The original places of elements: `12=0:7` means that line 12 of the text is from line 7 of the first of `files`,
-    in the order of their names.
+    sorted by name.
     """
     sum: str = ""
-    """Hash of everything else."""
+    """Hash of all other fields."""
     text: str = ""
 
 
@@ -57,7 +57,7 @@ def dumps(expansion: Expansion) -> bytes:
 
 
 def loads(content: bytes) -> Expansion | None:
-    """Read an expansion; None for another text, such as two versions in one."""
+    """Read an expansion; None for any other text, such as two united versions."""
     text = content.decode(errors="replace").replace("\r\n", "\n").removeprefix(_HEADER)
     head, _, rest = text.partition(_END)
     try:

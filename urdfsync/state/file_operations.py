@@ -1,8 +1,8 @@
 """The file operations of a transaction.
 
-A crash happens before or after an operation. Only `write` and `write_bound` can be cut short, and they write under
-temporary names. Tests put kills, errors and saves between any two operations. All operations raise OSError. They follow
-no symbolic link: files are created exclusively, and renaming acts on the link itself.
+A crash can interrupt only `write` and `write_bound`, which write files under temporary names. Tests put kills, errors
+and saves between any two operations. All operations raise OSError. They follow no symbolic link: they create only new
+files, and they rename a link itself.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import msgspec
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _FEW = 32
-"""The most files that are synced one by one: for 400 files, one call for the whole machine is ten times faster."""
+"""The greatest number of files that are synced one by one. With 400 files, syncing the machine is ten times faster."""
 
 _HERE, _NOREPLACE, _EXCHANGE = -100, 1, 2
 """AT_FDCWD, RENAME_NOREPLACE and RENAME_EXCHANGE of Linux."""
@@ -41,12 +41,12 @@ def make_folder(path: Path) -> None:
 
 def remove_folder(path: Path) -> None:
     """Remove a folder if it is empty."""
-    with contextlib.suppress(OSError):  # the folder may be in use, deleted, or another user's: it stays
+    with contextlib.suppress(OSError):  # it may be in use, deleted, or another user's
         path.rmdir()
 
 
 def read(path: Path) -> bytes | None:
-    """The content of a regular file; None for nothing. Raises IsADirectoryError for a folder, link or device."""
+    """The content of a regular file; None for a missing file. Raises IsADirectoryError for a folder, link or device."""
     try:
         if not stat.S_ISREG(path.lstat().st_mode):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
@@ -56,7 +56,7 @@ def read(path: Path) -> bytes | None:
 
 
 def write(path: Path, content: bytes, like: Path) -> None:
-    """Write a new file, with the permissions of `like` if that exists."""
+    """Write a new file, with the permissions of the file `like` if that exists."""
     descriptor = os.open(path, _CREATE, 0o666)
     try:
         while content:
@@ -69,25 +69,25 @@ def write(path: Path, content: bytes, like: Path) -> None:
 
 
 class Bound(msgspec.Struct, frozen=True, kw_only=True):
-    """The content of a JSON file that names the file's own inode and time: a copy or a clone differs in them."""
+    """The content of a JSON file with the file's own inode and time; a copy has another inode or time."""
 
     inode: int = 0
     written_at: int = 0
-    """Time of change in ns."""
+    """Time of the last change of the content, in ns."""
 
 
 def write_bound(path: Path, content: Bound) -> None:
-    """Write a new file that is bound to its inode and time."""
+    """Write a new file with its inode and time in the content."""
     with os.fdopen(os.open(path, _CREATE, 0o666), "wb") as file:
         status = os.fstat(file.fileno())
         bound = msgspec.structs.replace(content, inode=status.st_ino, written_at=status.st_mtime_ns)
         file.write(msgspec.json.encode(bound, order="sorted"))
-    follows = os.utime not in os.supports_follow_symlinks  # follow symbolic links only if the system can't do otherwise
-    os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing has changed the time
+    follows = os.utime not in os.supports_follow_symlinks  # some systems always follow symbolic links
+    os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing changed the time
 
 
 def is_bound(path: Path, content: Bound) -> bool:
-    """Whether a file still has the inode and the time that its content names."""
+    """Whether a file still has the inode and the time that its content states."""
     status = path.lstat()
     return (status.st_ino, status.st_mtime_ns) == (content.inode, content.written_at)
 
@@ -95,8 +95,8 @@ def is_bound(path: Path, content: Bound) -> bool:
 def exchange(path: Path, target: Path) -> None:
     """Swap two files of one folder, or finish an interrupted swap.
 
-    If the system can't swap, three renames do it, and the target is missing for some microseconds. A plain replacement
-    would lose a save that comes after the last look at the target. Raises FileNotFoundError or FileExistsError if
+    If the system can't swap files, three renames do, and the target is missing for some microseconds. A plain
+    replacement would lose a save after the last check of the target. Raises FileNotFoundError or FileExistsError if
     another program created or deleted one of the files meanwhile.
     """
     if not os.path.lexists(spare(path)):
@@ -109,12 +109,12 @@ def exchange(path: Path, target: Path) -> None:
 
 
 def spare(path: Path) -> Path:
-    """The third name that an exchange of `path` by three renames needs."""
+    """The third name for a swap of `path` by three renames."""
     return path.with_name(f"{path.name}~")
 
 
 def replace(path: Path, target: Path) -> None:
-    """Move a file to another name in its folder; replace the file that has this name."""
+    """Move a file to another name in its folder; replace a file of this name."""
     path.replace(target)
 
 
@@ -123,7 +123,7 @@ def place(path: Path, target: Path) -> None:
     if rename(path, target, _NOREPLACE):
         return
     try:
-        os.link(path, target)  # unlike a rename, it fails if the name exists
+        os.link(path, target)  # unlike a rename, `link` fails if the name exists
     except OSError as error:
         if error.errno not in _NO_LINKS:
             raise
@@ -141,13 +141,13 @@ def remove(path: Path) -> None:
 
 
 def sync(paths: Sequence[Path]) -> None:
-    """Write files and folders through to the disk, so that they survive a power failure."""
+    """Write files and folders from the system's cache to the disk, so that they survive a power failure."""
     if len(paths) > _FEW and hasattr(os, "sync"):
         os.sync()
         return
     for path in paths:
         if os.name == "nt" and path.is_dir():
-            continue  # Windows can't open a folder, and saves its entries by itself
+            continue  # Windows can't open a folder, and writes its entries without this
         descriptor = os.open(path, os.O_RDWR if os.name == "nt" else os.O_RDONLY)
         try:
             os.fsync(descriptor)
@@ -156,7 +156,7 @@ def sync(paths: Sequence[Path]) -> None:
 
 
 def rename(path: Path, target: Path, flag: int) -> bool:
-    """Rename by `renameat2`. Returns False, and does nothing, if system or file system lack it."""
+    """Rename by `renameat2`. Returns False, and does nothing, if system or file system do not support it."""
     number = _renameat2()(os.fsencode(path), os.fsencode(target), flag)
     if number and number not in _NO_RENAMES:
         raise OSError(number, os.strerror(number), str(target))
@@ -165,10 +165,10 @@ def rename(path: Path, target: Path, flag: int) -> bool:
 
 @functools.cache
 def _renameat2() -> Callable[[bytes, bytes, int], int]:
-    """A function that renames with a flag and returns the number of the error, 0 for none."""
+    """A function that renames with a flag, and returns the error number; 0 for success."""
     if sys.platform != "linux":
         return lambda *_: errno.ENOSYS
-    import ctypes  # 2 ms, only for builds that write
+    import ctypes  # imported here: takes 2 ms, only in builds that write
 
     rename = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)
     if rename is None:  # a C library from before 2018

@@ -21,30 +21,30 @@ else:
 
 _FLAGS = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 _LEAST_WAIT = 0.2
-"""The least seconds to try: a single attempt may meet a lock file that is being deleted."""
+"""The least seconds to try: another program may delete the lock file during the first attempt."""
 _PAUSE = 0.05
 """Seconds between two attempts."""
 
 
 class LockedError(UrdfsyncError):
-    """Another process holds the lock for too long."""
+    """Another process kept the lock for too long."""
 
     is_locked = True
 
 
 class Lock:
-    """A lock file in a state folder. It stays there, and contains the number of its last holder's process."""
+    """A lock file in a state folder. The file stays, and contains the process number of the last holder."""
 
     def __init__(self, file: Path, wait: float) -> None:
-        """`wait` is in seconds; less than 0.2 is 0.2."""
+        """`wait` is in seconds; at least 0.2."""
         self._file, self._wait = file, wait
         self._descriptor: int | None = None
 
     def acquire(self, waiting: Callable[[], object] = lambda: None) -> None:
-        """Take the lock, unless this object holds it already and the file is still there.
+        """Take the lock, unless this object already holds it and the file still exists.
 
-        Calls `waiting` repeatedly. Raises LockedError after `wait` seconds; the next call then raises it at once.
-        Raises OutputError if the file can't be locked.
+        Calls `waiting` repeatedly. Raises LockedError after `wait` seconds; each further call then waits only 0.2
+        seconds. Raises OutputError if the file can't be locked.
         """
         if self._descriptor is not None and self._file.exists():
             return
@@ -57,7 +57,7 @@ class Lock:
                 if time.monotonic() > end:
                     self._wait = 0
                     message = f"{self.holder()} is building here, and did not finish in time"
-                    hint = "wait for it or end it, then build again"
+                    hint = "wait for this process or end it, then build again"
                     raise LockedError.of("locked", message, shown(self._file), hint=hint)
                 waiting()
                 time.sleep(_PAUSE)
@@ -73,7 +73,7 @@ class Lock:
             self._descriptor = None
 
     def holder(self) -> str:
-        """The process that holds the lock, or that held it last, in words."""
+        """A description of the process that holds the lock, or held it last."""
         number = ""
         with contextlib.suppress(OSError), os.fdopen(os.open(self._file, os.O_RDONLY | _FLAGS), "rb") as file:
             number = (file.read(20) or b"").decode(errors="replace").strip()
@@ -86,7 +86,7 @@ class Lock:
         self.release()
 
     def _sign(self) -> None:
-        """Write the number of this process into the file, for people; not into a hard link of a user's file."""
+        """Write the number of this process into the lock file; never write into a hard link of a user's file."""
         number = b"%d\n" % os.getpid()
         with contextlib.suppress(OSError), os.fdopen(os.open(self._file, os.O_RDWR | _FLAGS), "r+b") as file:
             status = os.fstat(file.fileno())
@@ -99,7 +99,7 @@ class Lock:
 def _lock(file: Path) -> int | None:
     """Lock a file; returns its descriptor, None if another process has locked it. Raises OSError.
 
-    filelock does the same, but its import takes 20 of the 90 ms of a build with one changed mass.
+    filelock does the same, but importing it takes 20 of the 90 ms of a build with one changed mass.
     """
     descriptor = os.open(file, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
     with contextlib.ExitStack() as stack:
@@ -117,5 +117,5 @@ def _lock(file: Path) -> int | None:
 
 
 def build_lock(state_folder: Path, wait: float) -> Lock:
-    """Return the lock of all writers below the folder of a configuration."""
+    """Return the lock for builds below the folder of a configuration."""
     return Lock(state_folder / "lock", wait)

@@ -1,7 +1,7 @@
 """This machine's notes on its own work on one robot, `.urdfsync/notes/<robot>.json`.
 
-They are not committed, and safe to lose. Builds skip work only by these notes, never by the committed state. Notes
-count only in the very file that this machine wrote: a copy, such as a committed one, is ignored.
+They are not committed, and safe to lose. Builds skip work only by these notes, never by the committed state. A copy of
+the notes, such as a committed copy, is ignored: it has another inode or time.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from urdfsync.state import file_operations
 
 
 class Use(msgspec.Struct, frozen=True):
-    """Names in a user's file that now belong to another part than when it was saved."""
+    """Names in a user's file that belong to other parts since the file was saved."""
 
     facts: tuple[int, ...]
     """Stat values of the file."""
     names: Mapping[str, str]
-    """The new names of the former parts, by the names in the file."""
+    """The new names of the parts that the user meant, by the names in the file."""
 
 
 class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True):
-    """This machine's work on one robot."""
+    """This machine's notes on one robot."""
 
     program: str = ""
-    """Hash of the program and the templates that made the texts and imports; if it differs, they are made again."""
+    """Hash of the program and the templates that made the texts and imports; another program makes them again."""
     texts: Mapping[str, tuple[str, str]] = {}
-    """Two hashes for each text, by path below the package: that of its template and data, and that of the text."""
+    """Two hashes for each text, by path below the package: of its template and data, and of the text."""
     imports: frozenset[str] = frozenset()
     """Hashes of the imports that this machine converted."""
     expansion: str = ""
@@ -42,23 +42,24 @@ class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True
     written: frozenset[str] = frozenset()
     """Hashes of recorded texts and imported files that this machine generated."""
     renamed: Mapping[str, str] = {}
-    """New identifiers by the old ones, of the last build that wrote anything."""
+    """New identifiers by old identifiers, from the last build that wrote anything."""
     proposals: Mapping[str, tuple[str, str]] = {}
-    """Hash of each proposed merge and of its two sides, by path; a proposal with another hash is a person's."""
+    """Two hashes for each proposed merge, by path: of the proposal and of its two sides. A person changed a proposal if
+    its hash differs."""
     model: str = ""
     """Hash of the last recorded model."""
     edited: Mapping[str, str] = {}
-    """Hashes of the user's texts in generated files at the last build, by key."""
+    """Hashes of the edited files at the last build, by key."""
     uses: Mapping[str, Use] = {}
-    """Names that mean other parts now, by absolute path of the user's file."""
+    """Names that mean other parts now, by absolute path of a user's file."""
     said: frozenset[str] = frozenset()
     """Hashes of the findings of the last build."""
 
 
 def load(state_folder: Path, robot: str) -> Notes:
-    """Return this machine's notes on a robot; empty ones if there are none."""
+    """Return this machine's notes on a robot; empty notes if there are none."""
     file = place(state_folder, robot)
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not block it
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # opening a pipe must not block
     try:
         with os.fdopen(os.open(file, flags), "rb") as opened:
             status = os.fstat(opened.fileno())
@@ -73,7 +74,7 @@ def load(state_folder: Path, robot: str) -> Notes:
 def save(state_folder: Path, robot: str, notes: Notes) -> None:
     """Write the notes on a robot, if there is a state folder.
 
-    If they can't be written, the next build repeats the work.
+    If writing fails, the next build repeats the work.
     """
     file = place(state_folder, robot)
     temporary = file.with_name(f".{file.name}{TEMPORARY}")
@@ -81,7 +82,7 @@ def save(state_folder: Path, robot: str, notes: Notes) -> None:
         if not state_folder.is_dir() or state_folder.is_symlink() or file.parent.is_symlink():
             return  # a repository may have committed a link to another folder
         file_operations.make_folder(file.parent)
-        file_operations.remove(temporary)  # a killed process left it
+        file_operations.remove(temporary)  # a killed process left this file
         file_operations.write_bound(temporary, notes)
         file_operations.replace(temporary, file)
 

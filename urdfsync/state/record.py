@@ -1,8 +1,7 @@
 """The record of a robot: the files that urdfsync wrote last, to tell edits from exports.
 
-It is committed, so anybody may have changed it: it never decides which text is generated, restored or left out. Its
-model changes only as a whole. A build that ends with a conflict keeps the recorded model, and renews the bases of the
-files that it writes.
+The record is committed, so a stranger may have changed it: it never decides which text a build generates or restores. A
+build that ends with a conflict keeps the recorded model, but renews the bases of files that it writes.
 """
 
 from __future__ import annotations
@@ -20,14 +19,14 @@ RESOURCES = "Resources/"
 
 
 def as_recorded(snapshot: Snapshot) -> dict[str, Any]:
-    """Return a snapshot as the state keeps it: plain data, with lists of named elements as mappings by name."""
+    """Return a snapshot for the state: plain data, with lists of named elements as mappings by name."""
     data: dict[str, Any] = plain(snapshot)
     parts = {part: data.pop(part) for part in _named(snapshot.__class__)}
     return data | {part: {one.pop("name"): one for one in elements} for part, elements in parts.items() if elements}
 
 
 def as_read(data: Mapping[str, Any], model: Any) -> Snapshot:
-    """Return the snapshot given to `as_recorded`. Raises ValueError, TypeError or AttributeError for other data."""
+    """Return the snapshot from a result of `as_recorded`. Raises ValueError, TypeError or AttributeError."""
     parts = {part: data.get(part, {}) for part in _named(model)}
     lists = {part: [{"name": name, **one[name]} for name in sorted(one)] for part, one in parts.items()}
     return msgspec.convert({**data, **lists}, model)
@@ -57,8 +56,8 @@ class FileRecord(msgspec.Struct, frozen=True):
     def base(self, mine: object, generated: str | None) -> str | None:
         """Return the base to compare with; None if urdfsync never wrote the file.
 
-        The base of an unedited file is the hash that the file has. An edited file with an ambiguous base has to
-        conflict, so its base is a hash that differs from the generated one.
+        The base of an unedited file is the file's own hash. An edited file with an ambiguous base must conflict, so
+        this returns a hash that differs from the generated hash.
         """
         if not self.hashes:
             return None
@@ -74,17 +73,16 @@ class Generator(msgspec.Struct, frozen=True):
     release: str
     """The version of urdfsync, such as `1.4.0`."""
     templates: str
-    """Hash of the templates."""
 
 
 class Open(msgspec.Struct, frozen=True):
-    """The model that the last build read, if that build was not complete."""
+    """The model that the last, incomplete build read."""
 
     seen: Mapping[str, Any] = {}
     renamed: Mapping[ElementKey, str] = {}
-    """The elements of the last complete build that were renamed, with their names in this model."""
+    """Names in this model by renamed elements of the last complete build."""
     asked: frozenset[str] = frozenset()
-    """The keys of files that may belong to other parts."""
+    """The keys of edited files that may belong to other parts."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):
@@ -99,20 +97,22 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     folder: str
     generator: Generator
     options: Mapping[str, Any] = {}
-    """The domain's options as JSON data, without those that are None."""
+    """The domain's options as JSON data, without options that are None."""
     snapshot: Mapping[str, Any] | None = None
-    """The model of the last complete build, see `as_recorded`; None without one, or if an element is there twice."""
+    """The model of the last complete build (see `as_recorded`); None without a model, or if git has doubled an
+    element."""
     renamed: Mapping[str, str] = {}
     """The declared renames that the last complete build has applied: they are not applied again."""
     confirmed: frozenset[str] = frozenset()
-    """Hashes of the user's texts that he has confirmed to be in the right file."""
+    """Hashes of the user's texts for which he has confirmed the file."""
     imports: Mapping[str, tuple[Import, ...]] = {}
-    """The imports by key; a file has several if git has united two states, or if it was renewed."""
+    """The imports by key. A file has several if git has united two states, or if an incomplete build renewed the
+    file."""
     files: Mapping[str, FileRecord] = {}
     open: Open | None = None
     """None if the last build was complete."""
     is_united: bool = False
-    """Whether git has united two states, or lines are lost, since the last complete build."""
+    """Whether git has united two states since the last complete build, or lines are missing."""
 
     @property
     def hashes(self) -> set[str]:

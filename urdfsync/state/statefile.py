@@ -1,8 +1,8 @@
 """Reads and writes the recorded state of one robot: `.urdfsync/robots/<robot>.state`, which is committed.
 
 Each line states one fact alone; blank lines keep the lines apart. So git can unite two states line by line
-(`merge=union`). A fact with two values is ambiguous until the next complete build. The file has no absolute path, no
-time and no host name. An unreadable line is skipped, with a warning.
+(`merge=union`). If git keeps two values of a fact, the fact is ambiguous until the next complete build. The file has no
+absolute path, no time and no host name. An unreadable line is skipped, with a warning.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Record
 _HEADER = "# What urdfsync built last for this robot. Written by urdfsync: commit it, don't edit it.\n"
 _HASH = re.compile(r"[0-9a-f]{64}")
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
-"""Matches nearly all paths of packages; a path that matches can't lead out of the package."""
-_HINT = "the next build writes it anew; restore it from version control to keep more of it"
+"""A quick check that nearly all paths in packages pass: a matching path can't lead out of the package."""
+_HINT = "restore the file from version control, or build: a build writes a new file"
 
 _FACTS: Mapping[str, Any] = {
     "sum": str,
@@ -44,10 +44,10 @@ _FACTS: Mapping[str, Any] = {
     "renamed": tuple[str, str, str],
     "asked": str,
 }
-"""The first words of lines, and the type of the JSON value after each. After `file` come a hash and a path."""
+"""The first words of lines, and the type of the JSON value after each word. After `file` come a hash and a path."""
 _DECODERS = {word: msgspec.json.Decoder(kind) for word, kind in _FACTS.items()}
 _SUM = "sum "
-"""Begins the line with the hash of all other lines. If git has united two states, the hash does not fit."""
+"""The beginning of the line with the hash of all other lines. If git has united two states, this hash is wrong."""
 _PLACE = ("package", "class", "folder")
 _HEADINGS = (*_PLACE, "domain", "release", "templates")
 
@@ -84,7 +84,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
 
 
 def _elements(snapshot: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
-    """Yield each element of a model: its kind, its name and itself; the name is None for a value that is no mapping."""
+    """Yield each element of a model: kind, name and element; the name is None unless the value is a mapping."""
     for part, value in snapshot.items():
         if isinstance(value, Mapping) and value:
             yield from ((part, name, element) for name, element in value.items())
@@ -92,11 +92,11 @@ def _elements(snapshot: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
             yield part, None, value
 
 
-@functools.lru_cache(maxsize=8)  # the daemon reads each state after a build and before the next: 3 of 90 ms
+@functools.lru_cache(maxsize=8)  # cached: the daemon reads each state twice per build, 3 of 90 ms
 def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
-    """Return the record in `text`, None if there is none, and a warning about the first unreadable line.
+    """Return the record in `text`, None without a record, and a warning about the first unreadable line.
 
-    `file` is its name in diagnostics. Lines that name files outside of the package are skipped. Raises StateError for
+    `file` is the name in diagnostics. Lines that name files outside of the package are skipped. Raises StateError for
     the state of a newer urdfsync.
     """
     values: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
@@ -119,7 +119,7 @@ def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
         return None, found or damage(file, 1, f"it has no {', '.join(missing)}" if lines else "it is empty")
     package, folder = values["package"][-1], values["folder"][-1]
     if not _is_normal(folder) or folder.split("/")[-len(package.split(".")) :] != package.split("."):
-        return None, damage(file, _line_of(lines, folder), f"{folder!r} is no folder of the package `{package}`")
+        return None, damage(file, _line_of(lines, folder), f"{folder!r} is not a folder of the package `{package}`")
     paths = [("file", value, value[0]) for value in values["file"]]
     paths += [("import", value, value[1].target) for value in values["import"]]
     for word, value, path in paths:
@@ -132,7 +132,7 @@ def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
 
 
 def _line_of(lines: Mapping[str, int], text: str) -> int:
-    """Return the number of the first line with a text; 1 if there is none."""
+    """Return the number of the first line that contains a text; 1 if no line does."""
     return next((number for content, number in lines.items() if text in content), 1)
 
 
@@ -152,11 +152,11 @@ def _parse(content: str) -> tuple[str, Any]:
 
 
 def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
-    """Return the record from facts; if one of `_HEADINGS` is there twice, the last one counts."""
+    """Return the record from facts; of two facts for one of `_HEADINGS`, the last one counts."""
     package, class_, folder, domain, _, templates = (values[word][-1] for word in _HEADINGS)
     is_placed = all(len(values[word]) == 1 for word in _PLACE)
     hashes: dict[str, list[str]] = {}
-    for path, sha256 in values["file"] if is_placed else ():  # if two folders are named, the files' paths are unknown
+    for path, sha256 in values["file"] if is_placed else ():  # with two different folders, the files' paths are unknown
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
     imports: dict[str, tuple[Import, ...]] = {}
     for key, entry in values["import"]:
@@ -184,7 +184,7 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
 
 
 def _snapshot(facts: list[tuple[str, str | None, Any]]) -> Mapping[str, Any] | None:
-    """Return the model with these elements; None if there are none, or if one is there twice."""
+    """Return the model with these elements; None without elements, or if an element occurs twice."""
     elements = {(part, name): element for part, name, element in facts}
     if not facts or len(elements) < len(facts):
         return None
@@ -211,12 +211,12 @@ def damage(file: str, line: int, message: str) -> Diagnostic:
 
 
 def _belongs(path: str, *, is_import: bool) -> bool:
-    """Return whether a build may write a file at this path below the package: a stranger may have written the state."""
+    """Return whether a build may write to this path below the package: a stranger may have written the path."""
     return is_inside(path) and (path.startswith(RESOURCES) or (path.endswith(".mo") and not is_import))
 
 
 def is_inside(path: str) -> bool:
-    """Whether a path from a folder leads to a file below it that is not hidden."""
+    """Whether a relative path leads to a file below its folder that is not hidden."""
     return bool(_PLAIN.fullmatch(path)) or (
         _is_normal(path) and not any(part.startswith(".") for part in path.split("/"))
     )

@@ -38,22 +38,22 @@ _FOR_GIT = {
 }
 
 StateHashes: TypeAlias = Mapping[Path, str | None]
-"""Files of the state, and the hashes of their loaded bytes; None for a missing file."""
+"""Hashes of the loaded bytes by file of the state; None for a missing file."""
 
 
 class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
-    """One replaced text; it is a plain file below `.urdfsync/aside/`."""
+    """One replaced text, saved as a plain file below `.urdfsync/aside/`."""
 
     file: str
-    """Its path below the robot's folder in `.urdfsync/aside/`."""
+    """Path of the saved text below the robot's folder in `.urdfsync/aside/`."""
     after: str | None = None
-    """Hash of the text that replaced it; None if the file was deleted."""
+    """Hash of the text that replaced the saved text; None if the build deleted the file."""
     bases: tuple[str, ...] = ()
-    """Hashes of the bases that the text has after `--undo`."""
+    """Hashes of the bases of the text after `--undo`."""
     texts: Mapping[str, str] = {}
     """The known texts of these bases, by hash."""
     beside: Mapping[str, str] = {}
-    """The texts of unedited models that were deleted with it, by path below the package."""
+    """The texts of unedited models that the same build deleted, by path below the package."""
 
 
 class Store:
@@ -70,12 +70,12 @@ class Store:
         """The robots that have a record, by their names."""
         try:
             files = list_folder(self.folder / "robots")
-        except OSError:  # a missing file; `load` reports an unreadable one
+        except OSError:  # the folder is missing, or `load` reports the error
             return []
         return sorted(filter(is_robot_name, (name.removesuffix(SUFFIX) for name in files if name.endswith(SUFFIX))))
 
     def load(self, robot: str) -> tuple[Record | None, Diagnostic | None]:
-        """Return the robot's record, None without a readable one, and a warning if it is damaged.
+        """Return the robot's record, None without a readable record, and a warning if it is damaged.
 
         Raises StateError for the record of a newer urdfsync, OutputError for a link or a folder in its place.
         """
@@ -86,7 +86,7 @@ class Store:
         return statefile.loads(content.decode(errors="replace").replace("\r\n", "\n"), shown(path))
 
     def load_expansion(self, robot: str) -> Expansion | None:
-        """Return the robot's last expanded source; None if there is none, or if it is lost."""
+        """Return the robot's last expanded source; None if it is missing or unreadable."""
         content = self._bytes(self.expansion(robot))
         return None if content is None else expansion.loads(content)
 
@@ -97,11 +97,11 @@ class Store:
         return self._notes[robot]
 
     def base(self, robot: str, sha256: str) -> str | None:
-        """Return a robot's generated text with this hash (see `text_digest`); None if it is lost."""
+        """Return a robot's generated text with this hash (see `text_digest`); None if the text is lost."""
         return (self.bases(robot, sha256[0]) or {}).get(sha256)
 
     def bases(self, robot: str, digit: str) -> Mapping[str, str] | None:
-        """Return a robot's generated texts whose hashes begin with a digit, by hash; None if the file is missing."""
+        """Return a robot's generated texts with this first digit of the hash, by hash; None if the file is missing."""
         content = self._bytes(self.base_file(robot, digit))
         return None if content is None else bases.loads(content)
 
@@ -113,17 +113,17 @@ class Store:
         return None
 
     def aside(self, robot: str) -> Mapping[str, Aside]:
-        """Return the texts that were put aside, by path below the package; nothing if the list can't be read."""
+        """Return the saved former texts, by path below the package; nothing if the list can't be read."""
         try:
             index = msgspec.json.decode(self._bytes(self.aside_file(robot)) or b"{}", type=dict[str, Aside])
-        except (ValueError, RecursionError):  # it may come from a stranger
+        except (ValueError, RecursionError):  # a stranger may have written the list
             return {}
         return {
             path: one for path, one in index.items() if all(map(statefile.is_inside, (path, one.file, *one.beside)))
         }
 
     def aside_text(self, robot: str, file: str) -> bytes | None:
-        """Return a text that was put aside, by its path below the robot's folder."""
+        """Return a saved former text, by its path below the robot's folder."""
         return self._bytes(self.aside_file(robot, file))
 
     # --- places ---------------------------------------------------------------------------------------------------
@@ -137,7 +137,7 @@ class Store:
         return self.folder / "robots" / f"{robot}.expanded"
 
     def base_file(self, robot: str, digit: str) -> Path:
-        """The file of the robot's bases whose hashes begin with a digit."""
+        """The file with those bases of the robot whose hashes begin with `digit`."""
         return self.folder / "bases" / robot / digit
 
     def base_files(self, robot: str) -> list[Path]:
@@ -145,7 +145,7 @@ class Store:
         return [self.base_file(robot, digit) for digit in bases.DIGITS]
 
     def aside_file(self, robot: str, path: str = "index.json") -> Path:
-        """Return the file of a text that was put aside, by path below the package; or the file of the list."""
+        """Return the file of a saved former text, by path below the robot's folder; or the file of the list."""
         return self.folder / "aside" / robot / path
 
     def drawing(self, robot: str) -> Path:
@@ -159,9 +159,9 @@ class Store:
     # --- changes --------------------------------------------------------------------------------------------------
 
     def save(self, path: Path, content: bytes | None) -> list[FileChange]:
-        """Return the write of a file's content; if the content is None, return the deletion of the file.
+        """Return the change that writes this content to a file; for None, the change that deletes the file.
 
-        A file that differs only in line ends needs no write.
+        A file that differs only in line ends needs no change.
         """
         old = self._bytes(path)
         if content == old or (old is not None and content == normalised(old)):
@@ -169,22 +169,22 @@ class Store:
         return [FileChange(path, content, None if old is None else digest(old))]
 
     def save_aside(self, robot: str, index: Mapping[str, Aside], new: Mapping[str, bytes]) -> list[FileChange]:
-        """Return the writes of the texts that are put aside; `new` are texts by file. No text is ever deleted."""
+        """Return the writes of former texts; `new` has texts by file. No text is ever deleted."""
         changes = [change for file, text in new.items() for change in self.save(self.aside_file(robot, file), text)]
         listed = msgspec.json.encode(index, order="sorted") if index else None
         return changes + self.save(self.aside_file(robot), listed)
 
     def conflict_files(self, robot: str) -> dict[str, bytes]:
-        """Return the versions of conflicts on disk, by path below the robot's folder."""
+        """Return the saved versions of conflicts, by path below the robot's folder."""
         folder = self.conflicts(robot)
-        # raises OutputError for a symbolic link: it may lead to the whole disk
+        # raises OutputError for a symbolic link, which may lead to the whole disk
         existing = map(Path, walk_files(folder)) if self._tree.check_folder(folder) else ()
         return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
 
     def persons_proposals(self, robot: str, noted: Mapping[str, tuple[str, str]]) -> set[str]:
-        """Return the proposed merges that differ from the `noted` hashes, by path: a person changed them.
+        """Return the paths of proposed merges that a person changed: their hashes differ from the `noted` hashes.
 
-        A blank proposal does not count.
+        An empty proposal does not count.
         """
         proposals = {path: text for path, text in self.conflict_files(robot).items() if ".merge" in path}
         return {path for path, text in proposals.items() if text.strip() and digest(text) != noted.get(path, ("",))[0]}
@@ -192,24 +192,21 @@ class Store:
     def save_conflicts(self, robot: str, contents: Mapping[str, bytes], kept: Collection[str] = ()) -> list[FileChange]:
         """Return the writes of versions in the robot's folder, by path.
 
-        All other files there are deleted, except those `kept`.
+        All other files in the folder are deleted, except `kept` files.
         """
         folder = self.conflicts(robot)
         wanted = dict.fromkeys(sorted(self.conflict_files(robot).keys() - set(kept))) | dict(contents)
         return [change for path, content in wanted.items() for change in self.save(folder / path, content)]
 
     def remove(self, robot: str) -> list[FileChange]:
-        """Return the deletions of all recorded state of a robot; a person's texts stay."""
+        """Return the deletions of all recorded state of a robot; proposals that a person changed stay."""
         files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
         persons = self.persons_proposals(robot, self.notes(robot).proposals)
         changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
         return [*self.save_conflicts(robot, {}, persons), *changes]
 
     def for_git(self) -> list[FileChange]:
-        """Return the writes of git's files: which state to ignore, and how states merge.
-
-        The user's changes in them stay.
-        """
+        """Return the writes of missing `.gitignore` and `.gitattributes`; existing files stay as they are."""
         files = {self.folder / name: text.encode() for name, text in _FOR_GIT.items()}
         missing = {path: content for path, content in files.items() if self._bytes(path) is None}
         return [change for path, content in missing.items() for change in self.save(path, content)]
@@ -217,15 +214,15 @@ class Store:
     def hashes(self) -> StateHashes:
         """The hashes of all loaded files, without bases.
 
-        Hashing the bases takes 20 ms with 1,000 links, and a transaction checks the bases that it replaces anyway.
+        Hashing the bases takes 20 ms with 1,000 links; a transaction checks the bases that it replaces.
         """
         loaded, below = self._contents.items(), self.folder / "bases"
         files = ((path, content) for path, content in loaded if below not in path.parents)
         return {path: None if content is None else digest(content) for path, content in files}
 
     def is_unchanged(self, hashes: StateHashes) -> bool:
-        """Whether all files still have these hashes."""
-        tree = Tree(self._tree.root)  # a new Tree finds new folders
+        """Whether all these files still have these hashes."""
+        tree = Tree(self._tree.root)  # only a new `Tree` finds new folders
         contents = ((tree.read(path), before) for path, before in hashes.items())
         return all((None if content is None else digest(content)) == before for content, before in contents)
 

@@ -4,14 +4,14 @@
 2. All new files are written beside their targets under temporary names, and written through to the disk.
 3. The planned hashes get their final name. Until then nothing has changed, and an error leaves no trace.
 4. Each target is exchanged with its new file, bases first, deletions last. The old file then has the temporary name.
-   Its hash shows whether it is the file of the plan. If it is not, somebody has saved the target meanwhile: the two
-   files are exchanged back, and the target is *overtaken*.
+   The old file's hash shows whether it is the file of the plan. If not, somebody has saved the target meanwhile: the
+   two files are exchanged back, and the target is *overtaken*.
 5. The recorded state is replaced, unless a target was overtaken.
 6. The files under temporary names are removed, and then the planned hashes. If a target was overtaken, the next
    plan recognises the written texts by their bases.
 
-From step 4 on, every write can be repeated, and recovery resumes there. If a file under a temporary name has a content
-that was not planned, it is a save of the user's. It is put back, or kept beside the target under a visible name.
+From step 4 on, every write can be repeated, and recovery resumes there. If a file under a temporary name has an
+unplanned content, the user has saved this content. It is put back, or kept beside the target under a visible name.
 """
 
 from __future__ import annotations
@@ -30,15 +30,15 @@ from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations
 
 PLANNED = "planned.json"
-"""The file of the planned hashes, while a build is at work, or after it was killed."""
+"""The file of the planned hashes during a build, and after a killed build."""
 DRAFT = f".{PLANNED}{TEMPORARY}"
-"""The name of this file until all new files are written; until then, nothing has changed."""
+"""The name of this file until all new files are written. While it has this name, no target has changed."""
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
 
 
 class UnfinishedError(OutputError):
-    """Some files have changed, and others could not be changed. The planned hashes stay, and the next build goes on."""
+    """A build changed some files, and then failed. The planned hashes stay, and the next build finishes the changes."""
 
 
 class FileChange(msgspec.Struct, frozen=True):
@@ -46,22 +46,21 @@ class FileChange(msgspec.Struct, frozen=True):
 
     path: Path
     content: bytes | None
-    """None to delete the file."""
+    """The new content; None to delete the file."""
     old: str | None
     """SHA-256 (hex) of the bytes at the time of the plan; None if there was no file."""
     is_moved: bool = False
-    """Whether this is a user's text that moves here from another path; if it can't, it is kept under another name."""
+    """Whether this is a user's text from another path; if it can't move here, it is kept under another name."""
 
 
 class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
-    """The change of one file, by SHA-256 (hex) of its bytes; None stands for no file."""
+    """The change of one file, as SHA-256 (hex) of old and new bytes; None stands for no file."""
 
     path: str
     """POSIX, from the configuration's folder."""
     old: str | None = None
     new: str | None = None
     is_moved: bool = False
-    """As in `FileChange`."""
 
 
 class PlannedBuild(file_operations.Bound, frozen=True):
@@ -72,14 +71,14 @@ class PlannedBuild(file_operations.Bound, frozen=True):
     """Part of the temporary files' names: hexadecimal."""
     files: tuple[PlannedFile, ...]
     emptied: tuple[str, ...] = ()
-    """Folders that are deleted if the build leaves them empty, innermost first."""
+    """Folders to delete if they are empty after the build, innermost first."""
 
 
 class Applied(msgspec.Struct, frozen=True):
     """The outcome of a transaction."""
 
     not_done: tuple[Path, ...] = ()
-    """Targets that somebody saved meanwhile, and the recorded state, which therefore stays."""
+    """Targets that somebody saved meanwhile; if there are any, also the files of the recorded state, which stay."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -95,8 +94,8 @@ class Transactions:
     def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
         """Make all changes.
 
-        `emptied` are folders to remove if they are empty afterwards. Raises OutputError if a file can't be written:
-        then nothing has changed. Raises UnfinishedError if files have already changed; `recover` goes on.
+        `emptied` are folders to remove if they are empty afterwards. Raises OutputError if a file can't be written and
+        nothing has changed. Raises UnfinishedError if files have changed; `recover` finishes the changes.
         """
         hashes = (None if change.content is None else digest(change.content) for change in changes)
         files = tuple(
@@ -116,7 +115,7 @@ class Transactions:
                 elif isinstance(error, OSError):
                     raise
                 else:
-                    self._finish(build, targets)  # also after Ctrl-C: it takes milliseconds
+                    self._finish(build, targets)  # also after Ctrl-C: this takes milliseconds
             except OSError as problem:
                 told = error.diagnostics if isinstance(error, OutputError) else ()
                 raise UnfinishedError(*told, self._unfinished(problem)) from error
@@ -125,7 +124,7 @@ class Transactions:
     def recover(self) -> tuple[Diagnostic, ...]:
         """Finish a killed build; returns findings about it.
 
-        Raises UnfinishedError if that fails, OutputError for links on the way.
+        Raises UnfinishedError if this fails, OutputError for links in paths.
         """
         notes: tuple[Diagnostic, ...] = ()
         try:
@@ -149,11 +148,11 @@ class Transactions:
         return notes
 
     def is_pending(self) -> bool:
-        """Whether a build is at work, or was when its process ended."""
+        """Whether a build is writing, or was killed while writing."""
         return is_interrupted(self._state_folder) or file_type(self._draft, follow=False) != 0
 
     def _load(self, file: Path) -> PlannedBuild | None:
-        """Return the planned hashes in a file; None if it is not the very file that this machine wrote.
+        """Return the planned hashes in a file; None for a copy: it has another inode or time.
 
         A stranger may have committed the file: his files under temporary names must not count as urdfsync's. Raises
         OutputError for symbolic links.
@@ -174,7 +173,7 @@ class Transactions:
             file_operations.make_folder(self._state_folder)
             place = self._planned
             file_operations.remove(self._draft)
-            file_operations.write_bound(self._draft, build)  # it has the names of the temporary files
+            file_operations.write_bound(self._draft, build)  # first: this file has the names of the temporary files
             file_operations.sync([self._draft])
             for place in made:
                 file_operations.make_folder(place)
@@ -190,7 +189,7 @@ class Transactions:
             raise failure(error, place) from None
 
     def _discard(self, targets: Sequence[_Target], made: Sequence[Path] = ()) -> None:
-        """Remove all traces of a build that has changed nothing. Raises OSError."""
+        """Remove all temporary files of a build that has changed nothing. Raises OSError."""
         for target in targets:
             file_operations.remove(target.temporary)
         for folder in reversed(made):
@@ -198,16 +197,16 @@ class Transactions:
         file_operations.remove(self._draft)
 
     def _finish(self, build: PlannedBuild, targets: Sequence[_Target]) -> Applied:
-        """Change all targets that have not changed yet, and remove all traces. Raises OSError."""
+        """Change all targets that have not changed yet, and remove all temporary files. Raises OSError."""
         file_operations.sync([self._state_folder])
         state_folder = str(self._state_folder / "robots")
         state = [target for target in targets if target.folder == state_folder]
         others = [target for target in targets if target.folder != state_folder]
         bases = f"{self._state_folder / 'bases'}{os.sep}"
-        # bases are written before their files and deleted after them
+        # bases are written before their files, and deleted after their files
         others.sort(key=lambda target: (target.new is None, target.folder.startswith(bases) == (target.new is None)))
         changed = [(target, target.change()) for target in others]
-        # again: a process may have written to an old file through an open handle
+        # a second time: a process may have written to an old file through an open handle
         not_done = [target.path for target, done in changed if not (done if target.old is None else target.change())]
         for target in state:
             if not_done or not target.change():
@@ -227,7 +226,7 @@ class Transactions:
         return Applied(tuple(not_done), tuple(notes))
 
     def _missing_folders(self, changes: Iterable[FileChange]) -> list[Path]:
-        """The folders to make, outermost first."""
+        """The folders to create, outermost first."""
         missing: set[Path] = set()
         for innermost in {change.path.parent for change in changes if change.content is not None}:
             for folder in (innermost, *innermost.parents):
@@ -239,10 +238,10 @@ class Transactions:
     def _unfinished(self, error: OSError) -> Diagnostic:
         place = Path(error.filename) if isinstance(error.filename, str) else self._state_folder
         message = f"an interrupted build can't be finished: {error.strerror or error}"
-        return Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint="correct that, then build again")
+        return Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint="correct this, then build again")
 
     def _targets(self, build: PlannedBuild) -> list[_Target]:
-        """Return the files to change. Raises OutputError for a file outside of the outputs, or a link on the way."""
+        """Return the files to change. Raises OutputError for a file outside of the outputs, or a link in a path."""
         trees, targets = [Tree(self._root), *map(Tree, self._outputs)], []
         for number, file in enumerate(build.files):
             path = placed(self._prefix, file.path)
@@ -265,15 +264,15 @@ class _Target(msgspec.Struct, frozen=True):
     folder: str
     path: Path
     temporary: Path
-    """The name of the new file before the change, and of the old one after it."""
+    """The name of the new file before the change, and of the old file after the change."""
     old: str | None
     new: str | None
     is_moved: bool
 
     def change(self) -> bool:
-        """Change the target, unless that is done.
+        """Change the target, unless it is changed already.
 
-        Returns False if somebody saved it meanwhile: then the save stays. Raises OSError.
+        Returns False if somebody saved the target meanwhile: the saved file stays. Raises OSError.
         """
         try:
             if self.old is None:
@@ -285,8 +284,8 @@ class _Target(msgspec.Struct, frozen=True):
     def clear(self, temporary_files: Collection[str]) -> Iterator[Path]:
         """Remove files under temporary names.
 
-        Contents that were not planned are kept, and so is a user's text that could not move here; yields their new
-        names. `temporary_files` are the paths of all temporary files.
+        Keeps unplanned contents, and a user's text that could not move here, under new names; yields these names.
+        `temporary_files` are the paths of all temporary files.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
             if str(path) not in temporary_files:
@@ -333,22 +332,22 @@ class _Target(msgspec.Struct, frozen=True):
             return current == self.new
         if aside == self.old:
             return True
-        if current == self.new:  # the replaced content was saved meanwhile: put it back
+        if current == self.new:  # the replaced content is an unplanned save: put it back
             file_operations.exchange(self.temporary, self.path)
-            if hash_of(self.temporary) != self.new:  # it was saved again: the later save counts
+            if hash_of(self.temporary) != self.new:  # somebody saved again: the later save counts
                 file_operations.exchange(self.temporary, self.path)
         return False
 
 
 def is_interrupted(state_folder: Path) -> bool:
-    """Return whether a build is changing files, or was when its process ended. Needs no lock."""
+    """Return whether a build is changing files, or was killed while changing files. Needs no lock."""
     return file_type(state_folder / PLANNED, follow=False) != 0
 
 
 def save(file: Path, old: bytes, new: bytes) -> None:
-    """Replace a file that no build owns; a symbolic link to it and its permissions stay.
+    """Replace a file that no build owns; its permissions and symbolic links to it stay.
 
-    Raises OutputError if the file differs from `old`: then somebody has saved it, and it stays. Raises OSError.
+    Raises OutputError if the file differs from `old`: somebody has saved it, and the saved file stays. Raises OSError.
     """
     path = file.resolve()
     temporary = path.with_name(f".{os.urandom(8).hex()}{TEMPORARY}")
@@ -365,13 +364,13 @@ def save(file: Path, old: bytes, new: bytes) -> None:
     finally:
         kept = [*target.clear(_temporary_files([target.folder]))]
     if not is_done:
-        message = "it has changed meanwhile, and stays as it is now"
+        message = "somebody saved this file meanwhile: it stays unchanged"
         hint = f"{'an earlier save is kept as ' + shown(kept[0]) + '; ' if kept else ''}run the command again"
         raise OutputError.of("changed-meanwhile", message, shown(file), hint=hint)
 
 
 def hash_of(path: Path) -> str | None:
-    """Return the SHA-256 (hex) of a file; None if nothing is there; a word for any irregular file. Raises OSError."""
+    """Return the SHA-256 (hex) of a file; None for a missing file, `_OTHER` for any irregular file. Raises OSError."""
     try:
         content = file_operations.read(path)
     except IsADirectoryError:
@@ -380,7 +379,7 @@ def hash_of(path: Path) -> str | None:
 
 
 def _temporary_files(folders: Iterable[str]) -> set[str]:
-    """Return the paths of all temporary files in some folders, also those of three renames (`….urdfsync-tmp~`)."""
+    """Return the paths of all temporary files in some folders, including `….urdfsync-tmp~` of three renames."""
     paths = set[str]()
     for folder in folders:
         with contextlib.suppress(FileNotFoundError, NotADirectoryError):

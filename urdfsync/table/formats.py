@@ -18,7 +18,7 @@ from urdfsync.table.model import NOTHING, Sheet
 
 CONNECTIONS = "connections"
 _LARGEST = 200_000_000
-"""The most bytes of an unpacked workbook."""
+"""The greatest number of bytes of an unpacked workbook."""
 MARK = b"\n\0connections\0\n"
 """Separates a source from the connections in the CSV beside it."""
 

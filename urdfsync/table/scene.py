@@ -17,7 +17,7 @@ from urdfsync.table.model import FROM, TO, Options, Table, shown_unit
 from urdfsync.table.names import component_name
 
 _MOST = 500
-"""The most elements of a picture."""
+"""The greatest number of elements of a picture."""
 _BOX = 0.6, 0.3, 0.3
 _LINE = 0.03
 

@@ -9,8 +9,7 @@ from typing import get_args
 from urdfsync.config.advice import Proposal
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Target
-from urdfsync.urdf.connectors import connector_options
-from urdfsync.urdf.drives import assembly
+from urdfsync.urdf.assembly import Assembly, connector_options
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import LeftOut, Options
@@ -34,7 +33,7 @@ _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 def propose(robot: Robot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
     """Propose a base, a start for loops at a dead point, and the errors to allow."""
     proposals, codes = [guess_base(robot)], {entry.code for entry in diagnostics}
-    if "loop-singular" in codes and (start := assembly(KinematicTree.of(robot), Options()).proposed):
+    if "loop-singular" in codes and (start := Assembly(robot, Options()).closed.proposed):
         proposals.append(Proposal("start", start, "with all joints at zero, loops are at a dead point"))
     if needed := [code for code in get_args(LeftOut) if code in codes]:
         proposals.append(Proposal("allow", needed, "the model leaves this part out, see the warnings"))
@@ -45,7 +44,7 @@ def option_for(name: str, robot: Robot, target: Target, options: Options) -> str
     """Return the option that adds `name`: the name of a record, a frame or a variable of Run."""
     if name == f"{target.name}Parameters" and "record" not in options.approach:
         return 'approach = ["package", "record"]'
-    return connector_options(KinematicTree.of(robot, (target.name,)), options).get(name, "")
+    return connector_options(Assembly(robot, options, target)).get(name, "")
 
 
 def guess_base(robot: Robot) -> Proposal:

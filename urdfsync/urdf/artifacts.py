@@ -9,15 +9,11 @@ import msgspec
 
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.modelica.literals import html
-from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.drives import assembly
-from urdfsync.urdf.kinematics.loops import Closure
-from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.model.joint import joint_model, joint_record, joint_title
 from urdfsync.urdf.model.loop import loop_note, loop_reaches, loop_record, loop_title
 from urdfsync.urdf.model.record import obstacles, record_data
 from urdfsync.urdf.model.robot import bench_data, robot_data
-from urdfsync.urdf.model.sensors import sensor_records
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Inertial, Joint, Link, Loop, Robot
@@ -29,50 +25,47 @@ _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the U
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
     """Return every file of the robot's package but imported meshes.
 
-    Raises KeyError or ValueError for an invalid robot, or for a mesh without facts.
+    Raises KeyError or ValueError if the robot is invalid, or if an imported mesh lacks its hull or bounds.
     """
-    tree, package, folders = _tree(robot, target), target.package, dict[str, list[Artifact]]()
-    names, closed = connector_names(tree, options), assembly(tree, options)
-    tree = closed.tree
+    assembly = Assembly(robot, options, target)
+    tree, package, folders = assembly.tree, target.package, dict[str, list[Artifact]]()
     is_whole, starts = "package" in options.approach, {j.name: tree.joint(j.name).component for j in tree.starts()}
     files, parameters = list[Artifact](), list[Artifact]()
     if "record" in options.approach:
-        data = record_data(robot.name, tree, names, imports, package, options)
-        parameters.append(_of_robot(_PARAMETERS, target, options, data, Role.RECORD))
+        parameters.append(_of_robot(assembly, _PARAMETERS, record_data(assembly, imports), Role.RECORD))
     if is_whole:
-        benches = bench_data(closed, names, options)
-        files.append(_of_robot("", target, options, robot_data(tree.structure(), names, closed.dependent)))
-        files.append(_of_robot("Run", target, options, benches))
-        files.append(_of_robot("Test", target, options, benches))
+        whole = robot_data(tree.structure(), assembly.connectors, assembly.closed.dependent)
+        files.append(_of_robot(assembly, "", whole))
+        benches = bench_data(assembly, whole)
+        files.append(_of_robot(assembly, "Run", benches))
+        files.append(_of_robot(assembly, "Test", benches))
     else:
         files += parameters
     if has_bench(tree.joints, options):
         axes = {f"{motion}_axes": [starts.get(joint.name) for joint in tree.axes(motion)] for motion in MOTIONS}
-        files.append(_of_robot("Generic", target, options, axes))
+        files.append(_of_robot(assembly, "Generic", axes))
     if is_whole and options.base == "floating":
-        data = {"height": standing_height(tree, imports)}
-        files.append(_of_robot("Stance", target, options, data, Role.RECORD))
+        files.append(_of_robot(assembly, "Stance", {"height": standing_height(tree, imports)}, Role.RECORD))
     if is_whole and tree.sensors:
-        data = {"sensors": sensor_records(tree, names)}
-        files.append(_of_robot("Sensors", target, options, data, Role.RECORD))
+        models = zip(tree.sensors, whole["sensors"], strict=True)
+        sensors = [msgspec.structs.asdict(sensor) | model for sensor, model in models]
+        files.append(_of_robot(assembly, "Sensors", {"sensors": sensors}, Role.RECORD))
     if starts:
         begin = [
             {"component": starts[joint.name], "motion": MOTION_KINDS[joint.type], "joint": joint}
             for joint in tree.starts()
         ]
-        data = {"starts": begin, "reaches": list(loop_reaches(closed).values()), "has_loops": bool(tree.loops)}
-        files.append(_of_robot("Start", target, options, data, Role.RECORD))
+        data = {"starts": begin, "reaches": list(loop_reaches(assembly.closed).values()), "has_loops": bool(tree.loops)}
+        files.append(_of_robot(assembly, "Start", data, Role.RECORD))
     if is_whole:
         files += parameters
         root, *others = tree.links
         if not any(link.inertial for link in tree.links):
             # Modelica's frames need a root body: a robot without masses gets a massless one
             root = msgspec.structs.replace(root, inertial=Inertial())
-        folders["Links"] = [file for link in (root, *others) for file in _link(tree, link, imports, package, options)]
-        joints = [
-            file for joint in tree.joints for file in _joint(tree, joint, package, options, joint.name in closed.driven)
-        ]
-        joints += [file for loop in tree.loops for file in _loop(tree, loop, closed.closures[loop.name], package)]
+        folders["Links"] = [file for link in (root, *others) for file in _link(assembly, link, imports)]
+        joints = [file for joint in tree.joints for file in _joint(assembly, joint)]
+        joints += [file for loop in tree.loops for file in _loop(assembly, loop)]
         if joints:
             folders["Joints"] = joints
     parent, _, last = package.rpartition(".")
@@ -109,9 +102,9 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
     For a robot without meshes, the record in a package with the same names is equal.
     """
     robot_target = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
-    tree = _tree(robot, robot_target)
-    data = record_data(robot.name, tree, connector_names(tree, options), {}, target.package, options)
-    artifact = _of_robot(_PARAMETERS, robot_target, options, data | {"record": target.name}, Role.RECORD)
+    assembly = Assembly(robot, options, robot_target)
+    data = record_data(assembly, {}) | {"record": target.name}
+    artifact = _of_robot(assembly, _PARAMETERS, data, Role.RECORD)
     return msgspec.structs.replace(artifact, path=f"{target.name}.mo")
 
 
@@ -127,68 +120,58 @@ def has_bench(joints: Sequence[Joint], options: Options) -> bool:
     return "record" in options.approach and not obstacles(joints)
 
 
-def _tree(robot: Robot, target: Target) -> KinematicTree:
-    tree = KinematicTree.of(robot, taken=(target.name,))
-    if len(tree.leaders_first()) < len(tree.joints):
-        raise ValueError("a joint follows itself or a missing joint")
-    return tree
-
-
-def _of_robot(
-    suffix: str, target: Target, options: Options, data: Mapping[str, Any], role: Role = Role.MODEL
-) -> Artifact:
+def _of_robot(assembly: Assembly, suffix: str, data: Mapping[str, Any], role: Role = Role.MODEL) -> Artifact:
     """Return a file of the robot itself, named after the robot with a suffix."""
-    name = target.name
+    name = assembly.target.name
     record_name = f"{name}{suffix if role is Role.RECORD else _PARAMETERS}"
-    common = {"within": target.package, "type": name, "title": f"robot {name}", "record": record_name}
+    common = {"within": assembly.target.package, "type": name, "title": f"robot {name}", "record": record_name}
     template = {"": "robot", _PARAMETERS: "record"}.get(suffix, suffix.lower())
-    data = {**common, "base": options.base, **data}
+    data = {**common, "base": assembly.options.base, **data}
     return Artifact(f"{name}{suffix}.mo", role, f"robot/{template}.mo.jinja", data, "robot")
 
 
-def _link(
-    tree: KinematicTree, link: Link, imports: Mapping[str, Import], package: str, options: Options
-) -> Iterator[Artifact]:
+def _link(assembly: Assembly, link: Link, imports: Mapping[str, Import]) -> Iterator[Artifact]:
     """Yield model and record of a link."""
-    visuals, collisions = link_shapes(link, imports, package, options)
+    visuals, collisions = link_shapes(link, imports, assembly.target.package, assembly.options)
     contact = msgspec.to_builtins(link.contact) or {}
     shapes = {"visuals": visuals, "collisions": collisions}
     record = {"name": link.name, "inertial": link.inertial, "contact": contact, **shapes}
     note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>."
-    model = link_model(visuals, collisions, options, link.contact)
+    model = link_model(visuals, collisions, assembly.options, link.contact)
     templates = "link/model", "link/record"
-    return _element(tree, "link", link.name, f'link "{link.name}"', package, templates, (model, record), note)
+    return _element(assembly, "link", link.name, f'link "{link.name}"', templates, (model, record), note)
 
 
-def _joint(tree: KinematicTree, joint: Joint, package: str, options: Options, is_driven: bool) -> Iterator[Artifact]:
+def _joint(assembly: Assembly, joint: Joint) -> Iterator[Artifact]:
     """Yield model and record of a joint."""
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}."
-    data = joint_model(joint, options, is_driven), joint_record(joint)
+    is_driven = joint.name in assembly.closed.driven
+    data = joint_model(joint, assembly.options, is_driven), joint_record(joint)
     templates = f"joint/{joint.type}", f"joint/{joint.type}_parameters"
-    return _element(tree, "joint", joint.name, joint_title(joint), package, templates, data, note)
+    return _element(assembly, "joint", joint.name, joint_title(joint), templates, data, note)
 
 
-def _loop(tree: KinematicTree, loop: Loop, closure: Closure, package: str) -> Iterator[Artifact]:
+def _loop(assembly: Assembly, loop: Loop) -> Iterator[Artifact]:
     """Yield model and record of a joint that closes a loop."""
-    templates, note = ("joint/loop", "joint/loop_parameters"), loop_note(loop, closure)
+    closure, templates = assembly.closed.closures[loop.name], ("joint/loop", "joint/loop_parameters")
     data = dict[str, Any](), loop_record(loop, closure)
-    return _element(tree, "loop", loop.name, loop_title(loop), package, templates, data, note)
+    return _element(assembly, "loop", loop.name, loop_title(loop), templates, data, loop_note(loop, closure))
 
 
 def _element(
-    tree: KinematicTree,
+    assembly: Assembly,
     kind: str,
     name: str,
     title: str,
-    package: str,
     templates: tuple[str, str],
     data: tuple[Mapping[str, Any], Mapping[str, Any]],
     note: str,
 ) -> Iterator[Artifact]:
     """Yield model and record of an element; the note becomes the documentation of the model."""
-    identifier, folder = tree.names[kind, name], "Links" if kind == "link" else "Joints"
-    named = {"within": f"{package}.{folder}", "type": identifier.type, "record": identifier.record, "title": title}
+    identifier, folder = assembly.tree.names[kind, name], "Links" if kind == "link" else "Joints"
+    within = f"{assembly.target.package}.{folder}"
+    named = {"within": within, "type": identifier.type, "record": identifier.record, "title": title}
     (model, record), of_model = templates, {**data[0], "note": f"{note} {_EDIT}"}
     for stem, role, template, own in (
         (identifier.type, Role.MODEL, model, of_model),

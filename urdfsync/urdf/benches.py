@@ -12,8 +12,7 @@ from urdfsync.domain import Target
 from urdfsync.simulation.bench import Axis, Bench, LoopSignals, Signal
 from urdfsync.urdf.artifacts import has_bench
 from urdfsync.urdf.artifacts import models as package_models
-from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.drives import assembly
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, JointType, Motion, Robot, limits_acceleration
@@ -38,21 +37,20 @@ _FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6, "b
 
 def bench(robot: Robot, target: Target, options: Options) -> Bench | None:
     """Return the bench of a robot: Test and Run of its package, else the generic robot; None without both."""
-    tree = KinematicTree.of(robot, (target.name,))
-    layouts = {"package": _axes(tree, options, assembly(tree, options).dependent), "record": _generic_axes(tree)}
+    assembly = Assembly(robot, options, target)
+    layouts = {"package": _axes(assembly), "record": _generic_axes(assembly.tree)}
     axes = tuple(tuple(layout) for approach, layout in layouts.items() if approach in options.approach)
     if "package" in options.approach:
-        return Bench(f"{target.name}Test", f"{target.name}Run", axes, tuple(_loops(tree)))
-    return Bench(f"{target.name}Generic", "", axes) if has_bench(tree.joints, options) else None
+        return Bench(f"{target.name}Test", f"{target.name}Run", axes, tuple(_loops(assembly.tree)))
+    return Bench(f"{target.name}Generic", "", axes) if has_bench(robot.joints, options) else None
 
 
 def freedoms(robot: Robot, options: Options) -> int | None:
     """Return the degrees of freedom of a robot in its bench; None if it has no bench."""
     if "package" not in options.approach and not has_bench(robot.joints, options):
         return None
-    tree = KinematicTree.of(robot)
-    dependent = assembly(tree, options).dependent
-    independent = (joint for joint in tree.joints if joint.mimic is None and joint.name not in dependent)
+    closed = Assembly(robot, options).closed
+    independent = (j for j in closed.tree.joints if j.mimic is None and j.name not in closed.dependent)
     base = _FREEDOMS["floating"] if options.base == "floating" else 0
     return base + sum(_FREEDOMS.get(joint.type, 1) for joint in independent)
 
@@ -64,9 +62,9 @@ def _loops(tree: KinematicTree) -> Iterator[LoopSignals]:
         yield LoopSignals(f"loop {loop.name}", f"{name}.gap", force, torque)
 
 
-def _axes(tree: KinematicTree, options: Options, dependent: frozenset[str]) -> Iterator[Axis]:
+def _axes(assembly: Assembly) -> Iterator[Axis]:
     """Yield the axes of a package's robot: joints with one degree of freedom, from the root outwards."""
-    drives = connector_names(tree, options).drives
+    tree, drives, dependent = assembly.tree, assembly.connectors.drives, assembly.closed.dependent
     for joint in tree.joints:
         if motion := MOTION_KINDS.get(joint.type):
             name, drive = tree.joint(joint.name).component, drives.get(joint.name)

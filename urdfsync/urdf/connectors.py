@@ -6,11 +6,12 @@ new connector never renames an element or its file.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from urdfsync.urdf.drives import assembly, can_be_driven, has_motor, sharing_joint
+from urdfsync.urdf.drives import can_be_driven, has_motor, sharing_joint
+from urdfsync.urdf.kinematics.loops import ClosedLoops
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import GENERATED, Identifier, identify
 from urdfsync.urdf.options import Options
@@ -72,20 +73,20 @@ class Connectors(msgspec.Struct, frozen=True):
         return hash((*self.frames, *self.drives, *self.sensors))
 
 
-def connector_names(tree: KinematicTree, options: Options) -> Connectors:
+def connector_names(closed: ClosedLoops, options: Options) -> Connectors:
     """Return the names for a robot.
 
     A name in the option `frames` that no link has is skipped: `check_options` reports it.
     """
-    taken = taken_names(tree)
+    tree, taken = closed.tree, taken_names(closed.tree)
     if options.frames == "all":  # the root, too: a link that becomes the root keeps its frame
         framed = {link.name for link in tree.links}
     else:
         framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
-    driven, drives = assembly(tree, options).driven, {}
+    drives = {}
     for joint in filter(can_be_driven, tree.joints):
         identifier, motion = tree.joint(joint.name), MOTION_KINDS[joint.type]
-        command = (joint.command or "position") if joint.name in driven else None
+        command = (joint.command or "position") if joint.name in closed.driven else None
         in_vector = command if options.inputs == "vector" else None
         drives[joint.name] = Drive(
             motion,
@@ -123,43 +124,10 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
     )
 
 
-def connector_options(tree: KinematicTree, options: Options) -> dict[str, str]:
-    """Return the connectors and variables of Run that the options leave out, each with the option that adds it.
-
-    An option is a line of the configuration.
-    """
-    names, all_names = connector_names(tree, options), every_connector(tree, options)
-    named = () if isinstance(options.frames, str) else options.frames
-    absent = {link: frame for link, frame in all_names.frames.items() if link not in names.frames}
-    lines = {frame: _option("frames", (*named, link)) for link, frame in absent.items()}
-    for joint, drive in all_names.drives.items():
-        if not names.drives[joint].command:
-            driven = (name for name, other in names.drives.items() if other.command or name == joint)
-            variables = filter(None, (drive.position, drive.velocity, drive.effort))
-            lines |= dict.fromkeys(variables, _option("driven", driven))
-        elif options.inputs == "vector" and (input_ := getattr(drive, drive.command or "position")):
-            lines[input_] = 'inputs = "names"'
-        if drive.motor and not names.drives[joint].motor:
-            lines[drive.motor] = 'drives = "motor"'
-    return lines if options.inputs == "vector" else {input_vector(names): 'inputs = "vector"', **lines}
-
-
 def input_vector(names: Connectors) -> str:
     """Return the name of the vector of all inputs of Run."""
     commands = {drive.command for drive in names.drives.values() if drive.command}
     return "positions" if commands <= {"position"} else "commands"
-
-
-def every_connector(tree: KinematicTree, options: Options) -> Connectors:
-    """Return the names for a robot with all frames and motors, if Run drives all drivable joints."""
-    joints = tuple(joint.name for joint in tree.joints)
-    return connector_names(
-        tree, msgspec.structs.replace(options, frames="all", driven=joints, inputs="names", drives="motor")
-    )
-
-
-def _option(key: str, names: Iterable[str]) -> str:
-    return f"{key} = [{', '.join(msgspec.json.encode(name).decode() for name in names)}]"
 
 
 def taken_names(tree: KinematicTree) -> frozenset[str]:

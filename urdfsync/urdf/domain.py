@@ -12,9 +12,9 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Artifact, Conversion, Dependency, Domain, Import, Lookup, Order, Reading, Target
 from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_features
-from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.loops import find_loop_findings
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
@@ -74,9 +74,9 @@ class UrdfDomain(Domain):
         robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
         if robot is None:
             return Reading(None, diagnostics, lines)
-        tree = KinematicTree.of(robot)
-        closed = assembly(tree, options)
-        about_options = list(option_names.check_options(tree, closed, options))
+        assembly = Assembly(robot, options)
+        tree, closed = assembly.tree, assembly.closed
+        about_options = list(option_names.check_options(assembly))
         stated = {f"loop {loop.name}": f"loops.{loop.name}" for loop in options.loops}
         stated |= {f"joint {name}": f"start.{name}" for name in options.start}
         of_source = list[Finding]()
@@ -87,7 +87,7 @@ class UrdfDomain(Domain):
                 of_source.append(finding)
         diagnostics += located(find_implausible(tree), file, lines) + unmodelled + located(of_source, file, lines)
         if not closed.faults:
-            diagnostics += located(find_unsimulated(tree, closed, options), file, lines)
+            diagnostics += located(find_unsimulated(assembly), file, lines)
         is_wrong = any(entry.severity is Severity.ERROR and entry.code not in self.cured for entry in diagnostics)
         return Reading(None if is_wrong else robot.by_name(), diagnostics, lines, tuple(about_options))
 

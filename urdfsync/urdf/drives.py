@@ -4,34 +4,15 @@ A joint can be driven if it has one axis and follows no other joint. Joints that
 If the source drives any joint, a continuous joint with neither drive nor limit, such as a caster, is also passive. All
 other joints are driven, since sources often leave transmissions out.
 
-In loops, at most one joint per degree of freedom is driven: see `kinematics.loops.Assembly`.
+In loops, at most one joint per degree of freedom is driven: see `kinematics.loops.ClosedLoops`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from urdfsync.processes import machine
-from urdfsync.urdf.kinematics.loops import Assembly
-from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import FrictionLaw, Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint
-
-
-def assembly(tree: KinematicTree, options: Options) -> Assembly:
-    """Return the closed loops of a robot, and the joints that Run and Test drive.
-
-    The driven joints are the `wanted_joints`; in loops, at most one per degree of freedom.
-    """
-    wanted = wanted_joints(tree.joints, options)
-    if not tree.loops:
-        return Assembly(tree=tree, driven=wanted)
-    actuated = {joint.name for joint in tree.joints if joint.actuated}
-    named = actuated.union(options.commands) if options.driven is None else options.driven
-    with machine.single_thread():
-        from urdfsync.urdf.kinematics.assemble import assemble  # a late import saves most robots 60 ms
-
-    return assemble(tree, wanted, frozenset(named))
 
 
 def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:

@@ -13,10 +13,9 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, S
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
 from urdfsync.urdf import validate
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.drives import can_be_driven, chosen_law, is_chosen, passive_joints, wanted_joints
-from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.poses import own_range
-from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.loops import configured_loops
@@ -27,11 +26,12 @@ _NO_RECORD = 'take "record" out of `approach`'
 _DRIVEN = f"{_DRIVABLE} that Run and Test drive"
 
 
-def check_options(tree: KinematicTree, closed: Assembly, options: Options) -> Iterator[tuple[str, Diagnostic]]:
+def check_options(assembly: Assembly) -> Iterator[tuple[str, Diagnostic]]:
     """Yield diagnostics about a robot's options, with the name of the option, without file and line.
 
     The record approach ignores most options.
     """
+    tree, options = assembly.tree, assembly.options
     links, joints = [link.name for link in tree.links], tree.joints
     ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
     drivable, driven = list(ranges), wanted_joints(joints, options)
@@ -76,7 +76,7 @@ def check_options(tree: KinematicTree, closed: Assembly, options: Options) -> It
     if "package" in options.approach:
         yield from _check_laws(joints, options)
     if "package" in options.approach and options.driven is None:
-        yield from _find_passive(joints, passive_joints(joints) - driven - closed.dependent)
+        yield from _find_passive(joints, passive_joints(joints) - driven - assembly.closed.dependent)
     if "record" in options.approach and tree.loops:
         message = "the record approach has no loops: the generic robot would be open"
         yield "approach", Diagnostic(Severity.ERROR, "loops-not-in-record", message, hint=_NO_RECORD)

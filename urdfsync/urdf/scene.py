@@ -11,9 +11,9 @@ import msgspec
 from urdfsync.domain import Import, Target
 from urdfsync.pages import scene as scenes
 from urdfsync.pages.scene import Body, End, Hinge, Pose, Scene, Shape
-from urdfsync.urdf.drives import assembly
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics import poses
-from urdfsync.urdf.kinematics.loops import Assembly, Closure
+from urdfsync.urdf.kinematics.loops import ClosedLoops, Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.meshes.convert import triangles as triangles
@@ -34,7 +34,7 @@ def scene(
         key: file if file.facts else msgspec.structs.replace(file, facts=_NO_FACTS) for key, file in imports.items()
     }
     shown = msgspec.structs.replace(options, collisions=True)
-    closed = assembly(KinematicTree.of(robot, (target.name,)), options)
+    closed = Assembly(robot, options, target).closed
     tree = closed.tree
     starts = poses.start_positions(tree)
     names = {key: _mesh_name(key, file, imports) for key, file in imports.items()}
@@ -106,7 +106,7 @@ def _missing(tree: KinematicTree, imports: Mapping[str, Import]) -> Iterator[str
                     yield f"link {link.name}, {kind} {number}: mesh `{geometry.filename}` is not in the package"
 
 
-def _hinge(closed: Assembly, joint: Joint, start: float) -> Hinge:
+def _hinge(closed: ClosedLoops, joint: Joint, start: float) -> Hinge:
     limits, moves = poses.own_range(joint), MOTION_KINDS.get(joint.type)
     lower, upper = (limit if math.isfinite(limit) else None for limit in limits)
     way = 0.0

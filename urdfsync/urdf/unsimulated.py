@@ -6,20 +6,20 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.drives import can_be_driven, sharing_joint
-from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.massless import find_massless_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import obstacles
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Vector
 from urdfsync.urdf.validate import Finding, unit_vector
 
 _AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
-def find_unsimulated(tree: KinematicTree, closed: Assembly, options: Options) -> Iterator[Finding]:
+def find_unsimulated(assembly: Assembly) -> Iterator[Finding]:
     """Yield a finding for each part that the chosen approaches can't simulate."""
+    tree, closed, options = assembly.tree, assembly.closed, assembly.options
     if "record" in options.approach:
         yield from out_of_scope(tree)
     if "package" not in options.approach:

@@ -1,1 +1,1 @@
-"""Compare two versions of a model: classified changes, their outline, and versions from files and git revisions."""
+"""Compares two versions of a model, from files or git revisions."""

@@ -1,7 +1,7 @@
 """Compares sources with the last build, or with another version. Writes nothing, and takes no lock.
 
-A comparison with the last build is a dry run: its changes, its plan. Another version is read like the source, with the
-files of that version.
+A comparison with the last build is a dry run: it has the run's changes and actions. Another version is read like the
+source, with the files of that version.
 """
 
 from __future__ import annotations
@@ -42,11 +42,11 @@ from urdfsync.state import expansion
 from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
-"""Domain of a source without a robot in the configuration."""
+"""The domain of sources that no configuration names."""
 
 
 Contents: TypeAlias = tuple[Version, Mapping[str, bytes]]
-"""A version with its imported files by path."""
+"""A version, and the contents of its imported files by path."""
 
 
 class Comparison(msgspec.Struct, frozen=True):
@@ -55,26 +55,26 @@ class Comparison(msgspec.Struct, frozen=True):
     KEYS = ("source", "against", "in_step", "summary", "effects", "result")
 
     result: Result
-    """Result of a dry run; with `against`, an action for each different file."""
+    """Result of a dry run; with `against`, it has an action for each different file."""
     source: str
     """The source's name for people."""
     against: str | None = None
-    """The other version, as the user named it; None for the last build."""
+    """The user's name of the other version; None for the last build."""
     missing: str = ""
-    """Why there is no older version; empty if there is one."""
+    """Why there is no older version; empty if there is an older version."""
     effects: tuple[Effect, ...] = ()
-    """Properties of the whole model that the changes concern."""
+    """Properties of the whole model that changed."""
     versions: tuple[Contents, ...] = ()
-    """The older version and the new one; none for the last build, or after an error."""
+    """The older and the new version; empty for the last build, or after an error."""
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """The findings, without those in the effects."""
+        """The findings, without findings that `effects` shows."""
         return tuple(finding for finding in self.result.diagnostics if finding.code != CONNECTORS)
 
     @property
     def in_step(self) -> bool:
-        """Return whether both versions give the same package, and the package on disk needs nothing."""
+        """Return whether both versions give the same package, and the package on disk is in step."""
         changes = self.result.changes or Changes()
         return self.result.in_step and changes.change_class in (ChangeClass.NONE, ChangeClass.UNMODELLED)
 
@@ -93,7 +93,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
-    """Return the worst exit code: error, then lock, then out of step. A conflict counts as out of step."""
+    """Return the exit code of the worst result: error, lock, out of step. A conflict counts as out of step."""
     code = exit_code_of(comparison.result for comparison in comparisons)
     if code in (Exit.ERROR, Exit.LOCKED):
         return code
@@ -103,7 +103,7 @@ def exit_code(comparisons: Sequence[Comparison]) -> Exit:
 def select_sources(
     sources: Sequence[str], against: str | None, config: Config | None, folder: Path
 ) -> Iterator[tuple[Config | None, Sequence[RobotConfig]]]:
-    """Yield the robots for the arguments, and new robots for other sources. Raises ConfigError."""
+    """Yield the robots for the arguments; for a source without a robot, yield a new robot. Raises ConfigError."""
     if config is None and against is None:
         place = f"{folder} or a folder above it"
         message = f"no {FILE_NAME} in {place}, so there is no last build to compare with"
@@ -129,7 +129,7 @@ def select_sources(
 
 
 def robot_of_file(path: Path) -> RobotConfig:
-    """Return a robot for a source outside of the configuration, with default settings and permissive options."""
+    """Return a robot for a source that no configuration names, with default settings and permissive options."""
     name = class_name(path.name.partition(".")[0])
     options = registry.domain(_DOMAIN).permissive_options
     return RobotConfig(
@@ -146,7 +146,7 @@ def robot_of_file(path: Path) -> RobotConfig:
 def compare_sources(
     robots: Sequence[RobotConfig], against: str | None, config: Config | None, options: BuildOptions, folder: Path
 ) -> Iterator[Comparison]:
-    """Compare each source with the last build, or with `against`: a git revision, or a file, counted from `folder`.
+    """Compare each source with the last build, or with `against`: a git revision, or a path from `folder`.
 
     A failure does not stop the others. Without a configuration, `against` is required.
     """
@@ -163,7 +163,7 @@ def compare_sources(
 
 
 def _result(robot: RobotConfig, config: Config | None) -> Result:
-    """Return an empty result; paths of a robot outside of the configuration count from its package."""
+    """Return an empty result; without a configuration, paths count from the robot's package."""
     if config is None:
         return Result(robot.name, robot.target.package, Path(), Path(), dry=True)
     return Result(robot.name, robot.target.package, robot.folder, config.root, dry=True)
@@ -185,7 +185,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
 
 
 def _is_file(against: str, source: Path, folder: Path) -> bool:
-    """Return whether `against` names a file: as a path, or because git has no revision of that name.
+    """Return whether `against` names a file: it looks like a path, or git has no such revision.
 
     Raises SourceError if git fails.
     """
@@ -207,16 +207,16 @@ class _VersionedSource(NamedTuple):
 
     text: Source
     places: tuple[Path, ...]
-    """The files to which references are relative, best first; absolute."""
+    """Absolute paths to which references in the source are relative, best first."""
     revision: Revision | None = None
     scratch: Path = Path()
-    """With a revision: a folder for its other files."""
+    """For a revision, a folder for the revision's other files."""
 
 
 def _with_version(
     robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path
 ) -> Comparison:
-    """Compare a source with another version of it; actions are those of an unedited package."""
+    """Compare a source with another version; the actions ignore edits of the package."""
     domain, result = registry.domain(robot.domain), _result(robot, config)
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
         source = robot.source
@@ -230,7 +230,7 @@ def _with_version(
             before = _configured_in(revision, robot, config)
             text = source_files.with_named_file(config, before, _in_revision(revision, before, config), revision)
             other = _VersionedSource(text, (before.source,), revision, Path(scratch))
-        if config and not robot.command:  # the file may be expanded already
+        if config and not robot.command:  # the file may be an expanded source
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
             text = source_files.read_file_source(domain, source, arguments, folders, robot.options)
@@ -265,7 +265,7 @@ def _with_version(
 
 
 def _configured_in(revision: Revision, robot: RobotConfig, config: Config | None) -> RobotConfig:
-    """Return a robot as the configuration of a revision has it; with default options if it has no such robot."""
+    """Return a robot as configured in a revision; with default options if the revision has no such robot."""
     if config is None or not revision.holds(config.file):
         return robot
     content = revision.contents([config.file]).get(config.file, b"")
@@ -273,7 +273,7 @@ def _configured_in(revision: Revision, robot: RobotConfig, config: Config | None
         text = content.decode("utf-8-sig").replace("\r\n", "\n")
         robots = parse_config(text, config.file, revision.label(config.file)).robots
     except (UnicodeDecodeError, ConfigError):
-        return robot  # a later version may have repaired the configuration, or renamed its keys
+        return robot  # later commits may have repaired the configuration, or renamed its keys
     named = [each for each in robots if each.name == robot.name]
     of_source = [each for each in robots if each.source == robot.source]
     unknown = msgspec.structs.replace(robot, options=registry.domain(robot.domain).options())
@@ -281,9 +281,9 @@ def _configured_in(revision: Revision, robot: RobotConfig, config: Config | None
 
 
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
-    """Return a source in a revision; for xacro, its expansion of that time. Raises SourceError."""
+    """Return a source in a revision; for xacro, the expansion of that revision. Raises SourceError."""
     label = revision.label(robot.source)
-    # the source may have been renamed; its expansion has the robot's name
+    # the source may have another name now; the expansion has the robot's name
     if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
         content = revision.read(robot.source)
         if config is None or not source_files.is_xacro(robot.source, content):
@@ -301,7 +301,7 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
 def _files_of(
     package: Package, version: Version, changed: Collection[str]
 ) -> dict[str, tuple[Role, str, bytes | tuple[str, ...] | str | None]]:
-    """Return role, owner and content of each file of a package; texts are rendered only if they are `changed`."""
+    """Return role, owner and content of each file of a package; render only texts in `changed`."""
     texts = {
         path: (artifact.role, artifact.owner, package.content(path) if path in changed else None)
         for path, artifact in package.artifacts.items()
@@ -324,7 +324,7 @@ def _effects(
 def _read(
     domain: Domain, robot: RobotConfig, version: _VersionedSource, known: imports.Imported, options: BuildOptions
 ) -> tuple[Version, imports.Imported, tuple[Diagnostic, ...]]:
-    """Read a version and the files that it refers to; `known` imports are not converted again.
+    """Read a version and the files that it refers to; `known` imports are used without converting them again.
 
     Raises SourceError for an unreadable source.
     """
@@ -336,7 +336,7 @@ def _read(
         lookup = Lookup(place, robot.package_paths + options.package_paths)
         found_files.append(imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines))
     joined = []
-    for same in zip(*found_files, strict=True):  # one file, found from several places
+    for same in zip(*found_files, strict=True):  # the paths lead to the same file
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined

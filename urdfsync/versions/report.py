@@ -19,14 +19,14 @@ from urdfsync.spelling import counted
 from urdfsync.versions.comparison import Comparison
 
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
-"""The most lines of changes, files and effects without --verbose."""
+"""The greatest number of lines of changes, files and effects without --verbose."""
 _DOUBTS = 6
-"""The most named elements that may be other parts."""
+"""The greatest number of elements that are named because they may be other parts."""
 _SILENT = frozenset({Reason.KEEP, Reason.FORGET})
 
 
 def to_section(compared: Comparison, *, verbose: bool | None = None) -> Section:
-    """Return a comparison as a section. Only one with the last build judges the package."""
+    """Return a comparison as a section. Only a comparison with the last build judges the package."""
     result, section = compared.result, build_section(compared.result)
     points, tables = change_parts(result.changes, _CHANGES, verbose=bool(verbose))
     effects = [tuple(row) for row in effect_rows(compared.effects)]
@@ -62,18 +62,18 @@ def _effect_line(*row: str) -> StyledLine:
 
 
 def _file_line(path: str, word: str, why: str) -> StyledLine:
-    """Return a line for one file, with the reason if it is one that the user edited."""
+    """Return a line for one file, with the reason if the user edited the file."""
     return file_line(path, word, why if word in EDITED else "")
 
 
 def _doubts(compared: Comparison) -> Iterator[str]:
-    """Yield the elements that may be other parts, and lines for the configuration that say so."""
+    """Yield the elements that may be other parts, and lines for the configuration that declare the renames."""
     doubts = compared.result.changes.doubts if compared.result.changes else ()
     yield from map(describe_doubt, doubts[:_DOUBTS])
     if len(doubts) > _DOUBTS:
         yield f"… and {counted(len(doubts) - _DOUBTS, 'more element')} like these"
     likely = {doubt.element.partition(" ")[2]: doubt.moved_to for doubt in doubts if doubt.moved_to}
     if likely and compared.result.robot:
-        yield "if so, put this into urdfsync.toml, with the names that are right:"
+        yield "if so, put this into urdfsync.toml, with the right names:"
         table = tomli_w.dumps({"robots": {compared.result.robot: {"renamed": likely}}})
         yield from (f"  {text}" for text in table.splitlines())

@@ -13,9 +13,9 @@ from urdfsync.answers.facts import LISTINGS, Entry
 from urdfsync.config import Config
 
 _MAX_STEPS = 1000
-"""The most folders and links on the way to a file: links may lead in a circle."""
+"""The greatest number of folders and links on the way to a file: links may lead in a circle."""
 _FEW = 16
-"""The most folders that are watched one by one, since each takes threads; of more folders, the parents are watched."""
+"""The greatest number of folders that are watched one by one: each takes threads. Beyond it, parents are watched."""
 
 
 class WatchedFolders(msgspec.Struct, frozen=True):

@@ -32,9 +32,9 @@ from urdfsync.watch import events
 from urdfsync.watch.terminal import StatusArea
 
 _NAME_WIDTH = 24
-"""The most columns of the robots' names."""
+"""The greatest number of columns of the robots' names."""
 _FEW = 2
-"""The most changes of a model that are spelled out, and the most characters of the text; more are counted."""
+"""Limits of a model's changes in words: their number, and the characters of the text. Further changes are counted."""
 _MAX_LENGTH = 100
 _SPACED = 4
 """With fewer rows, a terminal has no empty row above the status."""

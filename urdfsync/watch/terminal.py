@@ -15,7 +15,7 @@ from rich.text import Text
 from urdfsync.output.console import rich_console
 
 _WIDEST = 79
-"""The most columns of the status: a narrowed terminal would wrap longer lines."""
+"""The greatest number of columns of the status: a narrowed terminal would wrap longer lines."""
 
 
 class StatusArea:
@@ -29,7 +29,7 @@ class StatusArea:
 
     @property
     def room(self) -> int:
-        """The most rows of the status: a third of the terminal's rows, but at least four if the terminal has five."""
+        """The greatest number of rows of the status: a third of the terminal's, but at least four of five."""
         height = self.console.height
         return max(min(4, height - 1), height // 3)
 

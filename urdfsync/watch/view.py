@@ -30,7 +30,7 @@ from urdfsync.watch.daemon import WatchOptions
 _ALIVE = 10.0
 """Seconds between messages, by which the server notices closed browsers."""
 _MOST = 50
-"""The most connections at a time; each open page has one connection."""
+"""The greatest number of connections at a time; each open page has one connection."""
 _IDLE = 15.0
 """Seconds that a connection may take for its request, or for an answer."""
 _HEADERS = {"Cache-Control": "no-store", "X-Content-Type-Options": "nosniff", "X-Frame-Options": "DENY"}

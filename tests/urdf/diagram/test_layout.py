@@ -12,12 +12,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
-from support.robots import random_robot
+from support.robots import assembly, random_robot
 
-from urdfsync.urdf.connectors import Connectors, connector_names
+from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Loop, Robot, Sensor, SensorKind, Transmission
 
 KINDS: tuple[SensorKind, ...] = ("imu", "camera", "force_torque")
@@ -43,7 +42,7 @@ def random_names(random_: random.Random, links: int, reach: int, mimics: float) 
     tree = KinematicTree.of(replace(robot, joints=tuple(geared), sensors=tuple(sensors), loops=loops))
     framed = tuple(name for name in names if random_.random() < mimics / 2)
     # connectors have nothing to do with these loops, which can't be closed
-    return tree, connector_names(replace(tree, loops=()), Options(frames=framed, drives="motor"))
+    return tree, assembly(tree, frames=framed, drives="motor").connectors
 
 
 def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
@@ -205,7 +204,7 @@ def test_a_new_leaf_moves_other_leaves_at_most(random_: random.Random, links: in
     tree = KinematicTree.of(robot)
     grown = KinematicTree.of(with_leaf(robot, random_.choice(robot.links).name))
     assume(large(tree) == large(grown))
-    before, after = (layout(each, connector_names(each, Options())) for each in (tree, grown))
+    before, after = (layout(each, assembly(each).connectors) for each in (tree, grown))
     for joint in tree.joints:
         if joint.name in large(tree):
             assert before.placements[joint.name].y1 == after.placements[joint.name].y1
@@ -223,8 +222,7 @@ TREE = Robot(
 def test_a_leaf_in_a_free_place_moves_nothing(parent: str) -> None:
     """At the end of a chain, or below a chain beside another one."""
     before, after = (
-        layout(tree, connector_names(tree, Options()))
-        for tree in map(KinematicTree.of, (TREE, with_leaf(TREE, parent)))
+        layout(tree, assembly(tree).connectors) for tree in map(KinematicTree.of, (TREE, with_leaf(TREE, parent)))
     )
     common = before.placements.keys() & after.placements.keys()
     assert [name for name in common if before.placements[name] != after.placements[name]] == []

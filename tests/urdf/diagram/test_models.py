@@ -10,7 +10,7 @@ from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
-from urdfsync.urdf.connectors import connector_names
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.diagram.layout import layout
 
 ZOO = robot(
@@ -34,7 +34,7 @@ def corners(note: Call) -> tuple[float, ...]:
 @pytest.mark.parametrize("visualizer", ["standard", "visualization2"])
 def test_a_model_has_the_places_and_lines_of_the_layout(visualizer: str) -> None:
     package = generate(ZOO.encode(), Target("Bot", "Bot"), visualizer=visualizer)
-    expected = layout(package.skeleton, connector_names(package.skeleton, package.options))
+    expected = layout(package.skeleton, Assembly(package.robot, package.options, package.target).connectors)
     places, lines, extents = {}, {}, []
     for statement, note in statements(package.texts["Bot.mo"]):
         if placement := note.get("Placement"):

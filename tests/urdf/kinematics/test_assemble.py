@@ -17,7 +17,7 @@ from support import loops
 from support.strandbeest import strandbeest
 
 from urdfsync.urdf.kinematics.assemble import assemble
-from urdfsync.urdf.kinematics.loops import Assembly, Closure, find_loop_findings
+from urdfsync.urdf.kinematics.loops import ClosedLoops, Closure, find_loop_findings
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Loop, LoopKind, Mimic, Origin, Robot, Vector
@@ -36,7 +36,7 @@ def tree(joints: Sequence[Joint], *loops: Loop) -> KinematicTree:
     return KinematicTree.of(Robot("r", tuple(map(Link, links)), tuple(joints), loops=loops))
 
 
-def assembled(tree: KinematicTree, *named: str) -> Assembly:
+def assembled(tree: KinematicTree, *named: str) -> ClosedLoops:
     result = assemble(tree, frozenset(named or [joint.name for joint in tree.joints]), frozenset(named))
     assert not result.faults
     return result
@@ -47,9 +47,9 @@ def faults(tree: KinematicTree, *named: str) -> list[tuple[str, str]]:
     return [(fault.code, fault.path.removeprefix("loop ")) for fault in result.faults]
 
 
-def distances(tree: KinematicTree, assembly: Assembly) -> list[float]:
+def distances(tree: KinematicTree, closed: ClosedLoops) -> list[float]:
     """Between the frames of each loop at the start, by the poses of links that diagrams use."""
-    poses = link_poses(tree, start_positions(assembly.tree))
+    poses = link_poses(tree, start_positions(closed.tree))
     sides = [((loop.parent, loop.origin), (loop.child, loop.child_origin)) for loop in tree.loops]
     ends = [[compose(poses[link], pose(origin))[1] for link, origin in side] for side in sides]
     return [math.dist(a, b) for a, b in ends]

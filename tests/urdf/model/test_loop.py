@@ -10,8 +10,7 @@ from support.loops import FIVE_BAR, FOUR_BAR, SPATIAL
 from support.packages import generate_robot
 
 from urdfsync.domain import Target
-from urdfsync.urdf.drives import assembly
-from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.option_names import check_options
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Link, Origin, Robot
@@ -88,6 +87,5 @@ def test_a_loop_has_files_a_component_and_two_connections() -> None:
 def test_joints_that_follow_through_a_loop_are_not_told_to_be_passive() -> None:
     flag = Joint("pole", "continuous", "ground", "flag")
     robot = replace(FOUR_BAR, links=(*FOUR_BAR.links, Link("flag")), joints=(*FOUR_BAR.joints, flag))
-    tree = KinematicTree.of(robot)
-    told = [said.message for _, said in check_options(tree, assembly(tree, Options()), Options())]
+    told = [said.message for _, said in check_options(Assembly(robot, Options()))]
     assert told == ["Run and Test do not drive `pole`: no transmission, no ros2_control and no limit"]

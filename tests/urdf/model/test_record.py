@@ -13,13 +13,11 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from support.packages import record_components, record_tables, record_text
-from support.robots import SCALAR, robots, tree
+from support.robots import SCALAR, assembly, robots, tree
 
-from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import obstacles, record_data, tables
 from urdfsync.urdf.names import spell
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
     MOTION_KINDS,
@@ -40,9 +38,7 @@ from urdfsync.urdf.robot import (
 
 @given(robots())
 def test_the_matrices_say_what_the_tree_is(robot: Robot) -> None:
-    skeleton, options = KinematicTree.of(robot), Options()
-    connectors = connector_names(skeleton, options)
-    found = record_data("", skeleton, connectors, {}, "Arm", options)
+    found = record_data(assembly(robot), {})
     names = [link["name"] for link in found["links"]]
     matrix = found["structure"]["connection_matrix"]
     assert {(names[parent - 1], names[child - 1]) for parent, child in matrix} == {

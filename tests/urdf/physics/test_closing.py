@@ -11,7 +11,6 @@ from support.loops import FOUR_BAR, ROBOTS, joint, to_urdf
 
 from urdfsync.checks.experiment import Sample
 from urdfsync.domain import Target
-from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.completion import completed_for_pinocchio
@@ -22,7 +21,7 @@ from urdfsync.urdf.robot import Inertia, Inertial, Link, Origin, Robot
 
 def subject(robot: Robot) -> Subject:
     content = completed_for_pinocchio(to_urdf(robot).encode()).content
-    return Subject(Sample(content, "robot.urdf", Target("Bot", "Bot"), Options(), {}), KinematicTree.of(robot))
+    return Subject(Sample(content, "robot.urdf", Target("Bot", "Bot"), Options(), {}), robot)
 
 
 def test_a_four_bar_closes_as_its_triangles_do() -> None:

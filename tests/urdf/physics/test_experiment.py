@@ -8,6 +8,7 @@ import sys
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 from support.loops import FOUR_BAR, to_options, to_urdf
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
@@ -117,6 +118,13 @@ def test_a_ball_turns_as_prescribed_and_freely_and_its_whole_torque_is_compared(
     assert DOMAIN.checks.experiment(Sample(ball.encode(), "robot.urdf", BOT, options, {})) == (
         "joint elbow is ball, and nothing prescribes its motion"
     )
+
+
+def test_the_acceleration_of_an_edited_joint_with_other_parts_is_that_of_its_flange() -> None:
+    sample = Sample(ELBOW.encode(), "robot.urdf", BOT, Options(), {}, {"Joints/Elbow.mo": b"  Revolute hinge(\n"})
+    values = [DOMAIN.checks.experiment(each).trials[1].probe.values for each in (sample, replace(sample, texts={}))]
+    assert ["gain1" in each for each in values] == [True, False]
+    assert ["robot.elbow.revolute.a" in each for each in values] == [False, True]
 
 
 def test_no_acceleration_follows_from_an_effort_on_no_mass() -> None:

@@ -11,9 +11,8 @@ from typing import Literal, NamedTuple, TypeAlias
 import jinja2
 
 from urdfsync.domain import Target
-from urdfsync.urdf.connectors import Connectors, connector_names
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.diagram.layout import Diagram, LineKind, Path, Point, layout
-from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, JointType, Robot
 
@@ -55,9 +54,9 @@ class _Part(NamedTuple):
 
 def draw(robot: Robot, target: Target, options: Options) -> str:
     """Return the robot model's diagram as SVG, in the layout of the generated model, with masses and ratios."""
-    tree = KinematicTree.of(robot, taken=(target.name,))
-    names = connector_names(tree, options)
-    diagram, parts = layout(tree, names), dict(_parts(tree, names))
+    assembly = Assembly(robot, options, target)
+    names = assembly.connectors
+    diagram, parts = layout(assembly.tree, names), dict(_parts(assembly))
     x1, y1, x2, y2 = diagram.extent
     legend, bottom = _legend({part.kind for part in parts.values()}, (x1, -y1 + _FOOTER), x2 + _MARGIN)
     environment = jinja2.Environment(
@@ -91,8 +90,9 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
     )
 
 
-def _parts(tree: KinematicTree, names: Connectors) -> Iterator[tuple[str, _Part]]:
+def _parts(assembly: Assembly) -> Iterator[tuple[str, _Part]]:
     """Yield the components of links, joints, couplings, sensors and loops."""
+    tree, names = assembly.tree, assembly.connectors
     for link in tree.links:
         yield (
             tree.link(link.name).component,

@@ -18,11 +18,12 @@ follows from a hash of its joint's name, and from the free rows. Large chains ch
 the ones further left. So a new leaf displaces only other leaves. The price is empty cells and crossings: a chain may
 cross the lines that lead from a link to another chain.
 
-A link hangs on a short trunk at the left of its column. Lines to chains and sensors below the link run down in the gap
-between two columns, each on its own track. The connectors of axis and support stand above a joint that can be driven. A
-mimic coupling stands above its follower; the line from the leader runs on a track. If a motor moves two joints, its
-gear stands above the first joint. The line to the second joint runs on a track. A joint that closes a loop stands below
-all rows, in the column of its parent. The lines from its links run down on tracks.
+The spine of a row is the horizontal line of its chain. A link hangs on a short trunk at the left of its column. Lines
+to chains and sensors below the link run down in the gap between two columns, each on its own track. The connectors of
+axis and support stand above a joint that can be driven. A mimic coupling stands above its follower; the line from the
+leader runs on a track. If a motor moves two joints, its gear stands above the first joint. The line to the second
+joint runs on a track. A joint that closes a loop stands below all rows, in the column of its parent. The lines from
+its links run down on tracks.
 
 Lines consist of axis-parallel segments. All coordinates are even; y points upwards.
 """

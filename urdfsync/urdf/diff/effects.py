@@ -11,7 +11,8 @@ from urdfsync.config.advice import brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ElementKey, Target, Version, displaced
 from urdfsync.processes import machine
-from urdfsync.urdf.connectors import Connectors, connector_names, connector_options, every_connector, input_vector
+from urdfsync.urdf.assembly import Assembly, connector_options
+from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
@@ -120,11 +121,11 @@ def interface(
     if "package" not in options.approach:
         hint = brings_back('approach = ["package", "record"]')
         return [Effect(("robot", "model"), target.name, None, hint=hint)]
-    before, after = (KinematicTree.of(version.snapshot, (target.name,)) for version in (old, new))
-    old_connectors, connectors = connector_names(before, earlier), connector_names(after, options)
-    new_names, all_names = _names(connectors, options), _names(every_connector(after, options), options)
+    after = Assembly(new.snapshot, options, target)
+    old_connectors, connectors = Assembly(old.snapshot, earlier, target).connectors, after.connectors
+    new_names, all_names = _names(connectors, options), _names(after.every_connector, options)
     all_names["robot", "", _INPUT] = input_vector(connectors)
-    lines, displaced_elements, changes = connector_options(after, options), displaced(renames), list[Effect]()
+    lines, displaced_elements, changes = connector_options(after), displaced(renames), list[Effect]()
     for (kind, old_element, part), old_name in _names(old_connectors, earlier).items():
         is_displaced = (kind, old_element) in displaced_elements
         element = renames.get((kind, old_element), old_element)

@@ -18,7 +18,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from urdfsync.spelling import counted
-from urdfsync.urdf.kinematics.loops import NOTABLE, Assembly, Closure, Gap
+from urdfsync.urdf.kinematics.loops import NOTABLE, ClosedLoops, Closure, Gap
 from urdfsync.urdf.kinematics.mechanism import (
     AXES,
     ORIGIN,
@@ -53,7 +53,7 @@ _PASSIVE = re.compile("passive|unactuated|undriven", re.IGNORECASE)
 _MOTOR = re.compile("motor|actuat|servo|drive(?!n)", re.IGNORECASE)
 _MOST_LOOPS, _MOST_JOINTS = 200, 1000
 _MOST_WORK = 6 * 10**10
-"""The most multiplications to close all loops, which take ten seconds. For comparison: 110 four-bars take 10¹⁰."""
+"""The limit of multiplications to close all loops: they take ten seconds. 110 four-bars take 10¹⁰."""
 
 
 class _Problem(Mechanism):
@@ -90,8 +90,8 @@ class _Problem(Mechanism):
     def close(self, start: Array, rows: Rows, free: Array | None = None, *, bounded: bool = True) -> Array:
         """Return the pose near a start with the least residuals, by Levenberg's method; only the free joints move.
 
-        The `whole` equations depend on each other, and inexact numbers leave residuals. So joints do not move in
-        directions that hardly change these equations.
+        The `whole` equations depend on each other, and inexact numbers leave residuals. So a step leaves out
+        directions that hardly change the residuals of these equations.
         """
         least = _INDEPENDENT**2 if rows is self.whole else 1e-12  # chosen rows are independent
         q, caution, lower, upper = start, 1.0, self.lower, self.upper
@@ -160,9 +160,9 @@ class _UnclosableError(Exception):
         self.faults = faults
 
 
-# A build calls `assemble` ten times, for two versions of the robot, and a call takes 40 ms.
+# A build calls `assemble` five times, for two versions of the robot, and a call takes 40 ms.
 @functools.lru_cache(maxsize=2)
-def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
+def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> ClosedLoops:
     """Close all loops of a robot near its start, or report the reason why they stay open.
 
     The options ask for drives of the `wanted` joints. Source or options name drives of the `named` joints. If no named
@@ -177,14 +177,14 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
                 faults, proposed = error.faults or (_too_many(tree),), dict[str, float]()
                 if faults[0].code == "loop-singular":
                     proposed = _find_regular_start(tree, wanted, named)
-                return Assembly(tree=tree, driven=wanted, faults=faults, proposed=proposed)
+                return ClosedLoops(tree=tree, driven=wanted, faults=faults, proposed=proposed)
     except np.linalg.LinAlgError:
         name = tree.loops[0].name
         fault = Finding("loop-open", f"loop {name}", f"loop {name!r} has numbers that are too large")
-        return Assembly(tree=tree, driven=wanted, faults=(fault,))
+        return ClosedLoops(tree=tree, driven=wanted, faults=(fault,))
 
 
-def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
+def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> ClosedLoops:
     if len(tree.loops) > _MOST_LOOPS or len(joints_of_loops(tree)) > _MOST_JOINTS:
         raise _UnclosableError
     problem = _Problem(tree)
@@ -229,7 +229,7 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
     moved = {names[k] for k in driven}
     starts = dict(zip(names, map(float, q), strict=True))
     joints = tuple(replace(joint, start=starts.get(joint.name, joint.start)) for joint in tree.joints)
-    return Assembly(
+    return ClosedLoops(
         tree=replace(tree, joints=joints),
         joints=tuple(joint.name for joint in joints if joint.name in in_loops),
         states=tuple(names[k] for k in states),

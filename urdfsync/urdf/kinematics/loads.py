@@ -24,7 +24,7 @@ _Moment = tuple[float, Array]
 
 GRAVITY = 9.80665  # of the Modelica Standard Library's World
 _MOST = 2000
-"""The most poses of a grid. So many poses take 10 ms with seven joints."""
+"""The greatest number of poses of a grid. So many poses take 10 ms with seven joints."""
 _QUARTER = math.pi / 2
 
 

@@ -43,8 +43,8 @@ class Closure(msgspec.Struct, frozen=True):
     """The reason why the loop has fewer equations than its kind; also None for a planar loop."""
 
 
-class Assembly(msgspec.Struct, frozen=True, kw_only=True):
-    """A robot with closed loops, or the faults of its loops. Without loops, only `tree` and `driven` are set."""
+class ClosedLoops(msgspec.Struct, frozen=True, kw_only=True):
+    """The closed loops of a robot, or the faults of its loops. Without loops, only `tree` and `driven` are set."""
 
     tree: KinematicTree
     """The robot. Joints of loops begin in a closed pose: the start pose of the source, if that pose is closed."""
@@ -80,7 +80,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
         return frozenset(self.joints).difference(self.states)
 
 
-def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
+def find_loop_findings(closed: ClosedLoops) -> Iterator[Finding]:
     """Yield the faults of loops, or the differences between their models and the source."""
     start = ", ".join(f"{json.dumps(name)} = {value:g}" for name, value in closed.proposed.items())
     hint = f"let joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""

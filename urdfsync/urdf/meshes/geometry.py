@@ -18,7 +18,7 @@ Array: TypeAlias = npt.NDArray[np.float64]
 Indices: TypeAlias = npt.NDArray[np.int64]
 
 MAX_TRIANGLES = 1_000_000
-"""The most triangles of one mesh, in all its places in the scene: 50 MB of binary STL."""
+"""The greatest number of triangles of one mesh, in all its places in the scene: 50 MB of binary STL."""
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = b"binary STL, written by urdfsync".ljust(80)

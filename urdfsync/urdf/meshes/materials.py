@@ -19,7 +19,7 @@ Color: TypeAlias = tuple[int, int, int]
 """Red, green and blue from 0 to 255."""
 
 _MOST_PIXELS = 5_000_000
-"""The most pixels of a texture: a larger texture exceeds the time limit of a mesh."""
+"""The greatest number of pixels of a texture: a larger texture exceeds the time limit of a mesh."""
 _USED_MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]([^\r\n]+)", re.MULTILINE)
 _STATEMENT = re.compile(rb"^[ \t]*(newmtl|Kd|map_Kd)[ \t]([^\r\n]+)", re.MULTILINE)
 

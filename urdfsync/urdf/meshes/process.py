@@ -21,12 +21,12 @@ FOR_PICTURE = 4
 CPU_SECONDS = 4.0
 """CPU time for one mesh, on Linux and macOS. So a command with one slow mesh stays below 5 s."""
 MEMORY = 450_000_000
-"""The most bytes that the process may allocate, on Linux, in addition to 50 MB for libraries."""
+"""The greatest number of bytes that the process may allocate, on Linux, in addition to 50 MB for libraries."""
 WALL_SECONDS = 60.0
 """Wall time for one mesh, on all systems: a busy machine may need so long for this CPU time."""
 _LIMITS = f"reading the file takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the reading process"
 _LONGEST = 300
-"""The most characters of an error message from a library."""
+"""The greatest number of characters of an error message from a library."""
 _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
 
@@ -57,7 +57,7 @@ class Request(msgspec.Struct, frozen=True):
     size: int = 0
     """Size of the mesh in bytes; `MeshProcess` fills in this field and the fields below."""
     others: Mapping[str, int] = {}
-    """Sizes of the other files by path."""
+    """Size in bytes of each material library and texture of the mesh, by path."""
     seconds: float = 0.0
     """Limit of the CPU time, in s."""
 

@@ -26,9 +26,9 @@ _FACES = {
 }
 """Patterns for the number of faces that a file announces, by suffix."""
 _MOST_COLORS = 20
-"""The most colours of one mesh, since each colour becomes a shape. Triangles of further colours are grey."""
+"""The greatest number of colours of one mesh. Each colour becomes a shape; further colours become grey."""
 _LONGEST, _NAMES = 60, 3
-"""The most characters of a missing file's name in a warning, and the most names."""
+"""The greatest number of characters of a missing file's name in a warning, and the most names."""
 _FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
 """Turns glTF's upward y axis into z, as Drake, Blender and RViz (since 2025: ros2/rviz#1229) do."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)

@@ -7,11 +7,11 @@ from typing import Any
 
 from urdfsync.modelica.literals import html
 from urdfsync.urdf.connectors import free_name, taken_names
-from urdfsync.urdf.kinematics.loops import Assembly, Closure
+from urdfsync.urdf.kinematics.loops import ClosedLoops, Closure
 from urdfsync.urdf.robot import MOTION_KINDS, Loop
 
 
-def loop_reaches(closed: Assembly) -> Mapping[str, Mapping[str, Any]]:
+def loop_reaches(closed: ClosedLoops) -> Mapping[str, Mapping[str, Any]]:
     """Return for each driven joint in a loop the distance that Test moves it: a parameter of the start record."""
     if not closed.reach:
         return {}

@@ -15,30 +15,25 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Import
-from urdfsync.urdf.connectors import Connectors, free_name, taken_names
+from urdfsync.urdf.assembly import Assembly
+from urdfsync.urdf.connectors import free_name, taken_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.joint import joint_record
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
-from urdfsync.urdf.options import USES, Options
+from urdfsync.urdf.options import USES
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Motion, limits_acceleration, reflected_inertia
 
 _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
 
 
-def record_data(
-    name: str,
-    tree: KinematicTree,
-    names: Connectors,
-    imports: Mapping[str, Import],
-    package: str,
-    options: Options,
-) -> dict[str, Any]:
-    """Return the data of the record of a whole robot; `name` is the robot's name in the URDF.
+def record_data(assembly: Assembly, imports: Mapping[str, Import]) -> dict[str, Any]:
+    """Return the data of the record of a whole robot.
 
     A record outside of a package states the used libraries.
     """
+    tree, options, package = assembly.tree, assembly.options, assembly.target.package
     is_generic, taken = not obstacles(tree.joints), taken_names(tree)
-    links, joints, drawn = [], [], []
+    links, joints, drawn, drives = [], [], [], assembly.connectors.drives
     for number, link in enumerate(tree.links, 1):
         identifier, (visuals, _) = tree.link(link.name), link_shapes(link, imports, package, options)
         shapes = [
@@ -71,7 +66,7 @@ def record_data(
         ]
 
     axes = [  # drivable joints, turning joints first; the record has a constant with the number of each flange
-        {"constant": names.drives[joint.name].axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}
+        {"constant": drives[joint.name].axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}
         for motion in MOTIONS
         for number, joint in enumerate(tree.axes(motion), 1)
     ]
@@ -92,7 +87,7 @@ def record_data(
     return {
         "is_generic": is_generic,
         "uses": () if package else USES,
-        "name": name,
+        "name": assembly.robot.name,
         "standing_height": standing_height(tree, imports) if options.base == "floating" else None,
         "structure": structure,
         "links": links,

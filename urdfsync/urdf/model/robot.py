@@ -6,21 +6,20 @@ The data depend only on the robot's structure, not on numbers of the URDF.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from typing import Any
 
 import msgspec
 
+from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.diagram.layout import find_rows, layout
 from urdfsync.urdf.drives import is_chosen
-from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.joint import joint_title
 from urdfsync.urdf.model.loop import loop_reaches, loop_title
 from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS
 
 _ROW = 20  # Height of a row of connectors on the icon: an axis, and the support 10 below.
@@ -59,13 +58,18 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
             gears[name].append(gear | {"factor": "reduction"})
             gears[drive.other].append(gear | {"factor": "otherReduction"})
     with_motor = {name for name, drive in names.drives.items() if drive.motor and not drive.gear}
-    diagram, top, rows = layout(tree, names), _icon_top(names), _frame_rows(names)
+    diagram, axes = layout(tree, names), _heights(drive.axis for drive in names.drives.values())
+    frames = _heights((*names.frames.values(), *names.sensor_frames.values()))
+    heights = [*axes.values(), *frames.values()]
     return {
         "frames": [
-            {"connector": connector, "link": tree.link(name).component, "name": name, "y": _y(rows[connector])}
+            {"connector": connector, "link": tree.link(name).component, "name": name, "y": frames[connector]}
             for name, connector in names.frames.items()
         ],
-        "drives": _drives(tree, names),
+        "drives": [
+            {"joint": tree.joint(name).component, "name": name, "y": axes[drive.axis], **msgspec.structs.asdict(drive)}
+            for name, drive in names.drives.items()
+        ],
         "links": [
             {"component": tree.link(link.name).component, "type": tree.link(link.name).type, "name": link.name}
             for link in tree.links
@@ -98,10 +102,10 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
         "starts": bool(tree.starts()),
         "sensors": sensor_models(tree, names),
         "sensor_frames": [
-            {"connector": connector, "name": name, "y": _y(rows[connector])}
+            {"connector": connector, "name": name, "y": frames[connector]}
             for name, connector in names.sensor_frames.items()
         ],
-        "top": top,
+        "top": max(heights) + 10 if heights else _PICTURE,
         "extent": _extent(diagram.extent),
         "diagram": {name: _extent(box) for name, box in diagram.placements.items()},
         "lines": [
@@ -111,15 +115,14 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     }
 
 
-def bench_data(closed: Assembly, names: Connectors, options: Options) -> dict[str, Any]:
-    """Return the data of Run and Test.
+def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the data of Run and Test; `robot` is that of the robot model.
 
     The diagram of a bench enlarges the robot's icon by one half. So the icon's rows are 30 apart, and a drive of height
     20 fits beside each row.
     """
-    tree, reaches = closed.tree, loop_reaches(closed)
-    top, rows = _icon_top(names), _drives(tree, names)
-    sensors = sensor_outputs(tree, names)
+    tree, names, options, closed = assembly.tree, assembly.connectors, assembly.options, assembly.closed
+    reaches, sensors, top, rows = loop_reaches(closed), sensor_outputs(tree, names), robot["top"], robot["drives"]
     saturated = {joint.name for joint in tree.joints if is_chosen(joint, options.saturated)}
     drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
@@ -148,41 +151,13 @@ def bench_data(closed: Assembly, names: Connectors, options: Options) -> dict[st
     }
 
 
-def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
-    """Return the joints that can be driven; `y` is the height of the axis on the icon."""
-    rows = _drive_rows(names)
-    return [
-        {"joint": tree.joint(name).component, "name": name, "y": _y(rows[drive.axis]), **msgspec.structs.asdict(drive)}
-        for name, drive in names.drives.items()
-    ]
+def _heights(connectors: Iterable[str]) -> Mapping[str, int]:
+    """Return the heights of the connectors at one side of the icon, above the picture.
 
-
-@lru_cache(maxsize=8)
-def _rows(connectors: tuple[str, ...]) -> Mapping[str, int]:
-    """Return the rows of the connectors at one side of the icon.
-
-    A new connector displaces few connectors. The rows are cached, since each file of the whole robot needs them.
+    A new connector displaces few connectors.
     """
-    return find_rows(dict.fromkeys(connectors, (0, range(1))), set())
-
-
-def _drive_rows(names: Connectors) -> Mapping[str, int]:
-    return _rows(tuple(drive.axis for drive in names.drives.values()))
-
-
-def _frame_rows(names: Connectors) -> Mapping[str, int]:
-    return _rows((*names.frames.values(), *names.sensor_frames.values()))
-
-
-def _y(row: int) -> int:
-    """Return the height of a connector on the icon: rows begin above the picture."""
-    return _PICTURE + _ROW * (row + 1)
-
-
-def _icon_top(names: Connectors) -> int:
-    """Return the upper end of the icon: above the picture, each connector of a side has a row."""
-    rows = [*_drive_rows(names).values(), *_frame_rows(names).values()]
-    return _y(max(rows)) + 10 if rows else _PICTURE
+    rows = find_rows(dict.fromkeys(connectors, (0, range(1))), set())
+    return {connector: _PICTURE + _ROW * (row + 1) for connector, row in rows.items()}
 
 
 def _extent(box: tuple[int, int, int, int]) -> str:

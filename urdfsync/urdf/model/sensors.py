@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import msgspec
-
 from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import SENSOR_KINDS
@@ -30,12 +28,6 @@ def sensor_models(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]
         }
         for sensor in tree.sensors
     ]
-
-
-def sensor_records(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
-    """Return the numbers of each sensor."""
-    models = sensor_models(tree, names)
-    return [msgspec.structs.asdict(sensor) | model for sensor, model in zip(tree.sensors, models, strict=True)]
 
 
 def sensor_outputs(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:

@@ -31,11 +31,11 @@ _TYPES = {
 }
 _MARK = b"closed_loop"
 _LARGEST = 100_000
-"""The most bytes of a YAML: PyYAML reads so many in up to 2 s and 60 MB. Even 10,000 loops need fewer bytes."""
+"""The size limit of a YAML, in bytes: PyYAML needs up to 2 s and 60 MB. Even 10,000 loops need fewer bytes."""
 _DEEPEST = 50
 """Deepest nesting of lists in a YAML: PyYAML needs three levels of recursion for each."""
 _MOST = 10_000_000
-"""The most characters of all elements: aliases of YAML may repeat a long name 10,000 times."""
+"""The greatest number of characters of all elements: aliases of YAML may repeat a long name 10,000 times."""
 _DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 _DRAKE = {"ball": "", "planar": "", "universal": "xy"}
 """Types of `<drake:joint>` with the axes of their chains, by Drake's parser of URDF and its class UniversalJoint."""

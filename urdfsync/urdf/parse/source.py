@@ -34,7 +34,7 @@ _DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujo
 _XACRO = ("include", "macro", "if", "unless", "property")
 """Elements of xacro that need the prefix `xacro:` since ROS Noetic."""
 _LONGEST, _KINDS = 60, 12
-"""The most characters of a tag, and the most tags, in the note on unmodelled elements."""
+"""The greatest number of characters of a tag, and the most tags, in the note on unmodelled elements."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 # Attributes with free text: a remaining `${…}` in one is a warning, in any other an error.
 _TEXTS = ("name", "link", "joint", "filename", "group")

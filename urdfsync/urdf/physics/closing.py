@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfsync.urdf.kinematics.loops import Assembly
+from urdfsync.urdf.kinematics.loops import ClosedLoops
 
 Array = NDArray[np.float64]
 
@@ -44,16 +44,16 @@ class Reaction(NamedTuple):
 class Closing:
     """The loops of a robot, and the joints that loops move."""
 
-    def __init__(self, pin: Any, model: Any, assembly: Assembly, others: Array, start: Array, first: Array) -> None:
+    def __init__(self, pin: Any, model: Any, closed: ClosedLoops, others: Array, start: Array, first: Array) -> None:
         """Add frames to the model.
 
         The positions of all coordinates are a sum of two terms. The first term follows from the axes and is `start` at
         the start. The second term is `others` times the positions of the other joints, which are `first` at the start.
         """
         self._pin, self._model, self._others, self._start, self._first = pin, model, others, start, first
-        self._closures = [assembly.closures[loop.name] for loop in assembly.tree.loops]
+        self._closures = [closed.closures[loop.name] for loop in closed.tree.loops]
         self._frames = list[tuple[int, int]]()
-        for loop in assembly.tree.loops:
+        for loop in closed.tree.loops:
             ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
             parent, child = (self._add_frame(link, origin.xyz, origin.rpy) for link, origin in ends)
             self._frames.append((parent, child))

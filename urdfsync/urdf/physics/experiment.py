@@ -9,7 +9,7 @@ import numpy as np
 
 from urdfsync.checks.experiment import Compared, Experiment, Part, Quantity, Sample, Trial
 from urdfsync.diagnostics import SourceError
-from urdfsync.urdf.drives import assembly, friction_law, is_chosen, sharing_joint
+from urdfsync.urdf.drives import friction_law, is_chosen, sharing_joint
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import obstacles
 from urdfsync.urdf.options import Options
@@ -27,14 +27,14 @@ from urdfsync.urdf.second.reading import read_again
 _ITERATED = 1e-7
 """The least tolerance for robots with loops: compilers close loops by iteration."""
 _MOST_AXES = 20
-"""The most axes in the free motion of a package's robot: for 30 axes, rumoca takes 6 GB."""
+"""The greatest number of axes in the free motion of a package's robot: for 30 axes, rumoca takes 6 GB."""
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     """Return the comparison, see `urdfsync.checks.experiment.Checks`.
 
-    Moving links without a mass get inertias. Raises SourceError for an error in the source, without Pinocchio, or if
-    Pinocchio can't read the source.
+    Moving links without a mass get inertias. Raises SourceError if the source has an error, or if
+    Pinocchio is missing or can't read the source.
     """
     file, options = sample.file, sample.options
     reading = read_robot(sample.content, file, options)
@@ -47,19 +47,20 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes its motion"
     completed, notes = completion.completed_for_pinocchio(sample.content, {joint.name for joint in robot.joints})
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
-    tree = KinematicTree.of(_robot(read_robot(completed, file, options)), (sample.target.name,))
+    robot = _robot(read_robot(completed, file, options))
     trials = list[Trial]()
-    # the records of other robots have a warning
-    has_record = not (
-        tree.loops or obstacles(tree.joints) or any(sharing_joint(joint, "joint") for joint in tree.joints)
-    )
     # Pinocchio has smooth friction and rigid drives; rumoca can't start if two joints with stiction slide
     simplified = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # infinite numbers in the source
         try:
-            subject = Subject(msgspec.structs.replace(sample, content=completed, options=simplified), tree)
+            subject = Subject(msgspec.structs.replace(sample, content=completed, options=simplified), robot)
         except OpenLoopError:
             return "Pinocchio can't close the loops of the robot at or near the start"
+        tree = subject.tree
+        # the records of other robots have a warning
+        has_record = not (
+            tree.loops or obstacles(tree.joints) or any(sharing_joint(joint, "joint") for joint in tree.joints)
+        )
         for approach in options.approach:
             if approach == "package" or has_record:
                 trials += _trials(subject, approach, step)
@@ -69,10 +70,8 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         options=simplified,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        laws=laws_trial(read_again(sample.content, options), subject.assembly.driven, tree, sample.target, options)
-        if has_package
-        else None,
-        unchecked=(*_simplified(tree, options), *_not_compared(subject), *subject.unchecked),
+        laws=laws_trial(subject, read_again(sample.content, options), options) if has_package else None,
+        unchecked=(*_simplified(subject, options), *_not_compared(subject), *subject.unchecked),
     )
 
 
@@ -127,7 +126,11 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     rows = reference.coordinates()
     for k, joint in enumerate(subject.axes, 1):
         unit, row = "m/s²" if MOTION_KINDS.get(joint.type) == "translational" else "rad/s²", rows[joint.name]
-        read = tuple(f"gain{k}[{i}]" for i in (1, 2, 3)) if joint.type == "ball" else (names.accelerations[joint.name],)
+        read = (
+            tuple(f"gain{k}[{i}]" for i in (1, 2, 3))
+            if joint.type == "ball"
+            else (names.accelerations.get(joint.name, f"gain{k}"),)
+        )
         what = Quantity.ACCELERATION, f"joint {joint.name}", unit, read, time, Part.FREE_MOTION
         pairs.append((Compared(*what, least_tolerance=doubt), [gains[row : row + len(read)].tolist()]))
     if is_free:
@@ -147,12 +150,12 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     yield Trial(name, free, *table)
 
 
-def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
+def _simplified(subject: Subject, options: Options) -> Iterator[str]:
     """Yield, in words, the laws of joints that the compared package replaces by simpler laws."""
-    driven = assembly(tree, options).driven
-    drives = [joint for joint in tree.joints if joint.name in driven]
+    every, driven = subject.tree.joints, subject.closed.driven
+    drives = [joint for joint in every if joint.name in driven]
     joints = {
-        **{law: [j.name for j in tree.joints if friction_law(j, options) == law] for law in ("stiction", "lugre")},
+        **{law: [j.name for j in every if friction_law(j, options) == law] for law in ("stiction", "lugre")},
         "elastic": [joint.name for joint in drives if is_chosen(joint, options.elastic)],
         "saturated": [j.name for j in drives if is_chosen(j, options.saturated) and j.command != "effort"],
     }

@@ -9,13 +9,12 @@ time. The second reading says which joint has which law.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 
 from urdfsync.checks.experiment import Compared, Part, Probe, Quantity, Trial
-from urdfsync.domain import Target
-from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import probe
+from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.second.reading import MOVES, TURNS, Element, Reading
 
 _STEP, _STOP = 0.02, 1.0  # s
@@ -33,10 +32,12 @@ _BREAKAWAY = 1.5
 _RUN = "saturated drive in Run"
 
 
-def laws_trial(
-    reading: Reading, driven: Collection[str], tree: KinematicTree, target: Target, options: Options
-) -> Trial | None:
-    """Return the simulation of one joint with each combination of laws; None if Pinocchio has all laws."""
+def laws_trial(subject: Subject, reading: Reading, options: Options) -> Trial | None:
+    """Return the simulation of one joint with each combination of laws; None if Pinocchio has all laws.
+
+    `reading` and `options` have the laws of the source; the subject has simpler laws.
+    """
+    tree, target, driven = subject.tree, subject.target, subject.closed.driven
     chosen = dict[tuple[object, ...], tuple[Element, str]]()
     for joint in (joint for joint in reading.joints.values() if joint.type in MOVES):
         parts = frozenset(path.partition(".")[0] for path in joint.values)

@@ -1,4 +1,4 @@
-"""The motion of a robot in the comparison.
+"""The motion in which `check` compares a package with Pinocchio.
 
 The motion depends only on names and limits, so it is equal on all machines. One simulation goes through all instants,
 since compiling is expensive. At each instant, base and axes have given positions, speeds and accelerations. Between

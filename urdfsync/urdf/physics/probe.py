@@ -14,7 +14,6 @@ import msgspec
 from urdfsync.checks.experiment import Probe
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
-from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.model.loop import loop_reaches
 from urdfsync.urdf.options import Options
@@ -46,9 +45,9 @@ class RobotVariables(msgspec.Struct, frozen=True):
     flanges: Mapping[str, str]
     """Axis connector of each joint that can be driven."""
     accelerations: Mapping[str, str]
-    """Acceleration of each joint that can be driven.
+    """Acceleration of each joint that can be driven, except joints whose edited models have another inside.
 
-    With derivatives of `flanges`, six joints would take a compiler 3 s more.
+    Six derivatives of `flanges` take a compiler 3 s.
     """
     places: Mapping[str, tuple[str, ...]]
     """Place of each link's frame."""
@@ -64,18 +63,20 @@ class RobotVariables(msgspec.Struct, frozen=True):
 
 def robot_variables(subject: Subject, approach: str) -> RobotVariables:
     """Return the names for an approach. The record has the names of the generic robot, which numbers its links."""
-    tree, target, options = subject.tree, subject.target, subject.options
+    tree, target, names = subject.tree, subject.target, subject.connectors
     moments, three = list[str](), (1, 2, 3)
     places, axes, is_package = dict[str, tuple[str, ...]](), dict[str, tuple[str, ...]](), approach == "package"
-    names = connector_names(tree, options)
     sensors = {name: f"robot.{component}" for name, component in names.sensors.items() if is_package}
     joints = {joint.name: f"robot.{tree.joint(joint.name).component}" for joint in tree.joints if is_package}
     if is_package:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
         flanges = {name: f"robot.{drive.axis}" for name, drive in names.drives.items()}
-        mover = {"rotational": "revolute", "translational": "prismatic"}
-        moving = (joint for joint in tree.joints if joint.type in MOTION_KINDS)
-        accelerations = {joint.name: f"{joints[joint.name]}.{mover[MOTION_KINDS[joint.type]]}.a" for joint in moving}
+        movers = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
+        accelerations = dict[str, str]()
+        for joint in tree.joints:
+            inside, file = movers.get(joint.type), f"Joints/{tree.joint(joint.name).type}.mo"
+            if inside and (file not in subject.texts or f" {inside}(".encode() in subject.texts[file]):
+                accelerations[joint.name] = f"{joints[joint.name]}.{inside}.a"
     else:
         record = f"{target.package}.{target.name}Parameters"
         declaration = f"UrdfSync.Robots.GenericRobot robot(redeclare parameter {record} data, checkLimits = false, "
@@ -135,12 +136,11 @@ def moving_probe(
         limits = list(_range(subject, joint, names.joints))
         declarations.append(f"Real range{k}[{len(limits)}] = {{{', '.join(limits)}}}")
     if names.is_package:
-        flanges = connector_names(subject.tree, options).drives
         for k, (name, torque) in enumerate(subject.motor_torques.items(), 1):
             declarations.append(
                 f"Modelica.Mechanics.Rotational.Sources.ConstantTorque motor{k}(tau_constant = {torque!r})"
             )
-            connections.append(f"motor{k}.flange, robot.{flanges[name].motor}")
+            connections.append(f"motor{k}.flange, robot.{subject.connectors.drives[name].motor}")
     else:
         declarations += _sweeps_of_record(subject)
     for k, loop in enumerate(subject.tree.loops, 1):
@@ -190,7 +190,7 @@ def _range(subject: Subject, joint: Joint, components: Mapping[str, str]) -> Ite
     own = components.get(joint.name)
     for name in (f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max"):
         yield f"{own}.{name}" if own else f"robot.{name}[{_number(subject, joint)}]"
-    if own and (reach := loop_reaches(subject.assembly).get(joint.name)):
+    if own and (reach := loop_reaches(subject.closed).get(joint.name)):
         yield f"robot.startPositions.{reach['parameter']}"
 
 
@@ -280,6 +280,11 @@ def free_probe(
             continue
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
         connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
+        if joint.name not in names.accelerations:
+            declarations += [
+                f"Real speed{k} = der(push{k}.flange.{'phi' if MOTION_KINDS[joint.type] == 'rotational' else 's'})",
+                f"Real gain{k} = der(speed{k})",
+            ]
     declarations.append("Real gravity[3] = world.g*world.n")
     if options.base == "floating":
         declarations.append("Real weight = ground.load")

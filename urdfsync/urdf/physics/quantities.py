@@ -10,7 +10,6 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.checks.experiment import Compared, Part, Quantity
-from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.closing import OpenLoopError
@@ -91,7 +90,7 @@ def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[
 def motors(subject: Subject) -> Iterator[Pair]:
     """Yield the positions of the motors behind gears."""
     rows, positions = subject.reference.coordinates(), [subject.states[time].positions for time in COMPARED]
-    for name, drive in connector_names(subject.tree, subject.options).drives.items():
+    for name, drive in subject.connectors.drives.items():
         if drive.motor:
             gear = subject.second.joints[name]
             reduction, offset = (gear.number(f"transmission.{field}") for field in ("reduction", "offset"))
@@ -109,7 +108,7 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
         reactions = [instant.reactions[k] for instant in solved]
         times = tuple(map(float, Instant))
         yield Compared(Quantity.CLOSURE, element, "m", values, times, Part.LOOPS), [each.gap for each in reactions]
-        if subject.assembly.closures[loop.name].weaker:
+        if subject.closed.closures[loop.name].weaker:
             subject.unchecked[f"the force in loop {loop.name}, which depends on the omitted equations"] = None
             continue
         for unit, variable in (("N", "f"), ("N·m", "t")):
@@ -121,7 +120,7 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield start, range and greatest speed of the axes, and the motion of axes in the generic robot's bench."""
     for k, (joint, way) in enumerate(subject.sweeps(), 1):
-        given = way.numbers if names.is_package and joint.name in subject.assembly.reach else way.numbers[:4]
+        given = way.numbers if names.is_package and joint.name in subject.closed.reach else way.numbers[:4]
         numbers = {f"range{k}[{i}]": number for i, number in enumerate(given, 1) if abs(number) < motion.ENDLESS}
         what = f"joint {joint.name}{'' if names.is_package else ' of the generic robot'}"
         range_ = Compared(Quantity.SWEEP, what, _unit(joint), tuple(numbers), (0.0,), Part.BENCHES, "range")

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.extras import install_command
-from urdfsync.urdf.kinematics.loops import Assembly
+from urdfsync.urdf.kinematics.loops import ClosedLoops
 from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import motion
@@ -147,7 +147,7 @@ class Configuration(msgspec.Struct, frozen=True):
 class Reference:
     """A robot in Pinocchio."""
 
-    def __init__(self, robot: PinocchioRobot, axes: Sequence[str], assembly: Assembly | None = None) -> None:
+    def __init__(self, robot: PinocchioRobot, axes: Sequence[str], closed: ClosedLoops | None = None) -> None:
         self.pin, self.model = pinocchio(), robot.model
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
@@ -157,13 +157,13 @@ class Reference:
         self._balls, self._scalars = [joint.idx_v + k for joint in balls for k in range(3)], len(axes) - len(balls)
         self.projection, self._offset = self._mimic(robot, self.axes)
         self.closing: Closing | None = None
-        if assembly and assembly.closures:
-            starts = start_positions(assembly.tree)
-            others = [name for name in assembly.joints if name not in (*self.axes, *robot.followers)]
+        if closed and closed.closures:
+            starts = start_positions(closed.tree)
+            others = [name for name in closed.joints if name not in (*self.axes, *robot.followers)]
             followers, _ = self._mimic(robot, others)
             start = self.projection @ [starts[name] for name in self.axes] + self._offset
             first = np.array([starts[name] for name in others])
-            self.closing = Closing(self.pin, self.model, assembly, followers, start, first)
+            self.closing = Closing(self.pin, self.model, closed, followers, start, first)
         self.steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
         """In s/rad or s/m: steepness of dry friction for each coordinate of Pinocchio's velocity, as in the records."""
         for joint in self.model.joints:

@@ -14,16 +14,14 @@ from numpy.polynomial import Polynomial
 
 from urdfsync.checks.experiment import Sample
 from urdfsync.domain import Import
-from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.drives import assembly, sharing_joint
+from urdfsync.urdf.assembly import Assembly
+from urdfsync.urdf.drives import sharing_joint
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import contacts, motion
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
 from urdfsync.urdf.physics.reference import Configuration, Reference, Solution, read
-from urdfsync.urdf.robot import MOTION_KINDS, Joint
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Robot
 from urdfsync.urdf.second.reading import Reading, read_again
 
 _MARGIN = 0.9
@@ -45,22 +43,22 @@ class Sweep(NamedTuple):
 class Subject:
     """A robot at all instants of the comparison."""
 
-    def __init__(self, sample: Sample, tree: KinematicTree) -> None:
-        options: Options = sample.options
-        self.assembly = closed = assembly(tree, options)
-        self.tree, self.target, self.options = closed.tree, sample.target, options
-        self.content = sample.content
-        driven = (joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
+    def __init__(self, sample: Sample, robot: Robot) -> None:
+        assembly = Assembly(robot, sample.options, sample.target)
+        self.tree, self.closed, self.connectors = assembly.tree, assembly.closed, assembly.connectors
+        self.target, self.options = sample.target, assembly.options
+        self.content, self.texts, tree = sample.content, sample.texts, self.tree
+        driven = (joint for joint in motion.driven_axes(tree) if joint.name not in self.closed.dependent)
         self.balls = tuple(joint for joint in tree.joints if joint.type == "ball")
         self.axes = (*driven, *self.balls)
         sensed = {sensor.at for sensor in tree.sensors if sensor.is_in_joint}
         names = [joint.name for joint in self.axes]
-        self.reference = Reference(read(sample.content, sample.file, sensed), names, closed)
+        self.reference = Reference(read(sample.content, sample.file, sensed), names, self.closed)
         self.base = motion.base_courses()
         self.stand: contacts.Stand | None = None
         self.unchecked = dict[str, None]()
         """The parts of this robot that are not compared."""
-        self.starts = start_positions(closed.tree)
+        self.starts = start_positions(tree)
         self.share = self._closable_share()
         """Amplitude of joints in loops, as a fraction of the usual amplitude."""
         limits = [joint.limit.effort if joint.limit and joint.limit.effort else math.inf for joint in self.axes]
@@ -74,7 +72,7 @@ class Subject:
             gains = self.reference.effort_gains(state, np.array(more), outside)
             strains[instant] = {self.axes[n].name: float(gain) for n, gain in zip(outside, gains, strict=True)}
         self.courses = self._courses(self.share, strains)
-        if options.base == "floating" and "package" in options.approach:
+        if self.options.base == "floating" and "package" in self.options.approach:
             self._put_down(sample.imports)
         self.states = {float(instant): self._state(instant, self.courses) for instant in Instant}
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
@@ -101,7 +99,7 @@ class Subject:
         drive.
         """
         torques, axes = dict[str, float](), {joint.name for joint in self.axes}
-        for name, drive in connector_names(self.tree, self.options).drives.items():
+        for name, drive in self.connectors.drives.items():
             # a motor at a dependent joint of a loop would also push the axes
             if drive.motor and {name, drive.other or name} <= axes:
                 joint = self.second.joints[name]
@@ -131,7 +129,7 @@ class Subject:
         for joint in self.axes:
             if joint.type in MOTION_KINDS:
                 start, (lower, upper) = self.starts[joint.name], ranges[joint.name]
-                reach = self.assembly.reach.get(joint.name, _REACH[MOTION_KINDS[joint.type]])
+                reach = self.closed.reach.get(joint.name, _REACH[MOTION_KINDS[joint.type]])
                 # the axis moves along a cosine: its greatest speed is pi/period times the distance
                 most = min(reach, _MARGIN * speed(joint) * motion.PERIOD / math.pi)
                 above, below = (min(most, _MARGIN * room) for room in (upper - start, start - lower))
@@ -140,14 +138,14 @@ class Subject:
 
     def is_in_loop(self, joint: Joint) -> bool:
         """Return whether loops restrict the motion of a joint."""
-        return joint.name in self.assembly.joints
+        return joint.name in self.closed.joints
 
     def _closable_share(self) -> float:
         """Return the greatest share of the amplitudes that keeps all loops closed around each instant.
 
         Raises OpenLoopError if no share does.
         """
-        if not self.assembly.joints:
+        if not self.closed.joints:
             return 1.0
         for share in _SHARES:
             with contextlib.suppress(OpenLoopError):

@@ -368,13 +368,14 @@ class _Comparison:
     def _complete(self, file: str, texts: Mapping[str, Value], every: Texts) -> None:
         """Compare the texts of a class with the expected texts of each element. Unexpected texts are differences."""
         known = {path for _, expected in every.values() for path in expected}
+        owner = next(iter(every)) if len(every) == 1 else "robot"
         for element, (line, expected) in every.items():
             given = [texts.get(path, Value(path, "", "nothing", 0)) for path in expected]
             self._compare(file, element, given, {path: Stated(_read(text), line) for path, text in expected.items()})
         for path, value in texts.items():
             is_other_end = value.text in texts and texts[value.text].text == path
             if path not in known and not (is_other_end and (value.text in known or value.text < path)):
-                self._compare(file, "robot", [value], {path: Stated("nothing", 0)})
+                self._compare(file, owner, [value], {path: Stated("nothing", 0)})
 
 
 def _read(text: str) -> Any:

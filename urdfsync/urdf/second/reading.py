@@ -455,7 +455,10 @@ def _transmission(element: Any) -> Iterator[dict[str, Any]]:
 
 
 def _sensors(root: Any, reading: Reading) -> Iterator[Element]:
-    """Yield the sensors of existing links and joints. Of sensors with one name and place, only the first counts."""
+    """Yield the sensors of existing links and joints.
+
+    If several sensors have the same name on the same link or joint, only the first counts.
+    """
     above, placed = {joint.child: name for name, joint in reading.joints.items()}, dict[tuple[str, str], Any]()
     for element, name, kind, place in _find_sensors(root):
         is_wrench = kind == "force_torque"
