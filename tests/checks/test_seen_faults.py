@@ -166,6 +166,9 @@ FLOATING: Mapping[str, Fault] = {
     "height of a mobile bench": Fault(F, "Robots/PartialMobileBench.mo", "{0, 0, stance.height}", "{0, 0, 0}"),
     "weight on the ground of a bench": Fault(R, "Robots/PartialMobileBench.mo", "ground(load = load)", "ground"),
     "corners of a box": Fault(G, "Contacts/Functions/box.mo", "0.5*y*size[2]", "0.5*y*size[1]"),
+    "sliding that begins at three times the speed": Fault(
+        G, "Contacts/PartialContact.mo", "else ground.slipSpeed\n", "else 3*ground.slipSpeed\n"
+    ),
     "sign of the ground's friction": Fault(G, POINT, "f_n*(n - friction", "f_n*(n + friction"),
     "ground that pulls": Fault(
         G, POINT, "max(0, stiffness*p*max(0, 1 - damping*v_n) - viscosity*v_n)", "stiffness*p*(1 - damping*v_n)"

@@ -22,8 +22,8 @@ def compare(
     return of_package(package, source if isinstance(source, bytes) else source.read_bytes(), change(package.texts))
 
 
-def of_package(package: Package, content: bytes, texts: Mapping[str, str]) -> Numbers:
-    sample = Sample(content, "a.urdf", package.target, package.options, package.facts)
+def of_package(package: Package, content: bytes, texts: Mapping[str, str], parts: tuple[bytes, ...] = ()) -> Numbers:
+    sample = Sample(content, "a.urdf", package.target, package.options, package.facts, parts=parts)
     (numbers,) = compare_numbers(sample, [{path: text.encode() for path, text in texts.items()}])
     return numbers
 

@@ -230,6 +230,8 @@ class Sample(msgspec.Struct, frozen=True):
     imports: Mapping[str, Import]
     texts: Mapping[str, bytes] = {}
     """The package on disk, by paths. Its edits may have other variables."""
+    parts: tuple[bytes, ...] = ()
+    """The text of the source before others were joined with it, and these; empty if there are none."""
 
 
 class Checks(Protocol):

@@ -153,9 +153,9 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
 
 
 def _sample(package: RobotPackage) -> Sample:
-    robot, generation = package.robot, package.generation
-    content, imports = package.inputs.source.content, generation.now.imports or {}
-    return Sample(content, shown(robot.source), robot.target, robot.options, imports, package.on_disk)
+    robot, source, imports = package.robot, package.inputs.source, package.generation.now.imports or {}
+    place = shown(robot.source)
+    return Sample(source.content, place, robot.target, robot.options, imports, package.on_disk, source.parts)
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:

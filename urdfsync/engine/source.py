@@ -74,6 +74,8 @@ class Source(msgspec.Struct, frozen=True):
     """Changed inputs of the source, if this build could not expand it again."""
     is_made_here: bool = False
     """Whether this machine has expanded the source, now or before."""
+    parts: tuple[bytes, ...] = ()
+    """The text and the files that were joined with it; empty if there is no such file."""
 
     @property
     def is_missing(self) -> bool:
@@ -241,7 +243,7 @@ def with_named_file(
         message = f"robot `{robot.name}`: the {named.OPTION} {label(path)} can't be read: {reason}"
         hint = "name a revision that has the file" if revision else f"put the file there, or correct `{named.OPTION}`"
         raise SourceError.of("no-source", message, label(config.file), robot.lines[named.OPTION], hint=hint) from None
-    return _with_lines(text, *named.join(text.content, content, label(path), robot.options), path)
+    return _with_lines(text, *named.join(text.content, content, label(path), robot.options), content, path)
 
 
 def file_beside(domain: Domain, source: Path, options: Any = None) -> Path | None:
@@ -262,16 +264,22 @@ def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path |
     """Return a source joined with `other`, the content of the file beside it at `path`. Raises SourceError."""
     beside: Beside | None = domain.beside
     text, lines = beside.join(content, other, shown(path)) if beside and path and other else (content, ())
-    return _with_lines(Source(content, name), text, lines, path)
+    return _with_lines(Source(content, name), text, lines, other, path)
 
 
-def _with_lines(source: Source, text: bytes, lines: Sequence[tuple[int, int]], path: Path | None) -> Source:
-    """Return a source with another text. `lines` pairs lines of the text with their lines in the file at `path`."""
+def _with_lines(
+    source: Source, text: bytes, lines: Sequence[tuple[int, int]], other: bytes, path: Path | None
+) -> Source:
+    """Return a source with another text, which has the content `other` of the file at `path`.
+
+    `lines` pairs lines of the text with their lines in that file.
+    """
     if not lines or path is None:
         return source
     own = source.places or [(line, source.name, line) for line in range(1, lines[0][0])]
     places = (*own, *((line, shown(path), other) for line, other in lines))
-    return msgspec.structs.replace(source, content=text, places=places)
+    parts = (*(source.parts or (source.content,)), other)
+    return msgspec.structs.replace(source, content=text, places=places, parts=parts)
 
 
 def read_file_source(

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import pytest
-from support.numbers import differences
+from support.numbers import BOT, differences, of_package
+from support.packages import generate
 from support.urdfs import joint, link, robot
 
 from urdfsync.diagnostics import SourceError
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.beside import join
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.urdf.second.beside import join_again
 
 URDF = robot(
     *(link("base"), link("a", 1.0), link("b", 1.0), link("c", 1.0)),
@@ -49,8 +52,23 @@ def test_loops_motors_and_joints_are_as_the_yaml_says() -> None:
 
 def test_the_second_reader_finds_the_joints_of_the_yaml() -> None:
     for kind in (b"SPHERICAL", b"FIXED", b"UJOINT_YX"):
-        text, _ = join(URDF, YAML.replace(b"SPHERICAL", kind), "a.yaml")
+        yaml = YAML.replace(b"SPHERICAL", kind)
+        text, _ = join(URDF, yaml, "a.yaml")
+        assert join_again((URDF, yaml), Options()) == text
         assert differences(text, allow=()) == []
+
+
+@pytest.mark.parametrize(("old", "new", "element"), [
+    (b"_XY", b"_YX", "joint e_x"),
+    (b"6d", b"3d", "loop tip_A_tip_B"),
+])  # fmt: skip
+def test_a_yaml_that_is_joined_wrongly_is_found(old: bytes, new: bytes, element: str) -> None:
+    yaml = YAML.replace(b"SPHERICAL", b"UJOINT_XY")
+    text, _ = join(URDF, yaml, "a.yaml")
+    package = generate(text, BOT)
+    assert of_package(package, text, package.texts, (URDF, yaml)).differences == ()
+    found = of_package(package, text, package.texts, (URDF, yaml.replace(old, new))).differences
+    assert element in {each.element for each in found}
 
 
 def test_pinocchio_gets_the_joints_of_the_yaml() -> None:

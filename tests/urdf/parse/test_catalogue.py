@@ -19,6 +19,7 @@ from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import reference
 from urdfsync.urdf.physics.completion import completed_for_pinocchio
 from urdfsync.urdf.robot import Dynamics, Joint, Limit, Motor, Transmission
+from urdfsync.urdf.second.beside import join_again
 from urdfsync.urdf.second.reading import read_again
 
 LOSSES = '<dynamics damping="0.5" friction="0.1" armature="0.01"/>'
@@ -78,6 +79,7 @@ def test_numbers_of_a_row_replace_those_of_the_source() -> None:
 def test_the_second_reader_and_pinocchio_have_the_same_numbers() -> None:
     content = joined()
     options = Options(**OPTIONS)
+    assert join_again((URDF.encode(), CSV.encode()), options) == content
     assert differences(content, **OPTIONS) == []
     again = read_again(content, options).joints["elbow"]
     assert again.number("transmission.rotorInertia") == pytest.approx(6e-8)

@@ -215,7 +215,8 @@ def test_a_robot_without_joints_stands_on_the_ground_too() -> None:
     force, torque = (each for each in one.trials[0].compared if each.part is Part.CONTACTS)
     assert one.trials[0].expected[force.values[2]][-1] == pytest.approx(-9.81)
     *_, standing, sliding, _, _ = one.trials[0].expected[torque.values[1]]
-    assert sliding - standing == pytest.approx(0.8 * 9.81 * 0.5 * 0.3 / math.hypot(0.3, 0.2), rel=1e-2)
+    law = 0.8 * 9.81 * 0.5 * 0.003 / math.hypot(0.003, 0.002, 1e-3)
+    assert sliding - standing == pytest.approx(law, rel=1e-2)
 
 
 def test_test_moves_each_axis_within_its_limits_and_those_of_its_followers() -> None:

@@ -18,7 +18,7 @@ from support.cases import sampled
 from support.loops import HINGE, UNIVERSAL, WELD, to_options, to_urdf
 from support.numbers import BOT, compare, differences, of_package
 from support.packages import Package, generate, generate_robot, proposed_base, read
-from support.urdfs import dynamics, joint, limit, link, mimic
+from support.urdfs import dynamics, joint, limit, link, links, mimic
 from support.urdfs import robot as urdf
 
 from urdfsync import config
@@ -26,7 +26,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Box, Joint, Link, Loop, Origin, Robot
 
 UNCOMPARED = {f"{kind}.{path}" for kind in ("visual", "collision") for path in ("lower", "upper", "color", "opacity")}
-UNCOMPARED |= {"collisionCorners", "reach"}
+UNCOMPARED.add("reach")
 """What only the files of meshes have, and how far Test may move the joints of a loop."""
 
 
@@ -70,6 +70,7 @@ BOX = '<geometry><box size="0.1 0.2 0.3"/></geometry>'
 RED = '<material name="red"><color rgba="1 0.5 0.25 0.75"/></material>'
 MESH = '<visual><geometry><mesh filename="cube.stl" scale="0.5 0.7 1"/></geometry></visual>'
 SHAPES = f'<visual>{BOX}{RED}</visual><collision><origin xyz="1 2 3" rpy="0.1 0.2 0.3"/>{BOX}</collision>{MESH}'
+SHAPES += MESH.replace("visual", "collision")
 CONTROL = (
     '<ros2_control name="c"><joint name="slide"><command_interface name="velocity"/><state_interface name="position">'
     '<param name="initial_value">0.2</param></state_interface></joint></ros2_control>'
@@ -104,7 +105,8 @@ def sound(tmp_path_factory: pytest.TempPathFactory) -> Package:
 def test_a_sound_package_agrees(sound: Package) -> None:
     numbers = of_package(sound, URDF.encode(), sound.texts)
     assert numbers.differences == ()
-    assert uncompared(numbers.uncompared) == {f"visual.{path}" for path in ("lower", "upper", "color", "opacity")}
+    ends = {f"{kind}.{end}" for kind in ("visual", "collision") for end in ("lower", "upper")}
+    assert uncompared(numbers.uncompared) == {*ends, "visual.color", "visual.opacity"}
 
 
 def of(kind: str, name: str, /, **parts: Any) -> Callable[[Robot], Robot]:
@@ -241,10 +243,10 @@ def test_what_a_reader_misreads_is_found(fault: str, sound: Package) -> None:
 
 
 def test_a_scale_with_x_and_y_exchanged_is_found(sound: Package) -> None:
-    """Its file in the package is another one."""
+    """Its files in the package are others."""
     facts = {key.replace("0.5 0.7", "0.7 0.5"): file for key, file in sound.facts.items()}
     numbers = of_package(dataclasses.replace(sound, facts=facts), URDF.encode(), sound.texts)
-    assert {each.quantity for each in numbers.differences} == {"visual2.uri"}
+    assert {each.quantity for each in numbers.differences} == {"visual2.uri", "collision2.uri"}
 
 
 TEMPLATES = {
@@ -312,6 +314,10 @@ TEMPLATES = {
     "a Test that stops early": ("BotTest.mo", "StopTime=10", "StopTime=1", "experiment.StopTime"),
     "an expression": ("Joints/SlideParameters.mo", "upper = 0.5", "upper = 2*x", "limits.upper"),
     "two numbers of three": ("Joints/SlideParameters.mo", "rpy = {0.5, -0.6, 0.7}", "rpy = {0.5}", "origin.rpy"),
+    "corners of a mesh that are elsewhere": (
+        "Links/ArmParameters.mo", "    {0.25, ", "    {0.5, ", "collision2Corners"),
+    "corners of a mesh that are an expression": (
+        "Links/ArmParameters.mo", "collision2Corners[8, 3] = ", "collision2Corners[8, 3] = 2*", "collision2Corners"),
     "a height that is not that of the lowest shape": ("BotStance.mo", "height = ", "height = 1", "height"),
     "a height of several numbers": ("BotStance.mo", "height = ", "height = {1, 2} + ", "height"),
 }  # fmt: skip
@@ -333,21 +339,25 @@ def test_what_a_template_writes_wrongly_is_found(fault: str, sound: Package) -> 
     ("Sphere", "enableAnimation and animation", "enableAnimation and not animation", "condition of shape"),
     ("Capsule", "+ 0.5*parameters.length", "- 0.5*parameters.length", "upperEnd.r_shape"),
     ("Mesh", "widthDirection = R[:, 2]", "widthDirection = R[:, 3]", "shape.widthDirection"),
+    ("normalTo", "e - (e*n)/(n*n)*n", "e - (e*n)*n", "p"),
 ])  # fmt: skip
-def test_a_shape_that_the_library_draws_otherwise_is_found(
+def test_a_library_that_draws_or_moves_otherwise_is_found(
     kind: str, old: str, new: str, quantity: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
+    folder = "Functions" if kind == "normalTo" else "Visualizers"
     numbers = {"Box": 'size="1 2 3"', "Mesh": 'filename="cube.stl"'}.get(kind, 'length="2" radius="0.2"')
     shape = f"<visual><geometry><{kind.lower()} {numbers}/></geometry></visual></link>"
-    source = urdf(link("base", 3.0).replace("</link>", shape)).encode()
+    source = urdf(
+        link("base", 3.0).replace("</link>", shape), link("cart", 1.0), joint("glide", "planar", "base", "cart")
+    ).encode()
     shutil.copytree(corpus.REPOSITORY / "modelica", tmp_path / "modelica")
-    file = tmp_path / "modelica" / "UrdfSync" / "Visualizers" / f"{kind}.mo"
+    file = tmp_path / "modelica" / "UrdfSync" / folder / f"{kind}.mo"
     monkeypatch.setattr("urdfsync.urdf.second.classes.library_folder", lambda: tmp_path / "modelica")
     assert compare(source).differences == ()
     assert old in file.read_text()
     file.write_text(file.read_text().replace(old, new))
     found = {(each.file, each.element, each.quantity) for each in compare(source).differences}
-    assert found == {(str(file), f"UrdfSync.Visualizers.{kind}", quantity)}
+    assert found == {(str(file), f"UrdfSync.{folder}.{kind}", quantity)}
 
 
 # Loops, and options
@@ -465,14 +475,14 @@ def test_a_package_whose_record_was_deleted_is_compared() -> None:
         return {path: text for path, text in texts.items() if path != "BotParameters.mo"}
 
     found = compare(URDF.encode(), change, inputs="vector").differences
-    assert {each.file for each in found} == {"BotRun.mo", "BotGeneric.mo"}
+    assert {each.file for each in found} == {"BotGeneric.mo"}
 
 
 OPTIONS: dict[str, dict[str, Any]] = {
     "commands": {"commands": {"shoulder": "effort", "slide": "position"}},
     "start": {"start": {"shoulder": 0.5}},
     "driven": {"driven": ("slide",)},
-    "a vector of inputs": {"inputs": "vector"},
+    "a vector of inputs": {"inputs": "vector", "approach": ("package",)},
     "drives that keep their limits": {"saturated": "all", "commands": {"shoulder": "effort"}},
     "no collisions": {"collisions": False},
     "flanges of motors": {"drives": "motor"},
@@ -495,6 +505,9 @@ LAWS = (
     ("Bend", "limits = parameters.limits", "limits(effort = 1, velocity = 1)", "elasticity.limits"),
     ("Slide", "Modelica.Mechanics.Translational.Components.SpringDamper elasticity", "Other elasticity",
      "type of elasticity"),
+    ("Glide", "cross(parameters.axis, n_x)", "cross(n_x, parameters.axis)", "prismatic_y.n"),
+    ("Glide", "friction_y(parameters = parameters.translation)", "friction_y", "friction_y.parameters"),
+    ("Drift", "connect(frame_a, origin.frame_a)", "connect(frame_a, freeMotion.frame_a)", "frame_a"),
 )  # fmt: skip
 
 
@@ -502,9 +515,11 @@ LAWS = (
 def test_another_law_than_the_configuration_says_is_found(fault: tuple[str, str, str, str]) -> None:
     file, old, new, quantity = fault
     source = urdf(
-        *(link("base", 3.0), link("arm", 2.0), link("hand", 0.7)),
+        *links(base=3.0, arm=2.0, hand=0.7, cart=1.0, buoy=1.0),
         joint("bend", "revolute", "base", "arm", inside=[dynamics(0.5, 0.2)]),
         joint("slide", "prismatic", "arm", "hand", inside=[dynamics(0.5, 0.2)]),
+        joint("glide", "planar", "base", "cart", axis="0 0 1", inside=[dynamics(0.5, 0.2)]),
+        joint("drift", "floating", "base", "buoy"),
     )
 
     def change(texts: Any) -> Any:

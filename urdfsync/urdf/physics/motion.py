@@ -91,11 +91,11 @@ GROUND_DEPTH = 1e3
 """In m: depth of the ground, beyond the reach of any robot, but small enough to keep digits."""
 ON_GROUND: Mapping[Instant, Vector] = {
     Instant.STANDING: (0.0, 0.0, 0.0),
-    Instant.SLIDING: (0.3, -0.2, 0.0),
+    Instant.SLIDING: (0.003, -0.002, 0.0),
     Instant.SINKING: (0.0, 0.0, -0.005),
     Instant.RISING: (0.0, 0.0, 1.0),
 }
-"""Velocity of a standing robot's base at each instant."""
+"""Velocity of a standing robot's base at each instant. It slides so slowly that the slip speed has an effect."""
 TILT = 1e-3
 """In rad: angle of the base while the robot sinks. With an angle, the forms of shapes have an effect."""
 _SWINGS = {

@@ -47,8 +47,8 @@ class Classes:
         start = read.get(f"{self.name}Start.mo", Values([], {}, []))
         self.begun = {value.path for value in start.values}
         """Components of the joints in the start record."""
-        model = read.get(f"{self.name}.mo", Values([], {}, []))
-        self.ends = _ends(model.values)
+        self.model = read.get(f"{self.name}.mo", Values([], {}, []))
+        self.ends = _ends(self.model.values)
         """Connections in the robot model."""
 
     def of(self, kind: str, name: str) -> str:
@@ -140,17 +140,24 @@ class Classes:
         texts = {path: value for path, value in self.texts(file).items() if own.match(path)}
         return file, texts, {f"link {link.name}": (link.line, expected)}
 
-    def drawings(self) -> Iterable[tuple[str, dict[str, Value], Texts]]:
-        """Yield the file, the texts and the expected texts of each library model that draws shapes of this robot."""
+    def library(self) -> Iterable[tuple[str, dict[str, Value], Texts]]:
+        """Yield the file, the texts and the expected texts of each library class that only this comparison looks at.
+
+        Such classes draw the shapes of this robot, or give a planar joint its directions.
+        """
         every = (stated for link in self.reading.links.values() for stated in link.values.items())
         kinds = {stated.value.capitalize() for path, stated in every if path.endswith(".shape")}
+        classes = dict[str, dict[str, str]]()
         for kind in sorted(kinds if self.options.visualizer == "standard" else ()):
-            path = library_folder() / LIBRARY / "Visualizers" / f"{kind}.mo"
-            self.read[file := str(path)] = read_values(path.read_text("utf-8"))
-            expected = pairs(models.VISUALIZER, kind=kind)
+            expected = classes[f"Visualizers.{kind}"] = pairs(models.VISUALIZER, kind=kind)
             for s, words in models.DRAWINGS[kind].items():
                 expected |= pairs(models.DRAWING, s=s, **words)
-            yield file, self.statements(file), {f"{LIBRARY}.Visualizers.{kind}": (0, expected)}
+        if any(joint.type == "planar" for joint in self.reading.joints.values()):
+            classes["Functions.normalTo"] = pairs(models.NORMAL)
+        for name, expected in classes.items():
+            path = library_folder() / LIBRARY / f"{name.replace('.', '/')}.mo"
+            self.read[file := str(path)] = read_values(path.read_text("utf-8"))
+            yield file, self.statements(file), {f"{LIBRARY}.{name}": (0, expected)}
 
     def laws(self, joint: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
         """Return the file of a joint's model, its texts about friction and spring, and the expected texts."""
@@ -177,6 +184,18 @@ class Classes:
         own = re.compile(r"(type of |condition of )?constraint\b")
         texts = {path: value for path, value in self.statements(file).items() if own.match(path)}
         return file, texts, {f"loop {loop.name}": (loop.line, pairs(models.CONSTRAINT))}
+
+    def free(self, joint: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
+        """Return the file of a planar or floating joint's model, its texts, and the expected texts."""
+        file, has_losses = f"Joints/{_class(component)}.mo", "translation.damping" in joint.values
+        if file not in self.read:
+            return file, {}, {}
+        expected = pairs(f"{models.FREE[joint.type]}; {models.PLACED}", C=_class(component))
+        for j, (n, k, f, of) in models.FREEDOMS.items() if joint.type == "planar" else ():
+            words = WORDS[j == "revolute"] | {"j": j, "n": n, "k": k, "f": f, "of": of, "axis": str(has_losses).lower()}
+            words |= {"Joint": j.partition("_")[0].title(), "kind": f"{of.title()}al"}
+            expected |= pairs(models.FREEDOM + models.LOSS * has_losses, **words)
+        return file, self.texts(file), {f"joint {joint.name}": (joint.line, expected)}
 
     def texts(self, file: str) -> dict[str, Value]:
         """Return all texts of a class by paths: see `models`. A vector of inputs has a path for each item."""
@@ -215,7 +234,7 @@ class Classes:
         start = f"{own}.{words['q']}_start" if command == "position" and component in self.begun else ""
         if self.options.inputs == "vector":
             driven = self.read[f"{self.name}Run.mo"].titles
-            order = [each.path for each in self.record.types if f"{each.path}Drive" in driven]
+            order = [each.path for each in self.model.types if f"{each.path}Drive" in driven]
             vectors = (value.path.partition("[")[0] for value in texts.values() if value.type.endswith("RealInput"))
             place = f"{next(vectors, '')}[{order.index(component) + 1 if component in order else 0}]"
             start = start or "0" * bool(self.begun)

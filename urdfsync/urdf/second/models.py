@@ -108,6 +108,44 @@ CONSTRAINT = (
     "constraint.rotations = parameters.rotations; constraint.childRotations = parameters.childRotations"
 )
 """The constraint in the model of a loop."""
+FREE = {
+    "floating": "extends = UrdfSync.Icons.FloatingJoint,UrdfSync.Interfaces.PartialFloatingJoint; "
+    "parameters = {C}Parameters; frame_a = origin.frame_a; origin.frame_b = freeMotion.frame_a; "
+    "freeMotion.frame_b = frame_b; type of freeMotion = UrdfSync.Robots.FreeBase; freeMotion.fixedStart = fixedStart; "
+    "freeMotion.r_start = r_start; freeMotion.rpy_start = rpy_start; freeMotion.v_start = v_start; "
+    "freeMotion.w_start = w_start",
+    "planar": "extends = UrdfSync.Icons.PlanarJoint,UrdfSync.Interfaces.PartialPlanarJoint; "
+    "parameters = {C}Parameters; frame_a = origin.frame_a; origin.frame_b = prismatic_x.frame_a; "
+    "prismatic_x.frame_b = prismatic_y.frame_a; prismatic_y.frame_b = revolute.frame_a; revolute.frame_b = frame_b; "
+    'type of n_x = finalparameterReal; n_x.unit = "1"; n_x = UrdfSync.Functions.normalTo(parameters.axis)',
+}
+"""The models of joints that the comparison with Pinocchio does not move."""
+PLACED = (
+    "type of origin = Modelica.Mechanics.MultiBody.Parts.FixedRotation; origin.animation = false; "
+    "origin.r = parameters.origin.xyz; origin.sequence = {{3,2,1}}; origin.angles = Modelica.Units.Conversions.to_deg("
+    "{{parameters.origin.rpy[3],parameters.origin.rpy[2],parameters.origin.rpy[1]}}); origin.rotationType = "
+    "Modelica.Mechanics.MultiBody.Types.RotationTypes.PlanarRotationSequence"
+)
+FREEDOM = (
+    "type of {j} = Modelica.Mechanics.MultiBody.Joints.{Joint}; {j}.animation = false; {j}.useAxisFlange = {axis}; "
+    "{j}.n = {n}; {j}.stateSelect = StateSelect.prefer; {j}.{q}.start = {q}_start{k}; {j}.{q}.fixed = fixedStart; "
+    "{j}.{v}.start = {v}_start{k}; {j}.{v}.fixed = fixedStart"
+)
+LOSS = (
+    "; type of {f} = UrdfSync.Friction.{kind}; {f}.parameters = parameters.{of}; "
+    "{j}.support = {f}.flange_a; {j}.axis = {f}.flange_b"
+)
+FREEDOMS = {
+    "prismatic_x": ("n_x", "[1]", "friction_x", "translation"),
+    "prismatic_y": ("cross(parameters.axis,n_x)", "[2]", "friction_y", "translation"),
+    "revolute": ("parameters.axis", "", "friction", "rotation"),
+}
+"""The freedoms of a planar joint: axis, index of the start, friction, and the numbers of the friction."""
+NORMAL = (
+    "type of normalTo = function; type of n = inputReal; type of u = outputReal; type of e = Real; type of p = Real; "
+    'n.unit = "1"; u.unit = "1"; e = ifabs(n[1])<0.9*sqrt(n*n)then{{1,0,0}}else{{0,1,0}}; p = e-(e*n)/(n*n)*n'
+)
+"""The function of the first direction of a planar joint."""
 VISUALIZER = (
     "extends = UrdfSync.Visualizers.PartialShape; type of parameters = parameterUrdfSync.Records.{kind}; "
     "type of R = finalparameterReal; R = UrdfSync.Functions.rotation(parameters.origin.rpy)"
