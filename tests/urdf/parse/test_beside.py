@@ -58,6 +58,22 @@ def test_the_second_reader_finds_the_joints_of_the_yaml() -> None:
         assert differences(text, allow=()) == []
 
 
+@pytest.mark.parametrize("more", [b"? [a, b]\n: c\n", b"more: &x [*x]\n"])
+def test_a_yaml_with_other_keys_is_joined_alike_twice(more: bytes) -> None:
+    assert join_again((URDF, YAML + more), Options()) == join(URDF, YAML + more, "a.yaml")[0]
+
+
+def test_a_name_in_another_encoding_than_that_of_the_urdf_is_found() -> None:
+    names = URDF.decode().replace("tip_A", "é1").removeprefix('<?xml version="1.0"?>')
+    urdf = f'<?xml version="1.0" encoding="iso-8859-1"?>{names}'.encode("latin-1")
+    yaml = YAML.decode().replace("tip_A", "é1").encode()
+    text, _ = join(urdf, yaml, "a.yaml")
+    found = read_robot(text, "a.urdf").robot
+    assert found is not None
+    assert [each.name for each in found.loops] == ["é1_tip_B"]
+    assert join_again((urdf, yaml), Options()) == text
+
+
 @pytest.mark.parametrize(("old", "new", "element"), [
     (b"_XY", b"_YX", "joint e_x"),
     (b"6d", b"3d", "loop tip_A_tip_B"),

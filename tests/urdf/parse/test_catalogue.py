@@ -90,6 +90,17 @@ def test_the_second_reader_and_pinocchio_have_the_same_numbers() -> None:
     assert joints(completed) == joints(content)
 
 
+@pytest.mark.parametrize(("csv", "columns"), [
+    ("name,effort [N.m],effort [N],velocity [rpm],velocity [mm/s]\nS,2,,100,\nL,,5,,20\nN,1,,90,\n", {}),
+    ("name,effort [max] [N.m],velocity\nS,5,\nL,6,\nN,7,\n", {"effort": "effort [max]"}),
+    ("name,effort\nS,1\u00a0200\nL,2\u200b0\nN,3\n", {}),
+])  # fmt: skip
+def test_rows_are_joined_alike_twice(csv: str, columns: dict[str, str]) -> None:
+    """Columns of one name, brackets in a name, and characters that nobody sees."""
+    options = Options(**{**OPTIONS, "motor_columns": columns})
+    assert join_again((URDF.encode(), csv.encode()), options) == joined(csv, motor_columns=columns)
+
+
 def test_both_readings_take_torques_without_a_dot() -> None:
     plain, dotless = joined(), joined(CSV.replace("[N.cm]", "[Ncm]"))
     assert joints(dotless) == joints(plain)

@@ -54,7 +54,8 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
     try:
         document = _compose(other)
         elements = _bounded(_elements(document)) if document else []
-        lines = "".join(f"\n{element}" for element, _ in elements).encode()
+        lines = "".join(f"\n{element}" for element, _ in elements)
+        lines.encode()  # refuses half a character such as `\uD800`
     except (yaml.YAMLError, _LoopsError, ValueError, OverflowError) as error:  # the last two for `\UFFFFFFFF`, `\uD800`
         mark = getattr(error, "problem_mark", None)
         line = mark.line + 1 if mark else other.count(b"\n", 0, other.find(_MARK)) + 1
@@ -63,7 +64,8 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
         raise SourceError.of("loops-file", message, file, line, hint=hint) from None
     first = content.count(b"\n", 0, end) + 2
     places = [(number, line) for number, (_, line) in enumerate(elements, first)]
-    return content[:end] + lines + b"\n" + content[end:], places
+    text = lines.encode("ascii", "xmlcharrefreplace")  # the URDF may have any encoding
+    return content[:end] + text + b"\n" + content[end:], places
 
 
 class _LoopsError(Exception):

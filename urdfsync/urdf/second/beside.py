@@ -7,7 +7,7 @@ code.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import get_args
+from typing import Any, get_args
 from xml.sax.saxutils import quoteattr
 
 import yaml
@@ -29,9 +29,9 @@ def join_again(parts: Sequence[bytes], options: Options) -> bytes:
 
 def _loops(content: bytes) -> Iterator[str]:
     """Yield the loops, the motors and the joints of several axes in a YAML."""
-    document = yaml.load(content, yaml.BaseLoader)  # noqa: S506 - it makes only strings, lists and mappings
+    nodes = {key.value: value for key, value in yaml.compose(content, yaml.BaseLoader).value if key.id == "scalar"}
     keys = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
-    lists = {key: document[key] if isinstance(document.get(key), list) else () for key in keys}
+    lists = {key: _plain(nodes[key]) if key in nodes and nodes[key].id == "sequence" else () for key in keys}
     for (first, second), kind in zip(lists["closed_loop"], lists["type"], strict=True):
         name, ends = quoteattr(f"{first}_{second}"), (quoteattr(first), quoteattr(second))
         kind = {"3d": "ball", "6d": "fixed"}[kind.lower()]
@@ -43,19 +43,26 @@ def _loops(content: bytes) -> Iterator[str]:
         yield f'<joint_axes joint={quoteattr(joint)} axes="{axes}"/>'
 
 
+def _plain(node: Any) -> Any:
+    return node.value if node.id == "scalar" else [_plain(each) for each in node.value]
+
+
 def _rows(content: bytes, options: Options) -> Iterator[str]:
-    """Yield the row of each joint that `motors` names; the first filled column of each number counts."""
+    """Yield the row of each joint that `motors` names.
+
+    The first filled column of each number counts; of columns with the same name, the last filled one.
+    """
     sheet, _ = read_sheets(content, options.catalogue)
-    header = [title.strip().removesuffix("]").partition("[") for title in sheet.header]
-    columns = {name.strip(): (number, unit.strip()) for number, (name, _, unit) in enumerate(header)}
-    rows = {
-        str(cells[0]).strip(): ["" if cell is None else str(cell).strip() for cell in cells] for _, cells in sheet.rows
-    }
+    texts = (["" if cell is None else str(cell).strip() for cell in cells] for _, cells in sheet.rows)
+    rows = {cells[0]: cells for cells in texts}
     for joint, motor in options.motors.items():
-        words = [f"joint={quoteattr(joint)}", f"motor={quoteattr(motor)}"]
+        words, filled = [f"joint={quoteattr(joint)}", f"motor={quoteattr(motor)}"], dict[str, str]()
+        for title, text in zip(map(str.strip, sheet.header), rows[motor], strict=False):
+            name, _, unit = title[:-1].rpartition("[") if title.endswith("]") and "[" in title else (title, "", "")
+            if text:
+                filled[name.strip()] = f"{text} [{unit.strip()}]"
         for number in get_args(MotorNumber):
             named = options.motor_columns.get(number, number)
-            places = [columns[name] for name in ([named] if isinstance(named, str) else named) if name in columns]
-            texts = [f"{rows[motor][k]} [{unit}]" for k, unit in places if rows[motor][k]]
-            words += [f"{number}={quoteattr(text)}" for text in texts[:1]]
-        yield f"<catalogue_row {' '.join(words)}/>"
+            found = [filled[name] for name in ([named] if isinstance(named, str) else named) if name in filled]
+            words += [f"{number}={quoteattr(text)}" for text in found[:1]]
+        yield f"<catalogue_row {''.join(filter(str.isprintable, ' '.join(words)))}/>"
