@@ -79,8 +79,11 @@ def test_what_workers_read_is_recorded_as_a_dependency_of_the_answer(robots: Pat
     run_all(jobs=1)
     with Dependencies() as alone:
         run_all(jobs=1)
-    with Dependencies() as together:
-        run_all(jobs=2)
+    for _ in range(3):  # another test may make a folder beside the program between two reads of its names
+        with Dependencies() as together:
+            run_all(jobs=2)
+        if together.complete:
+            break
     assert alone.complete
     assert together.complete
     assert alone.entries.items() <= together.entries.items()
