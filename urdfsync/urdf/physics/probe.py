@@ -14,6 +14,7 @@ import msgspec
 from urdfsync.checks.experiment import Probe
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
+from urdfsync.urdf.benches import GENERIC_VARIABLES, VARIABLES
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.model.loop import loop_reaches
 from urdfsync.urdf.options import Options
@@ -71,18 +72,18 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
     if is_package:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
         flanges = {name: f"robot.{drive.axis}" for name, drive in names.drives.items()}
-        movers = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
         accelerations = dict[str, str]()
-        for joint in tree.joints:
-            inside, file = movers.get(joint.type), f"Joints/{tree.joint(joint.name).type}.mo"
-            if inside and (file not in subject.texts or f" {inside}(".encode() in subject.texts[file]):
-                accelerations[joint.name] = f"{joints[joint.name]}.{inside}.a"
+        for joint in (joint for joint in tree.joints if joint.type in MOTION_KINDS):
+            variable, file = VARIABLES[MOTION_KINDS[joint.type]][3], f"Joints/{tree.joint(joint.name).type}.mo"
+            inside = f" {variable.partition('.')[0]}(".encode()
+            if file not in subject.texts or inside in subject.texts[file]:
+                accelerations[joint.name] = f"{joints[joint.name]}.{variable}"
     else:
         record = f"{target.package}.{target.name}Parameters"
         declaration = f"UrdfSync.Robots.GenericRobot robot(redeclare parameter {record} data, checkLimits = false, "
         numbered = [(joint.name, kind, k) for kind in MOTIONS for k, joint in enumerate(tree.axes(kind), 1)]
         flanges = {name: f"robot.{kind}Axis[{k}]" for name, kind, k in numbered}
-        accelerations = {name: f"robot.{'a_phi' if kind == 'rotational' else 'a_s'}[{k}]" for name, kind, k in numbered}
+        accelerations = {name: f"robot.{GENERIC_VARIABLES[kind][2]}[{k}]" for name, kind, k in numbered}
     for k, link in enumerate(tree.links, 1):
         if is_package:
             part = f"robot.{tree.link(link.name).component}"
@@ -132,7 +133,7 @@ def moving_probe(
         drive = MOTION_KINDS[joint.type].capitalize()
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
-    for k, (joint, *_) in enumerate(subject.sweeps(), 1):
+    for k, (joint, *_) in enumerate(subject.sweeps, 1):
         limits = list(_range(subject, joint, names.joints))
         declarations.append(f"Real range{k}[{len(limits)}] = {{{', '.join(limits)}}}")
     if names.is_package:
@@ -166,7 +167,7 @@ def sweeping_probe(subject: Subject, values: Iterable[str]) -> Probe:
     drives would double a compiler's time.
     """
     declarations, connections = list[str](), list[str]()
-    for k, (joint, way) in enumerate(subject.sweeps(), 1):
+    for k, (joint, way) in enumerate(subject.sweeps, 1):
         kind = MOTION_KINDS[joint.type]
         q, v, effort = ("phi", "w", "tau") if kind == "rotational" else ("s", "v", "f")
         numbers = zip((f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max", "reach"), way.numbers, strict=False)

@@ -119,7 +119,7 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 
 def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield start, range and greatest speed of the axes, and the motion of axes in the generic robot's bench."""
-    for k, (joint, way) in enumerate(subject.sweeps(), 1):
+    for k, (joint, way) in enumerate(subject.sweeps, 1):
         given = way.numbers if names.is_package and joint.name in subject.closed.reach else way.numbers[:4]
         numbers = {f"range{k}[{i}]": number for i, number in enumerate(given, 1) if abs(number) < motion.ENDLESS}
         what = f"joint {joint.name}{'' if names.is_package else ' of the generic robot'}"
@@ -134,7 +134,7 @@ def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 
 def sweeps(subject: Subject) -> Iterator[Pair]:
     """Yield the motion of Test's drives, and the sums of their efforts at axis and housing."""
-    for k, (joint, way) in enumerate(subject.sweeps(), 1):
+    for k, (joint, way) in enumerate(subject.sweeps, 1):
         what, unit = f"joint {joint.name}", _unit(joint)
         (q, effort), start = ("phi", "N·m") if unit == "rad" else ("s", "N"), way.numbers[0]
         swept = Compared(Quantity.SWEEP, what, unit, (f"sweep{k}.{q}",), SWEEP_TIMES, Part.BENCHES)

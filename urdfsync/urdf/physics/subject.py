@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -117,8 +117,9 @@ class Subject:
                 effort += torque * joints[motor].number("transmission.otherReduction")
         return effort
 
-    def sweeps(self) -> Iterator[tuple[Joint, Sweep]]:
-        """Yield each axis with its motion in Test: towards the farther limit, as far as reach and speed allow."""
+    @cached_property
+    def sweeps(self) -> Sequence[tuple[Joint, Sweep]]:
+        """Each axis with its motion in Test, towards the farther limit, as far as reach and speed allow."""
         ranges, followers = position_ranges(self.tree), self.tree.followers_by_leader()
 
         def speed(joint: Joint) -> float:
@@ -126,6 +127,7 @@ class Subject:
             others = followers.get(joint.name, ())
             return min(own, *(speed(f) / abs(m.multiplier) for f, m in others if abs(m.multiplier) > math.ulp(1)), own)
 
+        found = list[tuple[Joint, Sweep]]()
         for joint in self.axes:
             if joint.type in MOTION_KINDS:
                 start, (lower, upper) = self.starts[joint.name], ranges[joint.name]
@@ -134,7 +136,8 @@ class Subject:
                 most = min(reach, _MARGIN * speed(joint) * motion.PERIOD / math.pi)
                 above, below = (min(most, _MARGIN * room) for room in (upper - start, start - lower))
                 end = start + above if above >= below else start - below
-                yield joint, Sweep((start, lower, upper, speed(joint), reach), end)
+                found.append((joint, Sweep((start, lower, upper, speed(joint), reach), end)))
+        return found
 
     def is_in_loop(self, joint: Joint) -> bool:
         """Return whether loops restrict the motion of a joint."""

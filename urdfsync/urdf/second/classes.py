@@ -136,8 +136,7 @@ class Classes:
                     expected |= {f"{contact}.corners": f"parameters.{part}Corners"} if kind == "Mesh" else {}
                     numbers = {n: field for n, field in models.SURFACE.items() if f"contact.{n}" in link.values}
                     expected |= {f"{contact}.{field}": f"parameters.contact.{n}" for n, field in numbers.items()}
-        own = re.compile(rf"((type|condition) of )?(contact{'|visual|collision' * is_standard})\d")
-        texts = {path: value for path, value in self.texts(file).items() if own.match(path)}
+        texts = _about(rf"(contact{'|visual|collision' * is_standard})\d", self.texts(file))
         return file, texts, {f"link {link.name}": (link.line, expected)}
 
     def library(self) -> Iterable[tuple[str, dict[str, Value], Texts]]:
@@ -181,9 +180,11 @@ class Classes:
         file = f"Joints/{_class(component)}.mo"
         if file not in self.read:
             return file, {}, {}
-        own = re.compile(r"(type of |condition of )?constraint\b")
-        texts = {path: value for path, value in self.statements(file).items() if own.match(path)}
-        return file, texts, {f"loop {loop.name}": (loop.line, pairs(models.CONSTRAINT))}
+        return (
+            file,
+            _about(r"constraint\b", self.statements(file)),
+            {f"loop {loop.name}": (loop.line, pairs(models.CONSTRAINT))},
+        )
 
     def free(self, joint: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
         """Return the file of a planar or floating joint's model, its texts, and the expected texts."""
@@ -384,6 +385,12 @@ class RobotModel:
         return bool(joint.shares) and (
             self.own.options.drives == "motor" or "transmission.rotorInertia" in joint.values
         )
+
+
+def _about(names: str, texts: Mapping[str, Value]) -> dict[str, Value]:
+    """Return the texts about the components whose names match a pattern: values, types and conditions."""
+    own = re.compile(f"((type|condition) of )?{names}")
+    return {path: value for path, value in texts.items() if own.match(path)}
 
 
 def _kind(joint: Element) -> str:

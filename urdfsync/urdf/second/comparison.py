@@ -198,7 +198,7 @@ class _Comparison:
         ends = {path: numbers for path, numbers in read if isinstance(numbers, tuple)}
         for k, value in enumerate(given):  # the corners of a mesh have its bounds, to 1e-6 m and eight digits
             shape = value.path.removesuffix("Corners")
-            bounds = *(ends.get(f"{shape}.lower") or ()), *(ends.get(f"{shape}.upper") or ())
+            bounds = *(ends.get(f"{shape}.lower", ())), *(ends.get(f"{shape}.upper", ()))
             if shape != value.path and len(bounds) == 6:
                 box = _bounds(value)
                 given[k] = value._replace(text=f"{{{', '.join(map(repr, box))}}}" if box else '"no numbers"')
@@ -377,7 +377,7 @@ class _Comparison:
     def _complete(self, file: str, texts: Mapping[str, Value], every: Texts) -> None:
         """Compare the texts of a class with the expected texts of each element. Unexpected texts are differences."""
         known = {path for _, expected in every.values() for path in expected}
-        owner = next(iter(every)) if len(every) == 1 else "robot"
+        owner = next(iter(every), "robot")  # the first element: of several, it is the robot
         for element, (line, expected) in every.items():
             given = [texts.get(path, Value(path, "", "nothing", 0)) for path in expected]
             self._compare(file, element, given, {path: Stated(_read(text), line) for path, text in expected.items()})
