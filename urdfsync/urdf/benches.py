@@ -17,12 +17,12 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, JointType, Motion, Robot, limits_acceleration
 
-VARIABLES: Mapping[Motion, tuple[str, str, str, str]] = {
+_VARIABLES: Mapping[Motion, tuple[str, str, str, str]] = {
     "rotational": ("revolute.phi", "revolute.w", "tau", "revolute.a"),
     "translational": ("prismatic.s", "prismatic.v", "f", "prismatic.a"),
 }
 """Names of position and speed in a joint's model, of the effort at its flange, and of the acceleration in the model."""
-GENERIC_VARIABLES: Mapping[Motion, tuple[str, str, str]] = {
+_GENERIC_VARIABLES: Mapping[Motion, tuple[str, str, str]] = {
     "rotational": ("phi", "w_phi", "a_phi"),
     "translational": ("s", "v_s", "a_s"),
 }
@@ -68,7 +68,7 @@ def _axes(assembly: Assembly) -> Iterator[Axis]:
     for joint in tree.joints:
         if motion := MOTION_KINDS.get(joint.type):
             name, drive = tree.joint(joint.name).component, drives.get(joint.name)
-            position, velocity, effort, acceleration = VARIABLES[motion]
+            position, velocity, effort, acceleration = _VARIABLES[motion]
             units, limits = _UNITS[motion], f"{name}.parameters.limits"
             range_ = (f"{limits}.lower", f"{limits}.upper") if JOINT_KINDS[joint.type].has_limits else ()
             motors = tuple(
@@ -91,14 +91,14 @@ def _generic_axes(tree: KinematicTree) -> Iterator[Axis]:
     """Yield the axes of the generic robot. Turning and sliding axes are numbered separately."""
     for motion in MOTIONS:
         for number, joint in enumerate(tree.axes(motion), 1):
-            position, speed, acceleration = GENERIC_VARIABLES[motion]
+            position, speed, acceleration = _GENERIC_VARIABLES[motion]
             units, limits = _UNITS[motion], f"data.{tree.joint(joint.name).component}.limits"
             range_ = (f"{limits}.lower", f"{limits}.upper") if JOINT_KINDS[joint.type].has_limits else ()
             yield Axis(
                 f"joint {joint.name}",
                 Signal(f"{position}[{number}]", units[0], range_),
                 Signal(f"{speed}[{number}]", units[1], (f"{limits}.velocity",)),
-                Signal(f"{motion}Axis[{number}].{VARIABLES[motion][2]}", units[2], (f"{limits}.effort",)),
+                Signal(f"{motion}Axis[{number}].{_VARIABLES[motion][2]}", units[2], (f"{limits}.effort",)),
                 _acceleration(joint, f"{acceleration}[{number}]", limits),
             )
 

@@ -14,7 +14,6 @@ import msgspec
 from urdfsync.checks.experiment import Probe
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
-from urdfsync.urdf.benches import GENERIC_VARIABLES, VARIABLES
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.model.loop import loop_reaches
 from urdfsync.urdf.options import Options
@@ -72,18 +71,18 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
     if is_package:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
         flanges = {name: f"robot.{drive.axis}" for name, drive in names.drives.items()}
+        movers = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
         accelerations = dict[str, str]()
-        for joint in (joint for joint in tree.joints if joint.type in MOTION_KINDS):
-            variable, file = VARIABLES[MOTION_KINDS[joint.type]][3], f"Joints/{tree.joint(joint.name).type}.mo"
-            inside = f" {variable.partition('.')[0]}(".encode()
-            if file not in subject.texts or inside in subject.texts[file]:
-                accelerations[joint.name] = f"{joints[joint.name]}.{variable}"
+        for joint in tree.joints:
+            inside, file = movers.get(joint.type), f"Joints/{tree.joint(joint.name).type}.mo"
+            if inside and (file not in subject.texts or f" {inside}(".encode() in subject.texts[file]):
+                accelerations[joint.name] = f"{joints[joint.name]}.{inside}.a"
     else:
         record = f"{target.package}.{target.name}Parameters"
         declaration = f"UrdfSync.Robots.GenericRobot robot(redeclare parameter {record} data, checkLimits = false, "
         numbered = [(joint.name, kind, k) for kind in MOTIONS for k, joint in enumerate(tree.axes(kind), 1)]
         flanges = {name: f"robot.{kind}Axis[{k}]" for name, kind, k in numbered}
-        accelerations = {name: f"robot.{GENERIC_VARIABLES[kind][2]}[{k}]" for name, kind, k in numbered}
+        accelerations = {name: f"robot.{'a_phi' if kind == 'rotational' else 'a_s'}[{k}]" for name, kind, k in numbered}
     for k, link in enumerate(tree.links, 1):
         if is_package:
             part = f"robot.{tree.link(link.name).component}"
