@@ -245,9 +245,9 @@ def execute(capsys: pytest.CaptureFixture[str]) -> Execute:
 @pytest.fixture(scope="session")
 def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A built project with all inputs of a decision; tests work on copies of this project."""
-    from support import answers  # needs modules that only its tests import
+    from support import remembered  # needs modules that only its tests import
 
-    return answers.built(tmp_path_factory.mktemp("built") / "project")
+    return remembered.built(tmp_path_factory.mktemp("built") / "project")
 
 
 @pytest.fixture

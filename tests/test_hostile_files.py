@@ -245,7 +245,7 @@ DAMAGES = (
 )
 LARGE = (b"[" * 100_000, b"a = [" * 50_000, b"{" * 100_000, b'{"a":' * 100_000, bytes(1_000_000), b"x." * 100_000)
 STATE_NAMES = (
-    *("planned.json", "planned.json", ".planned.json.urdfsync-tmp", "stamp-build", "lock", "watch.lock", ".gitignore"),
+    *("planned.json", "planned.json", ".planned.json.urdfsync-tmp", "deps", "lock", "watch.lock", ".gitignore"),
     *("robots/other.state", "robots/bot.state", "robots/BOT.state", "robots/-x.state", "robots/.state", "config"),
     *("robots/\x1b[2J.state", "robots/a.b.state", "conflicts/bot/x", "svg/bot.svg", "robots/bot.state.urdfsync-tmp"),
     *("conflicts/bot/Links/Arm.merge.mo.txt", f"base/bot/{'0' * 64}", ".gitattributes"),

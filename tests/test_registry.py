@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
 from urdfsync import registry
-from urdfsync.answers import dependencies
-from urdfsync.answers.facts import NAMES
+from urdfsync.dependencies.program import identity
 
 
-def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
-    with dependencies.Dependencies() as found:
-        registry.domain("rcnetwork")
-    assert (NAMES, str(rc_site)) in found.modules
+def test_the_code_of_a_domain_of_somebody_else_is_a_part_of_the_program(rc_domain: None, rc_site: Path) -> None:
+    before = registry.program("rcnetwork")
+    assert before != identity("") == registry.program("urdf")
 
 
-def test_a_domain_that_was_found_is_not_looked_for_again(
-    rc_domain: None, rc_site: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_domain_that_was_found_is_not_looked_for_again(rc_domain: None, monkeypatch: pytest.MonkeyPatch) -> None:
     registry.domain("rcnetwork")
-    monkeypatch.setattr(registry, "list_folder", lambda folder: pytest.fail(f"{folder} is listed"))
-    with dependencies.Dependencies() as found:
-        registry.domain("rcnetwork")
-    assert (NAMES, str(rc_site)) in found.modules
+    monkeypatch.setattr(os, "listdir", lambda folder: pytest.fail(f"{folder} is listed"))
+    registry.domain("rcnetwork")

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import msgspec
 
 from urdfsync import config as configuration
-from urdfsync.answers import dependencies
 from urdfsync.config import Config, RobotConfig
 from urdfsync.config import library_folder as library_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic
@@ -134,7 +133,6 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], options: Buil
     results = build_robots(config, robots, options)
     if options.dry or not any(robot.on_build == "check" for robot in robots):
         return results
-    dependencies.mark_incomplete()  # the reads of a check are not recorded
     from urdfsync.checks import afterbuild
 
     return afterbuild.with_checks(config, options, results)

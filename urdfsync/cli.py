@@ -12,11 +12,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from urdfsync import overview
-from urdfsync.answers import streams, uptodate
-from urdfsync.answers.dependencies import Dependencies
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.result import Exit
+from urdfsync.output import streams
 from urdfsync.output.console import Console
 from urdfsync.spelling import nearest
 
@@ -31,23 +30,7 @@ loaded."""
 def main(given: Sequence[str] | None = None) -> int:
     """Run a command; returns the exit code. An internal error is one line that names a file with the traceback."""
     given = sys.argv[1:] if given is None else list(given)
-    try:
-        config_file = uptodate.find_config(given) if given and given[0] in uptodate.COMMANDS else None
-        if config_file is None or not (sys.stdout and sys.stderr):
-            return _run(given)
-        key, transcript = uptodate.answer_key(given, config_file), streams.Transcript()
-        with Dependencies() as dependencies:
-            code = _run(given, transcript)
-        if code == Exit.IN_STEP:
-            answer = [text for entry in transcript if entry[1] for text in entry]
-            uptodate.save_answer(config_file, given[0], key, answer, dependencies)
-    except Exception as error:  # noqa: BLE001 - looking for a saved answer, or saving one, failed
-        return Console().end(Exit.ERROR, findings_of(error))
-    return code
-
-
-def _run(given: list[str], transcript: streams.Transcript | None = None) -> int:
-    with streams.SafeStreams(transcript) as output, _terminated_as_interrupted():
+    with streams.SafeStreams() as output, _terminated_as_interrupted():
         code = _main(given)
         trouble = output.trouble
         return _for_git(given, tell_unwritten(trouble)) if trouble else code

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from urdfsync.answers.dependencies import Dependencies, file_type, note_content, read_file, read_stat, walk_files
-from urdfsync.answers.facts import LSTAT, read_unrecorded
+from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.dependencies.reads import file_type, note_content, read_file, read_stat, unrecorded, walk_files
 from urdfsync.diagnostics import OutputError
 
 TEMPORARY = ".urdfsync-tmp"
@@ -88,7 +88,8 @@ def templates_digest(folders: Sequence[Path]) -> str:
     templates: dict[str, str] = {}
     for folder in reversed(folders):
         above = len(str(folder)) + 1
-        with Dependencies(is_program=folder is folders[-1]):
+        # the templates of domains are part of the program
+        with unrecorded() if folder is folders[-1] else contextlib.nullcontext():
             for path in walk_files(folder):
                 name = path[above:].replace(os.sep, "/")
                 if not name.rpartition("/")[2].startswith("."):
@@ -149,7 +150,7 @@ class Tree:
                 return None
             if stat.S_ISREG(mode):
                 content = read_unrecorded(path)
-                note_content(LSTAT, path, content)
+                note_content(path, content)
                 return content
         except (FileNotFoundError, NotADirectoryError):
             return None  # somebody deleted the file meanwhile

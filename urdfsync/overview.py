@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfsync import __version__
-from urdfsync.answers import streams
+from urdfsync.output import streams
 from urdfsync.shells import completion
 
 CODES = (

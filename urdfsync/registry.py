@@ -9,16 +9,16 @@ import sys
 from pathlib import Path
 from typing import cast
 
-from urdfsync.answers.dependencies import Dependencies, include, list_folder, read_file
+from urdfsync.dependencies.program import code_files, contents_hash, identity
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Domain
 from urdfsync.spelling import nearest
 
 _OWN = {"table": "urdfsync.table.domain:DOMAIN", "urdf": "urdfsync.urdf.domain:DOMAIN"}
 """Our own domains, which are entry points, too: searching entry points would cost every build 20 ms of imports."""
-_places: dict[tuple[str, ...], tuple[str, Dependencies]] = {}
-"""Found domains by name and Python's path, with the files that were read. A process keeps its loaded code, so these
-stay valid. A build asks three times, and each search takes 5 of its 50 ms.
+_places: dict[tuple[str, ...], str] = {}
+"""Found domains by name and Python's path. A process keeps its loaded code, so these stay valid. A build asks three
+times, and each search takes 5 of its 50 ms.
 """
 
 
@@ -51,36 +51,46 @@ def _place(name: str) -> str:
     if name in _OWN:
         return _OWN[name]
     key = (name, *sys.path)
-    if key not in _places:
-        with Dependencies() as looked:
-            place = _installed().get(name, "")
-        if not place:  # a domain may be installed while the daemon runs
-            return ""
-        _places[key] = place, looked
-        return place
-    place, looked = _places[key]
-    include(looked)
+    if place := _places.get(key) or _installed().get(name, ""):  # a domain may be installed while the daemon runs
+        _places[key] = place
     return place
+
+
+def is_own(name: str) -> bool:
+    """Return whether a domain is a part of urdfsync."""
+    return name in _OWN
+
+
+def program(name: str, state_folder: Path | None = None) -> str:
+    """Return a hash of urdfsync, and of the code and templates of a domain; they are no inputs that builds record."""
+    own, templates = identity(str(state_folder or "")), domain(name).templates
+    if is_own(name):
+        return own
+    module = sys.modules[top_level(name)]
+    file = module.__file__ or ""
+    is_package = not file or os.path.basename(file) == "__init__.py"  # noqa: PTH119
+    folders = [os.path.dirname(file)] if file else module.__path__  # noqa: PTH120
+    files = list(code_files(folders)) if is_package else [file]
+    return contents_hash([*files, *code_files([str(templates)] if templates else [])], own)
 
 
 def _installed() -> dict[str, str]:
     from importlib.metadata import PathDistribution
 
     domains = dict[str, str]()
-    with Dependencies(is_program=True):
-        for folder in sys.path:
-            names = list[str]()
-            with contextlib.suppress(OSError):  # an entry of Python's path may be missing, or an archive
-                names = list_folder(folder or ".")
-            for name in names:
-                # strings are three times as fast as paths: there are hundreds of distributions
-                file = f"{folder or '.'}/{name}/entry_points.txt"
-                if not name.endswith("-info") or not os.path.isfile(file):  # noqa: PTH113
-                    continue
-                with contextlib.suppress(OSError):  # Python ignores such distributions, too
-                    if b"[urdfsync.domains]" in read_file(file):  # parsing all distributions takes 15 ms
-                        entries = PathDistribution(Path(file).parent).entry_points.select(group="urdfsync.domains")
-                        # the entry's name is the domain's name, its value `module:object`; the first entry on the path
-                        # counts
-                        domains = {entry.name: entry.value for entry in entries} | domains
+    for folder in sys.path:
+        names = list[str]()
+        with contextlib.suppress(OSError):  # an entry of Python's path may be missing, or an archive
+            names = os.listdir(folder or ".")  # noqa: PTH208
+        for name in names:
+            # strings are three times as fast as paths: there are hundreds of distributions
+            file = f"{folder or '.'}/{name}/entry_points.txt"
+            if not name.endswith("-info") or not os.path.isfile(file):  # noqa: PTH113
+                continue
+            with contextlib.suppress(OSError):  # Python ignores such distributions, too
+                if b"[urdfsync.domains]" in Path(file).read_bytes():  # parsing all distributions takes 15 ms
+                    entries = PathDistribution(Path(file).parent).entry_points.select(group="urdfsync.domains")
+                    # the entry's name is the domain's name, its value `module:object`; the first entry on the path
+                    # counts
+                    domains = {entry.name: entry.value for entry in entries} | domains
     return domains

@@ -12,10 +12,10 @@ from unittest import mock
 import pytest
 from support.networks import RC_FOLDER, edit, set_keys
 
-from urdfsync import config
-from urdfsync.checks import fingerprint as fingerprints
+from urdfsync import config, registry
 from urdfsync.checks.fingerprint import fingerprint
 from urdfsync.checks.results import CheckOptions
+from urdfsync.dependencies import program
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 
@@ -98,12 +98,12 @@ def test_so_does_another_line_of_urdfsync_its_library_or_the_templates(
     """Whoever develops urdfsync does not change the version."""
     file = tmp_path / place / "__init__.py"
     file.parent.mkdir()
-    monkeypatch.setattr(fingerprints, "_code", fingerprints._code.__wrapped__)  # a process knows its code once
+    monkeypatch.setattr(registry, "identity", lambda _: program._recall(""))  # a process knows its code once
     before = now()
     for line in ("# one line\n", "# another line\n"):
         file.write_text(line)
         if place == "code":
-            monkeypatch.setattr("urdfsync.__file__", str(file))
+            monkeypatch.setattr(program, "_package", str(file))
         elif place == "library":
             monkeypatch.setattr("urdfsync.checks.fingerprint.find_own_library", lambda *_: file.parent)
         else:

@@ -10,7 +10,7 @@ import pytest
 from support.networks import LADDER, run
 
 from urdfsync import config
-from urdfsync.answers import facts
+from urdfsync.dependencies import facts
 from urdfsync.domain import Role
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.rules import CLASS_FOLDER

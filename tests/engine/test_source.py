@@ -13,15 +13,15 @@ from pathlib import Path
 import msgspec
 import pytest
 from support import xacros
-from support.answers import save, saved
 from support.commands import Execute
 from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.meshes import stl
+from support.remembered import save, saved
 from support.replay import contents
 from support.xacros import EXPANDED, RECORD
 
-from urdfsync.answers import facts
+from urdfsync.dependencies import facts
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.source import Source
 from urdfsync.state.expansion import dumps, loads
@@ -200,9 +200,7 @@ def test_arguments_and_variables_are_inputs(project: Path, execute: Execute, mon
     assert "size[2] 3 → 0.75 m" in execute("status", code=1).out
 
 
-def test_a_variable_is_part_of_the_saved_answer(
-    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_variable_is_a_dependency(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(facts, "YOUNG", 50_000_000)
     files = {"arm.urdf.xacro": xacros.ARM.replace('default="0.5"', 'default="$(optenv LONG 2)"')}
     xacros.write(project, files, xacros.CONFIG.replace("arguments = { length = 0.5 }\n", ""))
@@ -213,7 +211,7 @@ def test_a_variable_is_part_of_the_saved_answer(
     assert saved("build") is None
 
 
-def test_the_saved_answer_knows_each_input(built: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_input_is_a_dependency(built: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(facts, "YOUNG", 50_000_000)
     for name in ("masses.yaml", "parts/beam.xacro", "arm.urdf.xacro"):
         save("build")

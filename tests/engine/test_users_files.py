@@ -10,7 +10,7 @@ import pytest
 from support.networks import C1, configure, drop, rename, run
 
 from urdfsync import config
-from urdfsync.answers.dependencies import Dependencies
+from urdfsync.dependencies.reads import Reads
 from urdfsync.engine import users_files
 from urdfsync.engine.result import Result
 
@@ -73,7 +73,7 @@ def test_of_files_that_are_no_modelica_only_the_names_are_read(project: Path) ->
     run()
     write({f"data/{number}.csv": "1" for number in range(30)} | {"data/Bench.mo": model("Bench")})
     rename("C1", "Tank")
-    with Dependencies() as dependencies:
+    with Reads() as dependencies:
         assert users(run(dry=True)) == ["data/Bench.mo"]
     assert not [path for _, path in dependencies.entries if "data/" in path and path.endswith(".csv")]
 
@@ -100,7 +100,7 @@ def test_more_folders_than_a_project_has_are_not_looked_through(project: Path, m
     monkeypatch.setattr(users_files, "_MOST", 50)
     run()
     drop("C1")
-    with Dependencies() as dependencies:
+    with Reads() as dependencies:
         (found,) = run(dry=True).diagnostics
     assert (found.severity, found.code, found.file) == ("warning", "too-many-folders", "urdfsync.toml")
     assert not any(str(path).endswith("Bench.mo") for _, path in dependencies.entries)

@@ -125,8 +125,9 @@ def test_it_loads_no_more_than_the_up_to_date_check(built: Path) -> None:
     assert done.stdout.splitlines() == ["ladder", "filter"]
     loaded = set(done.stderr.split())
     assert {name for name in loaded if name.startswith("urdfsync.")} <= {
-        *("urdfsync.__main__", "urdfsync.shells", "urdfsync.shells.completion", "urdfsync.answers"),
-        *("urdfsync.answers.uptodate", "urdfsync.answers.facts", "urdfsync.answers.streams"),
+        *("urdfsync.__main__", "urdfsync.shells", "urdfsync.shells.completion", "urdfsync.dependencies"),
+        *("urdfsync.noop", "urdfsync.output", "urdfsync.output.streams"),
+        *(f"urdfsync.dependencies.{name}" for name in ("facts", "localfile", "program", "record")),
     }
     assert not loaded & {"argparse", "msgspec", "json"}
 

@@ -10,8 +10,8 @@ import pytest
 from support.git import NEEDS_GIT, Repository
 from support.networks import BASES, LADDER, R1, RECORD, configure, edit, mentioned, own_model, resistor, run, stored
 
-from urdfsync.answers.dependencies import Dependencies
-from urdfsync.answers.facts import LSTAT
+from urdfsync.dependencies.facts import PATH
+from urdfsync.dependencies.reads import Reads
 from urdfsync.engine.actions import Reason
 from urdfsync.files import text_digest
 from urdfsync.state import bases
@@ -67,9 +67,9 @@ def test_every_generated_text_has_its_line(project: Path) -> None:
 def test_an_answer_depends_on_all_files_and_one_number_touches_two_at_most(project: Path) -> None:
     run()
     before = {file: file.stat().st_mtime_ns for file in BASES.iterdir()}
-    with Dependencies() as found:
+    with Reads() as found:
         assert run().in_step
-    assert before.keys() <= {Path(path).relative_to(project) for check, path in found.entries if check == LSTAT}
+    assert before.keys() <= {Path(path).relative_to(project) for check, path in found.entries if check == PATH}
     resistor(150)
     run()
     changed = [file for file in BASES.iterdir() if file.stat().st_mtime_ns != before[file]]
@@ -100,7 +100,7 @@ def test_an_edit_new_templates_and_an_export_in_one_interval_are_merged(
 ) -> None:
     run()
     if is_clone:
-        left_out = shutil.ignore_patterns("conflicts", "replaced", "lock", "stamp-*")
+        left_out = shutil.ignore_patterns("conflicts", "replaced", "lock", "deps")
         monkeypatch.chdir(shutil.copytree(project, tmp_path / "clone", ignore=left_out))
     edit(R1, "end R1", NOTE)
     edit(RECORD, "end R1", NOTE)

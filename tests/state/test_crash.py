@@ -127,11 +127,11 @@ def every(project: Path, work: Path, names: Sequence[str]) -> Iterator[tuple[Ope
 # Kills
 
 
-ALWAYS = ("exchange", "replace", "write", "write_bound", "remove", "sync")
+ALWAYS = ("exchange", "replace", "write", "write_local", "remove", "sync")
 """Operations of every build that writes."""
 IN_SCENARIO = {
     "changed": (*ALWAYS, "place"),
-    "project": ("place", "replace", "write", "write_bound", "make_folder", "remove", "sync"),
+    "project": ("place", "replace", "write", "write_local", "make_folder", "remove", "sync"),
     "moved": crashes.NAMES,
     "renamed": (*ALWAYS, "place", "make_folder"),
     "edited": (*ALWAYS, "place", "make_folder"),
@@ -151,7 +151,7 @@ def test_a_killed_build_is_finished_by_the_next(scenario: Path, tmp_path: Path, 
     assert_finished(scenario, tmp_path, names)
 
 
-@pytest.mark.parametrize("name", ["write", "write_bound"])
+@pytest.mark.parametrize("name", ["write", "write_local"])
 def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(
     changed: Path, tmp_path: Path, name: str
 ) -> None:

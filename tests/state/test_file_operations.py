@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 from unittest import mock
 
-import msgspec
 import psutil
 import pytest
 
@@ -56,24 +55,9 @@ def test_what_is_written_takes_no_place_and_follows_no_link(tmp_path: Path, old:
         with pytest.raises(FileExistsError):
             file_operations.write(path, b"new", old)
         with pytest.raises(FileExistsError):
-            file_operations.write_bound(path, file_operations.Bound())
+            file_operations.write_local(path, b"new")
     assert old.read_bytes() == b"old"
     assert not (tmp_path / "none").exists()
-
-
-def test_a_file_is_bound_to_its_place(tmp_path: Path) -> None:
-    path, copy = tmp_path / "bound", tmp_path / "copy"
-    file_operations.write_bound(path, file_operations.Bound())
-    assert not path.stat().st_mode & 0o111
-    content = msgspec.json.decode(path.read_bytes(), type=file_operations.Bound)
-    assert file_operations.is_bound(path, content)
-    copy.write_bytes(path.read_bytes())
-    os.utime(copy, ns=(content.written_at, content.written_at))
-    assert not file_operations.is_bound(copy, content)
-    path.rename(tmp_path / "moved")
-    assert file_operations.is_bound(tmp_path / "moved", content)
-    (tmp_path / "moved").write_bytes(copy.read_bytes())
-    assert not file_operations.is_bound(tmp_path / "moved", content)
 
 
 def test_a_place_must_be_free(system: str, old: Path, tmp_path: Path) -> None:

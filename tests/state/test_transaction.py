@@ -128,7 +128,7 @@ def test_a_power_failure_at_any_moment_loses_nothing(
         assert path.name != "deleted.mo" or (tmp_path / "b/c/made.mo").exists(), "deletions come last"
         at_risk.add(target.parent)
 
-    for name in ("write", "write_bound"):
+    for name in ("write", "write_local"):
         before(name, lambda path, *_: at_risk.add(path))
     for name in ("exchange", "place", "replace"):
         before(name, take_place)

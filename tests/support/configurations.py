@@ -16,9 +16,9 @@ import jsonschema
 import pytest
 
 from urdfsync import config, registry
-from urdfsync.answers.dependencies import Dependencies
 from urdfsync.config import Config
 from urdfsync.config.schema import config_schema
+from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import ConfigError, Diagnostic
 
 ROOT = Path(os.path.abspath("/project"))  # noqa: PTH100 - a drive on Windows
@@ -55,7 +55,7 @@ def _is_valid(text: str, path: tuple[str, ...]) -> bool:
 @functools.cache
 def _validator(path: tuple[str, ...]) -> jsonschema.Draft202012Validator:
     """Return the validator for the domains that are installed on Python's path."""
-    with Dependencies():  # no answer of a command depends on these reads
+    with Reads():  # no record depends on these reads
         schema = config_schema()
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)

@@ -27,8 +27,8 @@ from urdfsync.state.store import Store
 
 CHANGES = ("exchange", "place", "replace")
 """Operations on targets, and on the planned hashes."""
-NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "write_bound", "remove", "sync")
-WRITES = ("write", "write_bound")
+NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "write_local", "remove", "sync")
+WRITES = ("write", "write_local")
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 ALL = "URDFSYNC_CRASHES"
 """Environment variable that chooses all operations, whatever its value."""

@@ -11,11 +11,9 @@ from urdfsync import api
 
 
 def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
-    """Time of change and content of every file below a folder, except notes and saved answers of this machine."""
+    """Time of change and content of every file below a folder, except what this machine notes and remembers."""
     files = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*")) if path.is_file()}
-    files = {
-        name: path for name, path in files.items() if not name.startswith((".urdfsync/notes/", ".urdfsync/stamp-"))
-    }
+    files = {name: path for name, path in files.items() if not name.startswith((".urdfsync/notes/", ".urdfsync/deps/"))}
     return {name: (path.stat().st_mtime_ns, path.read_bytes()) for name, path in files.items()}
 
 

@@ -242,7 +242,7 @@ COMMITTED: Mapping[str, Attack] = {
         ".urdfsync/.planned.json.urdfsync-tmp", "victim.mo"
     ),
     "bases that are a link": lambda one: one.link(".urdfsync/bases/arm", "folder"),
-    "an answer that is a link": lambda one: one.link(".urdfsync/stamp-build", "victim.mo"),
+    "a record that is a link": lambda one: one.link(".urdfsync/deps/arm.robot", "victim.mo"),
     "a lock that is a link": lambda one: one.link(".urdfsync/lock", "victim.mo"),
     "conflicts that are a link": lambda one: one.link(".urdfsync/conflicts", "folder"),
     "a drawing that is a link": lambda one: one.link(".urdfsync/svg", "folder"),
@@ -275,7 +275,7 @@ LOCAL: Mapping[str, Attack] = {
     "a source that is a FIFO": lambda one: one.fifo("arm.urdf"),
     "a configuration that is a FIFO": lambda one: one.fifo("urdfsync.toml"),
     "a manifest that is a FIFO": lambda one: one.fifo(MANIFEST),
-    "an answer that is a FIFO": lambda one: one.fifo(".urdfsync/stamp-build"),
+    "a record that is a FIFO": lambda one: one.fifo(".urdfsync/deps/arm.robot"),
     "a lock that is a FIFO": lambda one: one.fifo(".urdfsync/lock"),
     "an output that is a FIFO": lambda one: one.fifo(RECORD),
     "a source of 200 MB": lambda one: one.large("arm.urdf"),

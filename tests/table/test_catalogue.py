@@ -7,13 +7,13 @@ import shutil
 from pathlib import Path
 
 import pytest
-from support.answers import save, saved
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
+from support.remembered import save, saved
 
 from urdfsync import config
-from urdfsync.answers import facts
+from urdfsync.dependencies import facts
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
@@ -60,7 +60,7 @@ def test_an_edited_number_is_kept(project: Path, execute: Execute) -> None:
     assert "effort = 3)" in ELBOW.read_text()
 
 
-def test_the_catalogue_is_read_by_saved_answers_and_the_daemon(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_catalogue_is_a_dependency(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(facts, "YOUNG", 0)
     loaded = config.load(Path("urdfsync.toml"))
     (result,) = build(loaded, loaded.select(["arm"]), BuildOptions())

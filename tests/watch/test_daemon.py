@@ -69,7 +69,6 @@ def test_it_builds_at_its_start_and_whenever_the_source_changed(start: Start) ->
     watch = start()
     assert watch.kinds() == ["started", "building", "built"]
     since = watch.mark
-    Path("ladder.json").touch()
     Path("unrelated").mkdir()
     for number in range(500):
         Path("unrelated" if number % 2 else ".", f"{number}.txt").write_text("nothing")

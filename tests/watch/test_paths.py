@@ -8,7 +8,7 @@ import pytest
 from support.networks import configure, run
 
 from urdfsync import config
-from urdfsync.answers.facts import LSTAT, MODELICA, NAMES, STAT, Entry
+from urdfsync.dependencies.facts import MODELICA, NAMES, PATH, Entry
 from urdfsync.watch.paths import WatchedFolders, find_watched_folders
 
 
@@ -17,7 +17,7 @@ def seen(project: Path, source: str, *entries: Entry, output: str = "modelica") 
     text = f'[robots.arm]\nsource = "{source}"\npackage = "Arm"\noutput = "{output}"\n'
     loaded = config.parse(text, project / "urdfsync.toml", "urdfsync.toml")
     paths = str(loaded.file), str(loaded.robots[0].source)
-    return find_watched_folders(loaded, [*((STAT, path) for path in paths), *entries])
+    return find_watched_folders(loaded, [*((PATH, path) for path in paths), *entries])
 
 
 def test_what_is_read_or_missing_or_listed_is_watched(project: Path) -> None:
@@ -39,7 +39,7 @@ def test_elsewhere_folders_are_watched_up_to_the_nearest_common_one(tmp_path: Pa
     project.mkdir(parents=True)
     cad.mkdir(parents=True)
     (cad / "arm.urdf").write_text("")
-    found = seen(project, str(cad / "arm.urdf"), (STAT, str(tmp_path / "arm.yaml")), (NAMES, "/usr"))
+    found = seen(project, str(cad / "arm.urdf"), (PATH, str(tmp_path / "arm.yaml")), (NAMES, "/usr"))
     assert found.singles == {str(folder) for folder in (project, tmp_path, tmp_path / "cad", cad)}
 
 
@@ -55,7 +55,7 @@ def test_many_folders_are_watched_by_the_one_around_them(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("root", ["/", "/project"])
 def test_the_root_is_never_watched(root: str) -> None:
-    found = seen(Path(root), "/etc/hostname", (LSTAT, "/arm.mo"), output="/usr")
+    found = seen(Path(root), "/etc/hostname", (PATH, "/arm.mo"), output="/usr")
     assert "/" not in found.singles | found.trees
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import time
 from pathlib import Path
@@ -11,9 +10,9 @@ import msgspec
 import pytest
 
 from urdfsync import config
-from urdfsync.answers import facts
-from urdfsync.answers.dependencies import Dependencies, file_type, list_folder, read_file, read_variable, scan_modelica
-from urdfsync.answers.facts import STAT
+from urdfsync.dependencies import facts
+from urdfsync.dependencies.reads import Reads, file_type, list_folder, read_file, read_variable, scan_modelica
+from urdfsync.dependencies.record import FactList
 from urdfsync.files import Tree
 from urdfsync.watch.robot import WatchedRobot
 
@@ -27,15 +26,15 @@ def robot(folder: Path, request: pytest.FixtureRequest, monkeypatch: pytest.Monk
         Path(path).write_text("old")
     text = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ntemplates = "own"\n'
     found = WatchedRobot(config.parse(text, folder / "urdfsync.toml", "urdfsync.toml").robots[0])
-    assert found.take(read(folder), {})
+    assert found.take(FactList.of(read(folder)), FactList())
     assert found.look()
     assert not found.look()
     assert not found.has_changed
     return found
 
 
-def read(folder: Path) -> Dependencies:
-    with Dependencies() as reads:
+def read(folder: Path) -> Reads:
+    with Reads() as reads:
         for path in ("arm.urdf", "own/a.jinja"):
             assert read_file(folder / path)
         assert file_type(folder / "gone.stl") == 0
@@ -62,11 +61,7 @@ def test_a_look_finds_what_changed_an_input_first_and_names_in_folders_in_silenc
     assert robot.changed_file == (str(Path(first).absolute()) if first else "")
 
 
-def test_only_contents_count(robot: WatchedRobot) -> None:
-    for path in ("arm.urdf", "Arm.mo", "own/a.jinja"):
-        os.utime(path, ns=(1, 1))
-    robot.look()
-    assert not robot.has_changed
+def test_a_deleted_file_has_changed(robot: WatchedRobot) -> None:
     Path("arm.urdf").unlink()
     robot.look()
     assert robot.changed_file == str(Path("arm.urdf").absolute())
@@ -77,7 +72,7 @@ def test_what_changed_since_it_was_read_has_changed(robot: WatchedRobot, folder:
     reads = read(folder)
     time.sleep(0.02)
     Path("arm.urdf").write_text("now")
-    assert not robot.take(reads, {}), "the entries are the same"
+    assert not robot.take(FactList.of(reads), FactList()), "the entries are the same"
     robot.look()
     assert robot.changed_file == str(Path("arm.urdf").absolute())
 
@@ -87,7 +82,7 @@ def test_what_a_build_wrote_has_not(robot: WatchedRobot, folder: Path) -> None:
     for name in ("New.mo", "Arm.mo"):
         Path(name).write_text("written")
     reads.renew({str(folder / name): b"written" for name in ("New.mo", "Arm.mo")})
-    robot.take(reads, {})
+    robot.take(FactList.of(reads), FactList())
     robot.look()
     assert not robot.has_changed
     Path("New.mo").write_text("WRITTEN")
@@ -97,18 +92,29 @@ def test_what_a_build_wrote_has_not(robot: WatchedRobot, folder: Path) -> None:
 
 def test_after_a_bug_the_robot_is_as_it_is(robot: WatchedRobot) -> None:
     Path("arm.urdf").write_text("new")
-    assert not robot.take(Dependencies(), {})
+    assert not robot.take(FactList(), FactList())
     robot.look()
     assert not robot.has_changed
 
 
-def test_a_link_in_the_place_of_a_model_is_a_change_and_one_to_a_source_is_not(robot: WatchedRobot) -> None:
-    for name in ("arm.urdf", "Arm.mo"):
-        shutil.move(name, f"{name}.moved")
-        Path(name).symlink_to(f"{name}.moved")
+def test_a_young_file_changes_by_its_content(
+    robot: WatchedRobot, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(facts, "YOUNG", 10**19)
+    monkeypatch.setattr(facts, "stat_of", lambda status: (status.st_mode, 0, 0, status.st_size, 1, 1))
+    robot.take(FactList.of(read(folder)), FactList())
     robot.look()
-    assert robot.changed_file == str(Path("Arm.mo").absolute())
-    assert robot.seen[STAT, str(Path("arm.urdf").absolute())] == robot.built[STAT, str(Path("arm.urdf").absolute())]
+    assert not robot.has_changed
+    Path("arm.urdf").write_text("new")
+    robot.look()
+    assert robot.changed_file == str(Path("arm.urdf").absolute())
+
+
+def test_a_link_in_the_place_of_a_file_is_a_change(robot: WatchedRobot) -> None:
+    shutil.move("arm.urdf", "arm.urdf.moved")
+    Path("arm.urdf").symlink_to("arm.urdf.moved")
+    robot.look()
+    assert robot.changed_file == str(Path("arm.urdf").absolute())
 
 
 def test_to_settle_forgets_earlier_looks(robot: WatchedRobot) -> None:

@@ -12,7 +12,7 @@ import shutil
 from collections.abc import Collection
 from pathlib import Path
 
-from urdfsync.answers.facts import read_unrecorded
+from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import OutputError, UrdfsyncError
 from urdfsync.files import shown
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import functools
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 
 import msgspec
 
-import urdfsync
 from urdfsync import registry
 from urdfsync.checks import compilers, libraries, package
 from urdfsync.checks.cache import digest
@@ -20,7 +17,6 @@ from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine import source
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.program import installed
 from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.store import Store
@@ -43,7 +39,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
         places |= {str(path): path for path in libraries.standard_libraries()}
     try:
         return digest(
-            *program(robot.domain),
+            *(sys.platform, registry.program(robot.domain)),
             *(compilers.state(tool) for tool in tools),
             [(name, str(path), content_hash(path)) for name, path in sorted(places.items())],
             # the compiler gets copies of these libraries without resources
@@ -79,21 +75,3 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         *(sorted(files.items()) for files in (texts, around, users)),
     )
     return f"{key}{PHYSICS}" if key and options.physics else key
-
-
-def program(domain: str) -> tuple[object, ...]:
-    """Return hashes and versions of urdfsync's code, a domain's code, Python, and its packages."""
-    return sys.version, sys.platform, installed(), _code(urdfsync.__file__), _domain_code(domain)
-
-
-@functools.cache
-def _code(file: str) -> str:
-    """Hash the code of a module's package, once: a process goes on with the code that it has loaded."""
-    return content_hash(Path(file).parent if Path(file).name == "__init__.py" else Path(file))
-
-
-def _domain_code(name: str) -> list[str]:
-    """Hash the code of a loaded domain: of its top-level package or module."""
-    module = sys.modules[registry.top_level(name)]
-    files = [module.__file__] if module.__file__ else [f"{path}/__init__.py" for path in module.__path__]
-    return [_code(file) for file in files]

@@ -12,11 +12,11 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.answers.facts import read_unrecorded
 from urdfsync.checks.cache import UserCache, cache_errors, digest
 from urdfsync.checks.contents import RESOURCES, content_hash, package_texts
 from urdfsync.checks.packed import Library, Piece, names_in, packed, pieces
 from urdfsync.config import Config, RobotConfig, find_own_library
+from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 

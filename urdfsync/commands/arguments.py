@@ -12,11 +12,13 @@ from typing import Any, NoReturn, TypeAlias, TypeVar, get_args
 
 import msgspec
 
-from urdfsync.answers.facts import read_unrecorded
 from urdfsync.api import load
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.remembered import remember_configuration
 from urdfsync.output.console import PURPOSES, Console, Format
 from urdfsync.overview import CODES
 
@@ -168,10 +170,14 @@ def call(
 
     The fields of `kind` are set by arguments of the same names, or by `given`.
     """
-    loaded = load(args.config)
-    robots = select_robots(args, loaded, console)
+    with Reads() as reads:
+        loaded = load(args.config)
+        robots = select_robots(args, loaded, console)
     given = {**chosen(kind, args), **given, "config": loaded, "progress": console.progress}
-    return function(*(robot.name for robot in robots), **given)
+    value = function(*(robot.name for robot in robots), **given)
+    if kind is BuildOptions and robots == loaded.robots and not console.has_warned:
+        remember_configuration(loaded, reads)
+    return value
 
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:

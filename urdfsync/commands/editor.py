@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
-from urdfsync.answers.facts import read_unrecorded
+from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.package_files import encode

@@ -16,11 +16,9 @@ import msgspec
 
 from urdfsync import config as configuration
 from urdfsync import git
-from urdfsync.answers import uptodate
-from urdfsync.answers.dependencies import Dependencies
-from urdfsync.answers.facts import LISTINGS, LSTAT, VARIABLE
 from urdfsync.commands import arguments
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.dependencies.facts import LISTINGS, VARIABLE
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, findings_of
 from urdfsync.engine import parents
 from urdfsync.engine.actions import ORPHANS, Reason
@@ -72,8 +70,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         paths = commit.paths([args.config]) if args.config else hook.find_configurations(commit.index)
         for path in sorted(paths) if commit.touched else ():
             try:
-                if not hook.passes(commit.index, path):
-                    faults += _find_faults(commit, path, arguments.request(args, console), args.mode == "build")
+                faults += _find_faults(commit, path, arguments.request(args, console), args.mode == "build")
             except git.GitError:
                 raise
             except Exception as error:  # noqa: BLE001 - one configuration's error does not stop the others
@@ -144,7 +141,7 @@ class RobotFiles:
         """Add the files that a plan or a build has read or written."""
         entries = [entry for entry in result.reads.entries if entry[0] not in (*LISTINGS, VARIABLE)]
         package = f"{self.robot.folder}{os.sep}"
-        outputs = {path for check, path in entries if check == LSTAT or path.startswith(package)}
+        outputs = {path for _, path in entries if path.startswith((package, self._state))}
         unneeded = {action.path for action in result.actions if action.reason in _UNNEEDED}
         outputs -= {os.path.normpath(result.root / path) for path in unneeded}
         self.outputs |= self._commit.paths(path for path in outputs if self._is_for_git(path))
@@ -208,14 +205,10 @@ class RobotFiles:
 
 def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool) -> Iterator[Fault]:
     """Yield the faults of the robots of one configuration; with `writing`, build the robots. Raises UrdfsyncError."""
-    file, key = hook.answer_place(commit.index, path)
-    with Dependencies() as everything:
-        config = configuration.load(Path(file))
-        robots = [_plan(commit, config, robot, options) for robot in config.robots]
+    config = configuration.load(Path(commit.index.top, path))
+    robots = [_plan(commit, config, robot, options) for robot in config.robots]
     commit.index = index = git.Index()  # the daemon may have written files since the first look, and before the plan
     if not any(not robot.planned.in_step or robot.find_unstaged() or robot.select(index.hidden) for robot in robots):
-        needed = {path for robot in robots for path in (*(robot.known & index.tracked), *robot.folders)}
-        uptodate.save_answer(file, "hook", key, sorted(needed), everything)
         return
     to_build = []
     for robot in robots:

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers.facts import read_unrecorded
 from urdfsync.api import record
 from urdfsync.commands import arguments
+from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import OutputError
 from urdfsync.engine.result import Exit
 from urdfsync.files import normalised, shown

@@ -19,7 +19,6 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 import msgspec
 
 from urdfsync import registry
-from urdfsync.answers import dependencies
 from urdfsync.config import tomlfile
 from urdfsync.config.names import find_name_problems, is_robot_name, model_class
 from urdfsync.config.settings import (
@@ -34,6 +33,7 @@ from urdfsync.config.settings import (
     RobotConfig,
     SharedKeys,
 )
+from urdfsync.dependencies import reads
 from urdfsync.diagnostics import IGNORABLE, ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
 from urdfsync.files import shown
@@ -56,7 +56,7 @@ def find(start: Path) -> Path:
     """Find the configuration file in `start` or the nearest folder above it. Raises ConfigError without such a file."""
     for folder in (start, *start.parents):
         # a pipe of this name counts, too: `load` reports it as unreadable
-        if dependencies.file_type(folder / FILE_NAME) not in (0, stat.S_IFDIR):
+        if reads.file_type(folder / FILE_NAME) not in (0, stat.S_IFDIR):
             return folder / FILE_NAME
     message = f"no {FILE_NAME} in {start} or a folder above it"
     hint = "write one with `urdfsync init SOURCE`, or name one with --config"
@@ -67,7 +67,7 @@ def load(file: Path) -> Config:
     """Read a configuration file. Raises ConfigError with all faults of the file."""
     code, line = "unreadable-config", 0
     try:
-        text = dependencies.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        text = reads.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
         place = file.absolute()
         return parse(text, place.resolve() if ".." in place.parts else place, shown(file))
     except FileNotFoundError:

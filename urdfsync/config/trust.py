@@ -7,9 +7,9 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers import dependencies
 from urdfsync.config import tomlfile
 from urdfsync.config.settings import Config, RobotConfig
+from urdfsync.dependencies import reads
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.files import shown
 
@@ -57,7 +57,7 @@ def _find_untrusted(config: Config, message: str, line: int, code: str = "untrus
 
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
     try:
-        text = dependencies.read_file(file).decode()
+        text = reads.read_file(file).decode()
         folders = msgspec.convert(tomlfile.parse(text, str(file), ConfigError), _Trusted).folders
     except FileNotFoundError:
         folders = []

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from urdfsync import registry
-from urdfsync.answers.dependencies import file_type, is_folder, read_file, walk_files
 from urdfsync.config.paths import templates_folder
 from urdfsync.config.settings import Config, RobotConfig
+from urdfsync.dependencies.reads import file_type, is_folder, read_file, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import shown
 from urdfsync.spelling import nearest

@@ -1,4 +1,4 @@
-"""Builds robots: plans each, and carries out the plan.
+"""Builds robots: plans each robot whose remembered result does not hold any more, and carries out the plan.
 
 Planning locks nothing. A build with something to write takes the build lock, and verifies the plan. It keeps the lock
 until all robots are built.
@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.answers import dependencies
-from urdfsync.answers.dependencies import Dependencies
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
+from urdfsync.dependencies import localfile
+from urdfsync.dependencies.facts import Entry, Facts
+from urdfsync.dependencies.reads import Reads
+from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import (
     ConfigError,
     Diagnostic,
@@ -23,8 +25,10 @@ from urdfsync.diagnostics import (
     Severity,
     SourceError,
     StateError,
+    UrdfsyncError,
     findings_of,
 )
+from urdfsync.engine import remembered
 from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import PackageFiles
@@ -53,15 +57,17 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
     """Build robots one after the other; a failure does not stop the other robots."""
     with contextlib.ExitStack() as stack:
         lock = stack.enter_context(build_lock(config.root / STATE_FOLDER, options.wait))
-        pool = None
-        if options.executor or (len(robots) >= _LEAST_ROBOTS and (options.jobs or machine.cores()) > 1):
+        builder = _Builder(config, options, lock)
+        seen = dict[Entry, Facts]()
+        known = {robot.name: builder.recall(robot, seen) for robot in robots}
+        changed = [robot for robot in robots if known[robot.name] is None]
+        if options.executor or (len(changed) >= _LEAST_ROBOTS and (options.jobs or machine.cores()) > 1):
             from urdfsync.engine.pool import start_pool  # multiprocessing takes 15 ms to import
 
-            pool = stack.enter_context(start_pool(config, robots, options))
-        builder = _Builder(config, options, lock, pool)
+            builder.pool = stack.enter_context(start_pool(config, changed, options)) if changed else None
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
-            result = builder.build(robot)
+            result = known[robot.name] or builder.build(robot)
             notes = config.without_ignored([*([] if count else orphaned_state(config)), *builder.notes])
             builder.notes = []
             yield msgspec.structs.replace(result, diagnostics=(*notes, *robot.without_ignored(result.diagnostics)))
@@ -70,17 +76,33 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
 class _Builder:
     """The robots of one command."""
 
-    def __init__(self, config: Config, options: BuildOptions, lock: Lock, pool: Pool | None) -> None:
-        self._config, self._options, self._lock, self._pool = config, options, lock, pool
+    def __init__(self, config: Config, options: BuildOptions, lock: Lock) -> None:
+        self._config, self._options, self._lock = config, options, lock
+        self._keys = remembered.Keys(config, options)
+        self.pool: Pool | None = None
+        """Plans the robots that are not remembered, if there are many."""
         self._state_folder = config.root / STATE_FOLDER
         outputs = {robot.output for robot in config.robots}
         self._transactions = Transactions(config.root, self._state_folder, outputs)
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
+    def recall(self, robot: RobotConfig, seen: dict[Entry, Facts]) -> Result | None:
+        """Return the remembered result of a robot whose package leaves nothing to do; None if it has to be planned.
+
+        `seen` has facts that were looked at just now, and gets the others.
+        """
+        is_inside = robot.output.is_relative_to(self._config.root)  # otherwise it matters who trusts the folder
+        if not is_inside or self._transactions.is_pending():
+            return None
+        try:
+            return remembered.recall(self._config, robot, self._options, self._keys.key(robot), seen)
+        except UrdfsyncError:  # its domain is missing, or broken: the build reports it
+            return None
+
     def build(self, robot: RobotConfig) -> Result:
         """Build one robot. The result has all errors as diagnostics."""
-        self._reads = Dependencies()
+        self._reads = Reads()
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
             if untrusted and not self._options.dry:
@@ -98,18 +120,19 @@ class _Builder:
                 unfinished=isinstance(error, UnfinishedError),
                 source_error=error if isinstance(error, SourceError) else None,
                 dry=self._options.dry,
-                reads=self._reads,
+                reads=FactList.of(self._reads),
             )
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
-        return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics), reads=self._reads)
+        facts = FactList.of(self._reads)
+        return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics), reads=facts)
 
     def _plan_and_write(self, robot: RobotConfig) -> Result:
         """Plan, and write unless the run is dry. Repeat if another build or a save made the plan outdated."""
         saved = robot.folder
         for _ in range(_ATTEMPTS):
-            with Dependencies() as self._reads:
+            with Reads() as self._reads:
                 self._recover()
-                plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
+                plan = self.pool.plan(robot) if self.pool else plan_robot(self._config, robot, self._options)
             if self._options.dry:
                 if self._is_current(plan):
                     self._note(robot, plan)
@@ -118,7 +141,6 @@ class _Builder:
             if not (plan.result.writes or plan.writes or self._transactions.is_pending()):
                 self._note(robot, plan)
                 return plan.result
-            dependencies.mark_incomplete()  # the build now changes files that it read
             self._lock.acquire(self._wait)
             if not self._is_current(plan):
                 continue
@@ -136,8 +158,13 @@ class _Builder:
         raise OutputError.of("restless", message, shown(saved), hint=hint)
 
     def _note(self, robot: RobotConfig, plan: Plan) -> None:
+        """Save this machine's notes; remember the result of a plan without any write."""
         if plan.notes:
             notes.save(self._state_folder, robot.name, plan.notes)
+            file = notes.place(self._state_folder, robot.name)
+            self._reads.renew({str(file): localfile.read_whole(file)})
+        if self._options.renews and not (plan.result.writes or plan.writes):
+            remembered.remember(self._config, robot, self._keys.key(robot), self._reads, plan.result)
 
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build has written, or begun to write, since the plan was made."""

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync import git
-from urdfsync.answers import dependencies
+from urdfsync.dependencies import reads
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.domain import ElementKey, Role, Snapshot
 from urdfsync.engine.actions import Action, Reason
@@ -59,7 +59,7 @@ def find_doubts(
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
     if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
-        dependencies.mark_incomplete()  # a commit may change this result without changing a file
+        reads.cannot_record()  # a commit may change this result without changing a file
         edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
         for commit in _commits(inputs):
             doubts |= _look(inputs, generation, commit, edits)

@@ -15,8 +15,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers.dependencies import is_file, read_file, read_variable
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.reads import is_file, read_file, read_variable
 from urdfsync.diagnostics import SourceError
 from urdfsync.engine import ros_packages
 from urdfsync.engine.xacro_worker import NOT_UNICODE, Answer, Problem, Request, find_matches

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync.answers import dependencies
 from urdfsync.changes import Changes, Effects
 from urdfsync.config import Config
 from urdfsync.config.advice import Advice, brings_back
+from urdfsync.dependencies import reads
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Snapshot
 from urdfsync.engine.actions import Actions, Reason
@@ -251,7 +251,7 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
 
 def _facts(path: Path) -> tuple[int, ...]:
     try:
-        return dependencies.read_stat(path)
+        return reads.read_stat(path)
     except OSError:
         return (0,)
 
@@ -262,7 +262,7 @@ def _lines(path: Path, names: Mapping[str, str]) -> dict[str, int]:
     from urdfsync.modelica.files import text_of
 
     try:
-        text = text_of(dependencies.read_file(path))
+        text = text_of(reads.read_file(path))
     except OSError:
         return {}
     if path.suffix == ".mo":

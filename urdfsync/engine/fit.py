@@ -14,8 +14,8 @@ from pathlib import Path, PurePosixPath
 
 import msgspec
 
-from urdfsync.answers.dependencies import is_file
 from urdfsync.config import find_own_library
+from urdfsync.dependencies.reads import is_file
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.package_after import PackageAfter, as_file
 from urdfsync.engine.package_names import class_of, declared_names

@@ -14,9 +14,9 @@ from typing import Any, Protocol
 
 import msgspec
 
-from urdfsync.answers.dependencies import file_type, read_file
-from urdfsync.answers.facts import MAX_FILE
 from urdfsync.config import RobotConfig
+from urdfsync.dependencies.facts import MAX_FILE
+from urdfsync.dependencies.reads import file_type, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine import ros_packages

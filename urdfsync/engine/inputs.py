@@ -9,8 +9,8 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync import __version__, registry
-from urdfsync.answers.dependencies import file_type
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.reads import file_type
 from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine import parents, source
@@ -19,10 +19,9 @@ from urdfsync.engine.last_build import LastBuild, option_values
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.parents import Parents
-from urdfsync.engine.program import program_hash
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
-from urdfsync.files import Templates, shown
+from urdfsync.files import Templates, digest, shown
 from urdfsync.state.record import FileRecord, Generator, Record
 from urdfsync.state.store import Store
 
@@ -122,7 +121,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         generator=generator,
         options=option_values(robot.options),
     )
-    program = program_hash(robot.domain, templates.digest)
+    program = digest(f"{registry.program(robot.domain, store.folder)} {templates.digest}".encode())
     if notes.program != program:  # another program wrote these texts and imports
         notes = msgspec.structs.replace(notes, texts={}, imports=frozenset())
     last = LastBuild(name, record, notes, store, files, domain, robot, templates)

@@ -140,7 +140,11 @@ class PackageAfter(Mapping[str, bytes]):
     def extended_orders(self) -> dict[str, tuple[str, set[str]]]:
         """Each `package.order` with names of the user's classes, by path: its text, and the lines with these names."""
         inputs, files, orders, merged = self.inputs, self.inputs.files, self.package.orders, self.merged
-        written = (one.path for one in self.actions if one.role is Role.ORDER and not one.is_waiting)
+        # the orders around the package name other robots, too
+        orders_inside = (
+            one for one in self.actions if one.role is Role.ORDER and one.path.startswith(inputs.folder.key(""))
+        )
+        written = (one.path for one in orders_inside if not one.is_waiting)
         users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
         texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}
         texts |= {inputs.folder.path(key): merged[key] for key in written if key in merged}

@@ -8,9 +8,9 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import NamedTuple
 
-from urdfsync.answers import dependencies
-from urdfsync.answers.facts import is_young
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import reads
+from urdfsync.dependencies.facts import is_young
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
@@ -150,7 +150,7 @@ class PackageFiles:
         tree = self._tree(folder)
         if tree is not None and tree.check_folder(folder):
             try:
-                facts = dependencies.read_stat(path)
+                facts = reads.read_stat(path)
             except OSError:  # which `read` explains
                 facts = (0,)
             state = unchanged_state(path, facts)
@@ -176,18 +176,18 @@ class PackageFiles:
         tree = self._tree(folder)
         if tree is not None and not tree.check_folder(folder):
             return None
-        is_class_folder = dependencies.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
+        is_class_folder = reads.is_file(f"{path.removesuffix('.mo')}{os.sep}package.mo")
         return CLASS_FOLDER if is_class_folder else None
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Return whether the folder of a `package.mo` holds other classes; the files in `gone` do not count."""
         folder, left = self.path(key).parent, {*gone, *(key for key, text in self.overlay.items() if text is None)}
-        for path in map(folder.joinpath, dependencies.list_folder(folder)):
+        for path in map(folder.joinpath, reads.list_folder(folder)):
             package = path / "package.mo"
-            if path.suffix == ".mo" and path.name != "package.mo" and dependencies.is_file(path):
+            if path.suffix == ".mo" and path.name != "package.mo" and reads.is_file(path):
                 if self.key(path) not in left:
                     return True
-            elif dependencies.is_file(package) and self.key(package) not in left:
+            elif reads.is_file(package) and self.key(package) not in left:
                 return True
         return False
 
@@ -206,7 +206,7 @@ class PackageFiles:
         place, key = self.path(folder), f"{folder.rstrip('/')}/{name}.mo"
         if key in self.overlay:
             return self.overlay[key] is not None
-        return dependencies.is_file(place / f"{name}.mo") or dependencies.is_folder(place / name)
+        return reads.is_file(place / f"{name}.mo") or reads.is_folder(place / name)
 
     def _place(self, key: str) -> str:
         return placed(self._prefix, key)

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers.dependencies import is_file, is_folder, read_file
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.reads import is_file, is_folder, read_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.files import digest, shown

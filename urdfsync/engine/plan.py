@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from urdfsync.answers import dependencies
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.generation import generate_robot
@@ -28,7 +27,4 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     if options.choices:
         inputs = with_choices(inputs, settle(inputs, generation, decision))
         decision = decide_package(inputs, generation)
-    plan = stage(inputs, generation, decision)
-    if options.full or options.draw or plan.result.writes:
-        dependencies.mark_incomplete()  # this work reads some files without recording them as dependencies
-    return plan
+    return stage(inputs, generation, decision)

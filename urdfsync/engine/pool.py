@@ -10,9 +10,8 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.answers import dependencies
-from urdfsync.answers.dependencies import Dependencies
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.reads import Reads, include
 from urdfsync.diagnostics import OutputError, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
@@ -26,7 +25,7 @@ _CLUSTER_WORKERS = 16
 """Assumed number of a cluster's workers, unless `--jobs` gives it."""
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
-_Planned: TypeAlias = tuple[Plan | UrdfsyncError | OSError, Dependencies]
+_Planned: TypeAlias = tuple[Plan | UrdfsyncError | OSError, Reads]
 """A plan or an error, and all files that the worker read."""
 
 
@@ -64,7 +63,7 @@ class Pool:
             raise OutputError.of(
                 "lost-process", f"robot `{robot.name}`: {reason}", hint="try again with `--jobs 1`"
             ) from error
-        dependencies.include(reads)
+        include(reads)
         if isinstance(plan, Exception):
             raise plan
         return plan
@@ -84,12 +83,11 @@ class Pool:
 
 def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> _Planned:
     """Plan in a worker; return the plan and all files that the worker read."""
-    with Dependencies() as reads:
+    with Reads() as reads:
         try:
             plan: Plan | UrdfsyncError | OSError = plan_robot(config, robot, options)
         except (UrdfsyncError, OSError) as error:
             plan = error
         except Exception as error:  # noqa: BLE001 - an uncaught error would look like the end of a worker
             plan = UrdfsyncError(*findings_of(error))
-    reads.add_modules()
     return plan, reads

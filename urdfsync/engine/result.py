@@ -10,8 +10,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers.dependencies import Dependencies
 from urdfsync.changes import Changes
+from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
 from urdfsync.engine.conflicts import Conflict
@@ -135,8 +135,8 @@ class Result(msgspec.Struct, frozen=True):
     """The keys of the files for which a choice was carried out."""
     checked: Checked | None = None
     """Result of the check after the build; None without a check. `diagnostics` includes the check's findings."""
-    reads: Dependencies = msgspec.field(default_factory=Dependencies)
-    """All files that the build has read; written files have their new facts."""
+    reads: FactList = msgspec.field(default_factory=FactList)
+    """Facts about all files that the build has read; written files have their new facts."""
 
     @property
     def conflicts(self) -> Sequence[DisputedFile]:

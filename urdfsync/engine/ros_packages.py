@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync.answers.dependencies import depend_on, file_type, is_file, is_folder, list_folder, note_names, read_file
+from urdfsync.dependencies.reads import depend_on, file_type, is_file, is_folder, list_folder, note_names, read_file
 
 _NAME = rb"<name>\s*([^<\s]+)\s*</name>"
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})

@@ -15,18 +15,18 @@ from typing import TYPE_CHECKING, Any, Protocol
 import msgspec
 
 from urdfsync import registry
-from urdfsync.answers.dependencies import (
+from urdfsync.config import Config, RobotConfig, templates_folder
+from urdfsync.config.trust import find_untrusted_command
+from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.dependencies.reads import (
+    cannot_record,
     depend_on,
     file_type,
     is_file,
     is_folder,
-    mark_incomplete,
     note_names,
     read_file,
 )
-from urdfsync.answers.facts import read_unrecorded
-from urdfsync.config import Config, RobotConfig, templates_folder
-from urdfsync.config.trust import find_untrusted_command
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Domain, Reading, Snapshot
 from urdfsync.engine.options import BuildOptions
@@ -183,7 +183,7 @@ def _expand(config: Config, robot: RobotConfig, inputs: SourceFiles, options: Bu
     else:
         raise ConfigError(untrusted)
     if inputs.find_changes(robot, made):
-        mark_incomplete()  # somebody saved a file meanwhile
+        cannot_record()  # somebody saved a file meanwhile
     return made
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync import git
-from urdfsync.answers import dependencies
+from urdfsync.dependencies import reads
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.conflicts import over_bases
@@ -144,7 +144,7 @@ def find_sides(file: Path, text: str) -> Sides | None:
     """
     import pygit2
 
-    dependencies.mark_incomplete()  # a commit may change this result without changing a file
+    reads.cannot_record()  # a commit may change this result without changing a file
     text = _plain(text)
     try:
         repository = Revision(file.parent, "HEAD").repository
@@ -167,7 +167,7 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
         return {}  # importing pygit2 takes 55 ms
     import pygit2
 
-    dependencies.mark_incomplete()  # a commit may change this result without changing a file
+    reads.cannot_record()  # a commit may change this result without changing a file
     wanted = {os.path.relpath(os.path.realpath(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
     found = dict[str, FileRecord]()
     try:

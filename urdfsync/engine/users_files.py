@@ -8,8 +8,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers import dependencies
 from urdfsync.config import FILE_NAME, Config, RobotConfig
+from urdfsync.dependencies import reads
 from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_that_use, modelica_files
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
@@ -30,7 +30,7 @@ class _Files(Mapping[Path, bytes]):
         if path in self._kept:
             return self._kept[path]
         try:
-            content = dependencies.read_file(path)
+            content = reads.read_file(path)
         except OSError:
             return b""
         if self._size + len(content) <= _MOST_KEPT:

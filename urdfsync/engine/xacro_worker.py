@@ -27,8 +27,8 @@ from xml.parsers import expat
 
 import msgspec
 
-from urdfsync.answers.dependencies import list_folder
-from urdfsync.answers.facts import MAX_FILE, read_unrecorded
+from urdfsync.dependencies.facts import MAX_FILE, read_unrecorded
+from urdfsync.dependencies.reads import list_folder
 from urdfsync.engine import ros_packages
 from urdfsync.engine.file_kinds import FileKind, find_conflict, find_kind
 from urdfsync.files import text_digest

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.answers.facts import read_unrecorded
+from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Dependency
 from urdfsync.files import digest, shown

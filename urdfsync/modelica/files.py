@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
-from urdfsync.answers.dependencies import is_file, scan_modelica
+from urdfsync.dependencies.reads import is_file, scan_modelica
 
 ClassName: TypeAlias = tuple[str, ...]
 PACKAGE_FILE = "package.mo"

@@ -18,7 +18,6 @@ from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 
-from urdfsync.answers import streams
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.documents import Document, plain
 from urdfsync.spelling import visible
@@ -155,6 +154,11 @@ class Console:
         self._bar: tuple[Progress, TaskID] | None = None
 
     @property
+    def has_warned(self) -> bool:
+        """Whether there was a warning that belongs to no robot."""
+        return bool(self._warnings)
+
+    @property
     def is_document(self) -> bool:
         """Whether a document takes the place of lines on the output stream."""
         return self.format != "text"
@@ -215,11 +219,9 @@ class Console:
         if self._bar is None:
             from rich.progress import Progress
 
-            stream: Any = sys.stderr
-            if isinstance(stream, streams.Stream):
-                stream = stream.without_transcript()  # a saved answer must not contain the bar
-            screen = rich_console(stream)
-            bar = Progress(console=screen, transient=True, redirect_stdout=False, redirect_stderr=False)
+            bar = Progress(
+                console=rich_console(sys.stderr), transient=True, redirect_stdout=False, redirect_stderr=False
+            )
             self._bar = bar, bar.add_task(what, total=total)
             bar.start()
         bar, task = self._bar

@@ -5,19 +5,15 @@ This machine notes the shown findings. If the notes are lost, all are shown agai
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 
-import msgspec
-
-from urdfsync.answers.dependencies import depend_on
 from urdfsync.config import STATE_FOLDER
+from urdfsync.dependencies import record
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.remembered import finding_key
 from urdfsync.engine.result import Result
-from urdfsync.files import digest
 from urdfsync.output.console import Console, line
 from urdfsync.spelling import counted
-from urdfsync.state import notes
 
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:
@@ -25,10 +21,8 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
 
     Errors and findings about Modelica files are shown by each build.
     """
-    folder = result.root / STATE_FOLDER
-    depend_on(notes.place(folder, result.robot))  # if the notes change, no saved answer is used
-    known = notes.load(folder, result.robot)
-    before, keys = known.said, list(map(_key, diagnostics))
+    folder = str(result.root / STATE_FOLDER)
+    before, keys = record.findings_told(folder, result.robot), list(map(finding_key, diagnostics))
     new = [
         diagnostic
         for diagnostic, key in zip(diagnostics, keys, strict=True)
@@ -41,11 +35,5 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
     if (rest := len(diagnostics) - len(new)) and not console.quiet:
         words = f"{result.robot}: {counted(rest, 'finding')} as before; --verbose shows {'it' if rest == 1 else 'them'}"
         console.print([line((words, "dim"))], error=True)
-    if before == frozenset(keys) or result.dry or result.failed or console.quiet:
-        return
-    notes.save(folder, result.robot, msgspec.structs.replace(known, said=frozenset(keys)))
-
-
-def _key(diagnostic: Diagnostic) -> str:
-    file = os.path.abspath(diagnostic.file)  # noqa: PTH100 - the same finding from each working folder
-    return digest(f"{diagnostic.code}\0{diagnostic.message}\0{file}".encode(errors="surrogatepass"))
+    if before != set(keys) and not (result.dry or result.failed or console.quiet):
+        record.note_findings(folder, result.robot, keys)

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import msgspec
 
-from urdfsync.answers.dependencies import read_file
+from urdfsync import registry
 from urdfsync.checks import cache as caches
-from urdfsync.checks.fingerprint import program
+from urdfsync.dependencies.reads import read_file
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Import
 from urdfsync.engine.generation import Generation
@@ -76,7 +76,12 @@ def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> P
     shapes = [shape for scene in (now, before) if scene for body in scene.bodies for shape in body.shapes]
     seen = sorted(files.keys() & {shape.mesh for shape in shapes if shape.kind == "visual"})
     others = sorted(files.keys() & {shape.mesh for shape in shapes} - {*seen})
-    cache, code, most, meshes = caches.UserCache.default(), program(robot.domain), _MOST, dict[str, Triangles | str]()
+    cache, code, most, meshes = (
+        caches.UserCache.default(),
+        registry.program(robot.domain),
+        _MOST,
+        dict[str, Triangles | str](),
+    )
     for group in (seen, others):
         read = {name: _read(pictures, cache, files[name], _MOST, code) for name in group}
         shares = _shares({name: mesh.faces for name, mesh in read.items() if isinstance(mesh, Triangles)}, most)

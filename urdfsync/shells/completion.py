@@ -10,8 +10,8 @@ from __future__ import annotations
 import os
 import sys
 
-from urdfsync.answers import uptodate
-from urdfsync.answers.facts import read_unrecorded
+from urdfsync import noop
+from urdfsync.dependencies.facts import read_unrecorded
 
 SHELLS = ("bash", "zsh", "fish")
 _SHELLS = os.path.dirname(__file__)
@@ -68,7 +68,7 @@ def _robots(words: list[str]) -> list[str]:
     import tomllib  # takes 10 ms, which completion of an option saves
 
     try:
-        content = read_unrecorded(uptodate.find_config(words) or "")
+        content = read_unrecorded(noop.find_config(words) or "")
         robots = tomllib.loads(content.decode("utf-8-sig"))["robots"] if len(content) < _LARGEST else []
         return [name for name in robots if _SAFE.issuperset(name)]
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
@@ -77,7 +77,7 @@ def _robots(words: list[str]) -> list[str]:
 
 def _joints(words: list[str]) -> list[str]:
     """Return the joints of the last build whose names are component names: of the robots on the line, else of all."""
-    folder = os.path.join(os.path.dirname(uptodate.find_config(words) or ""), _STATE)
+    folder = os.path.join(os.path.dirname(noop.find_config(words) or ""), _STATE)
     try:
         states = sorted(os.listdir(folder))
         states = [name for name in states if name.removesuffix(".state") in words] or states

@@ -15,7 +15,7 @@ from typing import NoReturn
 
 import msgspec
 
-from urdfsync.answers.facts import read_unrecorded
+from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import SourceError
 from urdfsync.files import shown
 from urdfsync.simulation.models import Input

@@ -1,6 +1,6 @@
 """The file operations of a transaction.
 
-A crash can interrupt only `write` and `write_bound`, which write files under temporary names. Tests put kills, errors
+A crash can interrupt only `write` and `write_local`, which write files under temporary names. Tests put kills, errors
 and saves between any two operations. All operations raise OSError. They follow no symbolic link: they create only new
 files, and they rename a link itself.
 """
@@ -16,7 +16,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import msgspec
+from urdfsync.dependencies import localfile
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _FEW = 32
@@ -68,28 +68,9 @@ def write(path: Path, content: bytes, like: Path) -> None:
         os.close(descriptor)
 
 
-class Bound(msgspec.Struct, frozen=True, kw_only=True):
-    """The content of a JSON file with the file's own inode and time; a copy has another inode or time."""
-
-    inode: int = 0
-    written_at: int = 0
-    """Time of the last change of the content, in ns."""
-
-
-def write_bound(path: Path, content: Bound) -> None:
-    """Write a new file with its inode and time in the content."""
-    with os.fdopen(os.open(path, _CREATE, 0o666), "wb") as file:
-        status = os.fstat(file.fileno())
-        bound = msgspec.structs.replace(content, inode=status.st_ino, written_at=status.st_mtime_ns)
-        file.write(msgspec.json.encode(bound, order="sorted"))
-    follows = os.utime not in os.supports_follow_symlinks  # some systems always follow symbolic links
-    os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing changed the time
-
-
-def is_bound(path: Path, content: Bound) -> bool:
-    """Whether a file still has the inode and the time that its content states."""
-    status = path.lstat()
-    return (status.st_ino, status.st_mtime_ns) == (content.inode, content.written_at)
+def write_local(path: Path, content: bytes) -> None:
+    """Write a new file that only this machine believes (see `dependencies.localfile`)."""
+    localfile.write(path, content)
 
 
 def exchange(path: Path, target: Path) -> None:

@@ -1,22 +1,17 @@
 """This machine's notes on its own work on one robot, `.urdfsync/notes/<robot>.json`.
 
-They are not committed, and safe to lose. Builds skip work only by these notes, never by the committed state. A copy of
-the notes, such as a committed copy, is ignored: it has another inode or time.
+They are not committed, and safe to lose. Builds skip work only by these notes, never by the committed state.
 """
 
 from __future__ import annotations
 
-import contextlib
-import os
 from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers.dependencies import note_content
-from urdfsync.answers.facts import MAX_FILE, STAT
-from urdfsync.files import TEMPORARY
-from urdfsync.state import file_operations
+from urdfsync.dependencies import localfile
+from urdfsync.dependencies.reads import depend_on, note_content
 
 
 class Use(msgspec.Struct, frozen=True):
@@ -28,7 +23,7 @@ class Use(msgspec.Struct, frozen=True):
     """The new names of the parts that the user meant, by the names in the file."""
 
 
-class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True):
+class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """This machine's notes on one robot."""
 
     program: str = ""
@@ -52,23 +47,18 @@ class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True
     """Hashes of the edited files at the last build, by key."""
     uses: Mapping[str, Use] = {}
     """Names that mean other parts now, by absolute path of a user's file."""
-    said: frozenset[str] = frozenset()
-    """Hashes of the findings of the last build."""
 
 
 def load(state_folder: Path, robot: str) -> Notes:
     """Return this machine's notes on a robot; empty notes if there are none."""
     file = place(state_folder, robot)
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # opening a pipe must not block
+    depend_on(file)
+    content = localfile.read_whole(file) or b""
+    note_content(file, content)
     try:
-        with os.fdopen(os.open(file, flags), "rb") as opened:
-            status = os.fstat(opened.fileno())
-            content = opened.read() if status.st_size <= MAX_FILE else b""
-        note_content(STAT, file, content)
-        notes = msgspec.json.decode(content, type=Notes)
-    except (OSError, ValueError, RecursionError):
+        return msgspec.json.decode(content.partition(b"\n")[2], type=Notes)
+    except (ValueError, RecursionError):
         return Notes()
-    return notes if (notes.inode, notes.written_at) == (status.st_ino, status.st_mtime_ns) else Notes()
 
 
 def save(state_folder: Path, robot: str, notes: Notes) -> None:
@@ -76,15 +66,8 @@ def save(state_folder: Path, robot: str, notes: Notes) -> None:
 
     If writing fails, the next build repeats the work.
     """
-    file = place(state_folder, robot)
-    temporary = file.with_name(f".{file.name}{TEMPORARY}")
-    with contextlib.suppress(OSError):
-        if not state_folder.is_dir() or state_folder.is_symlink() or file.parent.is_symlink():
-            return  # a repository may have committed a link to another folder
-        file_operations.make_folder(file.parent)
-        file_operations.remove(temporary)  # a killed process left this file
-        file_operations.write_bound(temporary, notes)
-        file_operations.replace(temporary, file)
+    if state_folder.is_dir():
+        localfile.replace(str(place(state_folder, robot)), msgspec.json.encode(notes, order="sorted"))
 
 
 def place(state_folder: Path, robot: str) -> Path:

@@ -8,8 +8,8 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.answers.dependencies import list_folder, walk_files
 from urdfsync.config import STATE_FOLDER, is_robot_name
+from urdfsync.dependencies.reads import list_folder, walk_files
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.files import Tree, digest, normalised, shown
 from urdfsync.state import bases, expansion, notes, statefile

@@ -24,7 +24,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers.dependencies import file_type
+from urdfsync.dependencies import localfile
+from urdfsync.dependencies.reads import file_type
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations
@@ -63,7 +64,7 @@ class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
     is_moved: bool = False
 
 
-class PlannedBuild(file_operations.Bound, frozen=True):
+class PlannedBuild(msgspec.Struct, frozen=True):
     """The planned changes of one build."""
 
     robot: str
@@ -157,11 +158,10 @@ class Transactions:
         A stranger may have committed the file: his files under temporary names must not count as urdfsync's. Raises
         OutputError for symbolic links.
         """
-        content = Tree(self._root).read(file)
+        Tree(self._root).read(file)
         try:
-            build = msgspec.json.decode(content or b"", type=PlannedBuild)
-            return build if file_operations.is_bound(file, build) else None
-        except (OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+            return msgspec.json.decode(localfile.read(file) or b"", type=PlannedBuild)
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
             return None
 
     def _prepare(
@@ -173,7 +173,9 @@ class Transactions:
             file_operations.make_folder(self._state_folder)
             place = self._planned
             file_operations.remove(self._draft)
-            file_operations.write_bound(self._draft, build)  # first: this file has the names of the temporary files
+            file_operations.write_local(
+                self._draft, msgspec.json.encode(build)
+            )  # first: this file has the names of the temporary files
             file_operations.sync([self._draft])
             for place in made:
                 file_operations.make_folder(place)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
-from urdfsync.answers.dependencies import read_file
+from urdfsync.dependencies.reads import read_file
 from urdfsync.files import shown
 from urdfsync.spelling import counted
 from urdfsync.urdf.drives import can_be_driven

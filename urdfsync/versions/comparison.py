@@ -171,7 +171,7 @@ def _result(robot: RobotConfig, config: Config | None) -> Result:
 
 def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) -> Comparison:
     (result,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
-    if result.failed:
+    if result.failed or (result.changes is None and not (result.writes or result.renews or result.conflicts)):
         return Comparison(result, shown(robot.source))
     inputs = inspect(config, robot, options)
     last, differences = inputs.last.version, result.changes

@@ -15,15 +15,16 @@ import contextlib
 import math
 import os
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
 import msgspec
 
 from urdfsync import config
-from urdfsync.answers.facts import STAT
 from urdfsync.config import STATE_FOLDER, Config, warnings
+from urdfsync.dependencies.reads import Reads, read_file
+from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.build import WAITING, build
 from urdfsync.engine.options import BuildOptions
@@ -34,8 +35,8 @@ from urdfsync.watch import events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import FileEvent, Observer
-from urdfsync.watch.paths import find_watched_folders
-from urdfsync.watch.robot import WatchedRobot, look_at
+from urdfsync.watch.paths import find_places, find_watched_folders
+from urdfsync.watch.robot import WatchedRobot
 
 _REST = 3.0
 """The pause after a look, as a multiple of its duration."""
@@ -76,8 +77,7 @@ class Daemon:
         self._checks = CheckQueue(self._queue, options.build)
         self._commands = CommandRunner(self._queue, options.command, options.file.absolute().parent)
         self._config: Config
-        self._config_file = (STAT, str(options.file.absolute()))
-        self._config_hash = look_at(self._config_file)
+        self._config_facts = self._read_config()
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
         self._building: Sequence[str] = ()
@@ -86,7 +86,11 @@ class Daemon:
         self._is_paused = False
         self._next_rescan = 0.0
         self._next_look = math.inf
-        """When to look at all files, after an event in a folder."""
+        """When to look at files, after an event."""
+        self._robots_of: Mapping[str, set[str]] = {}
+        """The robots to look at after an event, by the path of the event; for a list of names, by its folder."""
+        self._touched: set[str] = set()
+        """The robots to look at next."""
         self._earliest_look = 0.0
         """The earliest time of the next look: endless events must leave pauses."""
         self._has_new_places = False
@@ -186,11 +190,17 @@ class Daemon:
         self._note(tuple(warnings.find_warnings(loaded, robots)))
         self._watch_folders()
 
+    def _read_config(self) -> FactList:
+        """Return the facts about the configuration's file."""
+        with Reads() as reads, contextlib.suppress(OSError):  # `load` reports the error
+            read_file(self._options.file.absolute())
+        return FactList.of(reads)
+
     def _reload_config(self) -> bool:
         """Read the configuration again if it has changed; while it is invalid, keep the last valid one."""
-        before, self._config_hash = self._config_hash, look_at(self._config_file)
-        if before == self._config_hash:
+        if not any(self._config_facts.changes(self._config_facts.look())):
             return False
+        self._config_facts = self._read_config()
         try:
             self._use(config.load(self._options.file), again=True)
         except ConfigError as error:
@@ -208,7 +218,11 @@ class Daemon:
                 match message:
                     case FileEvent():
                         self._has_new_places |= message.is_place
-                        self._next_look = self._earliest_look
+                        for path in message.paths:
+                            self._touched |= self._robots_of.get(path, set())
+                            self._touched |= self._robots_of.get(os.path.dirname(path), set())  # noqa: PTH120
+                        if self._touched or self._has_new_places:
+                            self._next_look = self._earliest_look
                     case CommandEnded():
                         self._show_all(self._commands.finish(message))
                     case CheckEnded():
@@ -222,12 +236,14 @@ class Daemon:
         return max(min(due) - now, 0.0)
 
     def _look(self) -> None:
-        """Look at all files after events; robots with a changed file have to settle."""
+        """Look at the files of robots after events; robots with a changed file have to settle."""
         begin = time.monotonic()
         self._next_look, has_new_places, self._has_new_places = math.inf, self._has_new_places, False
+        touched, self._touched = self._touched, set()
         if has_new_places:
             self._watch_folders()
-        looks = [(watched, watched.look()) for watched in self._robots.values()]
+        robots = [watched for name, watched in self._robots.items() if has_new_places or name in touched]
+        looks = [(watched, watched.look()) for watched in robots]
         self._touch([watched for watched, is_new in looks if is_new and (watched.is_told or watched.has_changed)])
         self._earliest_look = time.monotonic() + _REST * (time.monotonic() - begin)
 
@@ -248,7 +264,8 @@ class Daemon:
             self._listener(event)
 
     def _watch_folders(self) -> None:
-        entries = {entry for watched in self._robots.values() for entry in watched.built}
+        entries = {entry for watched in self._robots.values() for entry in watched.facts.entries}
+        self._robots_of = find_places({name: watched.facts.entries for name, watched in self._robots.items()})
         folders = find_watched_folders(self._config, entries, self._options.build.package_paths)
         unwatched = self._observer.watch_folders(folders)
         told = {diagnostic.hint for diagnostic in self._unwatched}
@@ -307,7 +324,7 @@ class Daemon:
         has_other_entries = False
         for result in build(self._config, [watched.robot for watched in robots], self._build_options):
             watched = self._robots[result.robot]
-            has_other_entries |= watched.take(result.reads, {self._config_file: self._config_hash})
+            has_other_entries |= watched.take(result.reads, self._config_facts)
             watched.is_confirmed = not result.writes
             if not result.failed:
                 self._take_result(watched, result)

@@ -48,6 +48,7 @@ warnings.filterwarnings("ignore", category=RuntimeWarning, module="watchdog")
 class FileEvent(NamedTuple):
     """An event about a file or folder."""
 
+    paths: tuple[str, ...]
     is_place: bool
     """Whether a folder or a link may have been replaced."""
 
@@ -63,8 +64,8 @@ class Observer(events.FileSystemEventHandler):
 
     def dispatch(self, event: events.FileSystemEvent) -> None:
         """Put an event into the queue."""
-        paths = (os.fsdecode(path) for path in (event.src_path, event.dest_path) if path)
-        self._queue.put(FileEvent(event.is_directory or any(map(os.path.islink, paths))))
+        paths = tuple(os.fsdecode(path) for path in (event.src_path, event.dest_path) if path)
+        self._queue.put(FileEvent(paths, event.is_directory or any(map(os.path.islink, paths))))
 
     def watch_folders(self, folders: WatchedFolders) -> tuple[Diagnostic, ...]:
         """Watch exactly these folders; a folder that was replaced since the last call is watched anew.

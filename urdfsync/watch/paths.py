@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
 
-from urdfsync.answers.facts import LISTINGS, Entry
 from urdfsync.config import Config
+from urdfsync.dependencies.facts import LISTINGS, Entry
 
 _MAX_STEPS = 1000
 """The greatest number of folders and links on the way to a file: links may lead in a circle."""
@@ -60,6 +60,28 @@ def find_watched_folders(
     trees = {tree for tree in trees if os.path.isdir(tree) and any(_is_below(folder, [tree]) for folder in wanted)}  # noqa: PTH112
     singles = (folder for folder in wanted if os.path.isdir(folder) and not _is_below(folder, trees))  # noqa: PTH112
     return WatchedFolders(frozenset(singles), frozenset(trees))
+
+
+def find_places(entries: Mapping[str, Collection[Entry]]) -> Mapping[str, set[str]]:
+    """Return the robots to look at after an event, by the path of the event; `entries` are those of each robot.
+
+    The paths contain no symbolic links, like those of events; for a list of names, the path is that of its folder.
+    """
+    places, ways = dict[str, set[str]](), dict[str, str]()
+    for robot, read in entries.items():
+        for kind, path in read:
+            folder, _, name = path.rpartition(os.sep)
+            if kind in LISTINGS:
+                on_the_way = _way_to(path)[-1:]
+            elif os.path.islink(path):  # noqa: PTH114
+                on_the_way = _way_to(path)
+            else:
+                if folder not in ways:
+                    ways[folder] = _way_to(folder)[-1]
+                on_the_way = [os.path.join(ways[folder], name)]  # noqa: PTH118
+            for place in on_the_way:
+                places.setdefault(place, set()).add(robot)
+    return places
 
 
 def _shows(place: str, above: set[str]) -> bool:

@@ -14,26 +14,18 @@ TYPE_CHECKING = False  # importing `typing` takes 2 of the 12 ms of the check, c
 if TYPE_CHECKING:
     from typing import Any, TextIO
 
-OUTPUT, ERRORS = "1", "2"
-"""Names of the two streams in a `Transcript`."""
-Transcript = list[tuple[str, str]]
-"""Texts in the order in which they were written, each with the name of its stream."""
-
 
 class Stream:
     """A text stream that drops texts that it can't write; `error` is the first failure, None without one."""
 
-    def __init__(self, inner: TextIO, name: str = OUTPUT, transcript: Transcript | None = None) -> None:
-        """`transcript` gets every text passed to `write`, also texts that the stream drops."""
-        self._inner, self._name, self._transcript = inner, name, transcript
+    def __init__(self, inner: TextIO) -> None:
+        self._inner = inner
         self.error: OSError | None = None
         if hasattr(inner, "reconfigure"):
             inner.reconfigure(errors="backslashreplace")
 
     def write(self, text: str) -> int:
         """Write `text` unless an earlier write failed. Returns its length, even if it is dropped."""
-        if self._transcript is not None:
-            self._transcript.append((self._name, text))
         self._try(self._inner.write, text)
         return len(text)
 
@@ -59,10 +51,6 @@ class Stream:
             return ""
         return self.error.strerror or str(self.error)
 
-    def without_transcript(self) -> Stream:
-        """Return a stream for temporary text, such as a progress bar, that the transcript does not get."""
-        return Stream(self._inner, self._name)
-
     def close_broken(self) -> None:
         """Discard the buffer of a broken stream: at its exit, Python would report the fault, with exit code 120."""
         if self.error is None:
@@ -77,12 +65,10 @@ class Stream:
 class SafeStreams:
     """Replaces both standard streams by a `Stream` inside a `with` block; the block gets the `Stream` of stdout."""
 
-    def __init__(self, transcript: Transcript | None = None) -> None:
+    def __init__(self) -> None:
         self._before = sys.stdout, sys.stderr
         self._inner = [stream or _devnull() for stream in self._before]  # a closed stream is None
-        self._output, self._errors = (
-            Stream(inner, name, transcript) for inner, name in zip(self._inner, (OUTPUT, ERRORS), strict=True)
-        )
+        self._output, self._errors = map(Stream, self._inner)
 
     def __enter__(self) -> Stream:
         sys.stdout, sys.stderr = self._output, self._errors

@@ -1,4 +1,4 @@
-"""Projects in step, and the saved answers of commands in them."""
+"""Projects in step, and what is remembered of them."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pathlib import Path
 from unittest import mock
 
 from support.meshes import stl
-from urdfsync import cli
-from urdfsync.answers import facts, uptodate
+from urdfsync import cli, noop
+from urdfsync.dependencies import facts
 
 LIMIT = 60.0
-"""Seconds after which a test fails because no answer was saved."""
+"""Seconds after which a test fails because nothing was remembered."""
 SHORT = 100_000_000
 """Nanoseconds in which a file counts as young; the file systems of tests have finer time stamps."""
 _URDF = """\
@@ -64,24 +64,23 @@ def built(folder: Path) -> Path:
 
 
 def until(is_done: Callable[[], bool], step: Callable[[], object]) -> None:
-    """Repeat a step until an answer is saved: no answer is saved while its dependencies are young."""
+    """Repeat a step until its result is remembered: some results are not while their dependencies are young."""
     end = time.monotonic() + LIMIT
     with mock.patch.object(facts, "YOUNG", SHORT):
         while not is_done():
             step()
-            assert time.monotonic() < end, "no answer was saved"
+            assert time.monotonic() < end, "nothing was remembered"
             time.sleep(0.06)
 
 
 def save(*arguments: str) -> None:
-    """Run a command until its answer is saved."""
+    """Run a command until nothing of it has to be done again."""
     until(lambda: saved(*arguments) is not None, lambda: cli.main(arguments))
 
 
-def saved(*arguments: str) -> list[str] | None:
-    """The saved answer of a command, if the answer is still valid."""
-    file = uptodate.find_config(list(arguments))
-    return uptodate.find_answer(file, arguments[0], uptodate.answer_key(list(arguments), file)) if file else None
+def saved(*arguments: str) -> list[tuple[str, str, int]] | None:
+    """What a command would write without being run; None if it has to run."""
+    return noop.find_lines(arguments)
 
 
 def _write(path: Path, text: str) -> None:

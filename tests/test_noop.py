@@ -1,14 +1,16 @@
-"""The up-to-date check prints a saved answer as long as the command would say the same."""
+"""A command that has nothing to do says so without being run, as long as running it would say the same."""
 
 from __future__ import annotations
 
+import contextlib
+import io
+import json
 import os
-import re
 import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from unittest import mock
 
@@ -16,25 +18,21 @@ import pytest
 from benchmarks.robots import write_workspace
 from hypothesis import given
 from hypothesis import strategies as st
-from support import answers
-from support.answers import save, saved
 from support.cases import often
 from support.meshes import stl
+from support.remembered import save, saved
 from support.screen import print_on_terminal
 
-from urdfsync import cli
-from urdfsync.answers import facts, streams, uptodate
-from urdfsync.answers.dependencies import Dependencies
-from urdfsync.checks import afterbuild
-from urdfsync.engine import last_build, plan
+from urdfsync import cli, noop
+from urdfsync.dependencies import facts, program, record
+from urdfsync.engine import last_build, remembered
 from urdfsync.engine.package_files import PackageFiles
-from urdfsync.output import console
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
 
 BUILD, CHECK, STATUS = ["build"], ["build", "--check"], ["status"]
-STAMP = ".urdfsync/stamp-build"
+DEPS = ".urdfsync/deps"
 LEG = "modelica/Leg/Links/Tip.mo"
 URDF = "robots/leg.urdf"
 IN_STEP = "arm: in step, 17 files, 1 kept because you edited it\nleg: in step, 16 files, 1 kept because you edited it"
@@ -47,58 +45,68 @@ def _soon_old(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A project in step, which is the working folder; no answer is saved in it."""
+    """A project in step, which is the working folder; nothing is remembered of it."""
     place = tmp_path / "project"
     shutil.copytree(in_step, place)
-    (place / STAMP).unlink(missing_ok=True)
+    shutil.rmtree(place / DEPS, ignore_errors=True)
+    (place / ".urdfsync/robots/gone.state").unlink()
     monkeypatch.chdir(place)
     return place
 
 
-# What is said again
+# What is said without a run
 
 
 @pytest.mark.parametrize(
-    "command",
-    [BUILD, CHECK, STATUS, ["build", "leg"], ["build", "-q"], ["build", "--check", "--format=json"], ["status", "-v"]],
+    "command", [BUILD, CHECK, ["build", "-n"], ["build", "leg"], ["build", "-q"], ["build", "leg", "arm", "-q"]]
 )
-def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: Capture) -> None:
-    save(*command)
+def test_what_a_command_would_say(folder: Path, command: list[str], capsys: Capture) -> None:
+    save(*BUILD)
     capsys.readouterr()
     assert cli.main(command) == 0
     said = capsys.readouterr()
-    assert uptodate.print_answer(command) == ""
+    assert noop.answer(command) == ""
     assert capsys.readouterr() == said
-    assert "as before" in said.err or "stray-state" in said.out + said.err or command[-1] == "-q"
+    assert "in step" in said.out or "-q" in command
 
 
-def test_a_finding_is_not_repeated_once_it_was_told(folder: Path, capsys: Capture) -> None:
-    for word in ("stray", "strange"):
-        shutil.copy(".urdfsync/robots/arm.state", f".urdfsync/robots/{word}.state")
-        for command, is_new in ((STATUS, True), (BUILD, True), (BUILD, False), (STATUS, False)):
-            time.sleep(0.1)
-            capsys.readouterr()
-            if uptodate.print_answer(command) is None:
-                cli.main(command)
-            assert (f"`{word}`" in "".join(capsys.readouterr())) == is_new, (word, command)
+def test_status_of_a_package_that_nobody_edited(folder: Path, capsys: Capture) -> None:
+    save(*BUILD)
+    assert saved(*STATUS) is None, "it lists edited files"
+    for path in ("modelica/Leg/Links/TipParameters.mo", "modelica/Lab/Arm/Links/Base/package.mo"):
+        Path(path).unlink()
+    shutil.rmtree("modelica/Lab/Arm/Links/Base")
+    assert cli.main(BUILD) == 0
+    save(*STATUS)
+    capsys.readouterr()
+    assert noop.answer(STATUS) == ""
+    assert capsys.readouterr().out == "arm: in step, 17 files\nleg: in step, 16 files\n"
 
 
-def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
-    save(*CHECK)
-    assert saved(*BUILD) is None
+def test_findings_are_counted_once_a_build_has_told_them(folder: Path, capsys: Capture) -> None:
+    Path(URDF).write_text(Path(URDF).read_text().replace("</robot>", '<gazebo><odd_one value="1"/></gazebo></robot>'))
+    time.sleep(0.1)
+    for command, is_new in ((CHECK, True), (BUILD, True), (BUILD, False), (CHECK, False)):
+        capsys.readouterr()
+        if noop.answer(command) is None:
+            cli.main(command)
+        said = capsys.readouterr().err
+        assert ("odd_one" in said, "1 finding as before" in said) == (is_new, not is_new), command
+        time.sleep(0.1)
+    assert saved(*BUILD) is not None
 
 
 SURROUNDINGS: dict[str, Callable[[pytest.MonkeyPatch], object]] = {
     "paths look different from here": lambda patch: patch.chdir("robots"),
     "folders of packages": lambda patch: patch.setenv("ROS_PACKAGE_PATH", str(Path.cwd())),
     "folders of libraries": lambda patch: patch.setenv("MODELICAPATH", str(Path.cwd())),
-    "another urdfsync": lambda patch: patch.setattr(uptodate, "__version__", "0.0.1"),
+    "another urdfsync": lambda patch: patch.setattr(program, "_identity", ["another"]),
     "another user, who may not read all that": lambda patch: patch.setattr(os, "geteuid", lambda: 12345, raising=False),
     "a user of other groups": lambda patch: patch.setattr(os, "getgroups", lambda: [12345], raising=False),
 }
 
 
-def test_the_answer_belongs_to_the_folder_the_environment_and_the_program(
+def test_what_is_remembered_belongs_to_the_folder_the_environment_and_the_program(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     save(*BUILD)
@@ -112,36 +120,36 @@ def test_the_answer_belongs_to_the_folder_the_environment_and_the_program(
 def test_a_configuration_that_is_named(folder: Path) -> None:
     Path("urdfsync.toml").rename("robots.toml")
     save("build", "--config", "robots.toml")
-    assert saved("build", "--config=./robots.toml") is None, "another command, as far as anybody knows"
-    save("build", "--config=./robots.toml")
+    assert saved("build", "--config=./robots.toml") is not None
 
 
-@pytest.mark.parametrize("command", [["build", "--full"], ["build", "--svg"], ["diff"], ["build", "--check", "nobody"]])
-def test_what_is_not_said_again(folder: Path, command: list[str], capsys: Capture) -> None:
-    time.sleep(0.1)
-    cli.main(command)
+@pytest.mark.parametrize(
+    "command",
+    [["build", "--full"], ["build", "--svg"], ["build", "--merge"], ["diff"], ["build", "nobody"], ["build", URDF],
+     ["build", "-v"], ["build", "--format", "json"], ["build", "--check", "--dry-run"], ["status", "--check"], []],
+)  # fmt: skip
+def test_what_has_to_run(folder: Path, command: list[str], capsys: Capture) -> None:
+    save(*BUILD)
     assert saved(*command) is None
 
 
-def test_a_build_that_wrote_saves_no_answer(folder: Path) -> None:
-    time.sleep(0.1)
+def test_a_build_that_wrote_is_not_remembered(folder: Path) -> None:
+    save(*BUILD)
     Path(LEG).unlink()
     assert cli.main(BUILD) == 0
     assert saved(*BUILD) is None
     save(*BUILD)
 
 
-def test_builds_with_checks_are_not_said_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(afterbuild, "with_checks", lambda config, request, results: results)
+def test_packages_that_builds_check_have_to_be_checked(folder: Path) -> None:
     Path("urdfsync.toml").write_text('[defaults]\non_build = "check"\n' + Path("urdfsync.toml").read_text()[11:])
-    assert cli.main(BUILD) == 0
-    time.sleep(0.1)
-    assert cli.main(BUILD) == 0
+    for _ in range(2):
+        assert cli.main(CHECK) == 0
+        time.sleep(0.1)
     assert saved(*BUILD) is None
-    save(*CHECK)
 
 
-# What an answer depends on
+# What it depends on
 
 
 def _edit(path: str, what: str = "other", how: str = "write", *, old: bool = False) -> Edit:
@@ -164,7 +172,7 @@ EDITS: dict[str, Edit] = {
         f"other write {path}": _edit(path, old=True)
         for path in (
             *("urdfsync.toml", "robots/leg_meshes/base.stl", ".urdfsync/robots/leg.state"),
-            *(".urdfsync/robots/gone.state", "modelica/Leg/package.order"),
+            *("modelica/Leg/package.order",),
         )
     },
     "a mesh that is better placed": _edit("robots/arm_meshes/base.stl"),
@@ -215,21 +223,6 @@ def test_so_does_a_library_that_comes_to_modelicapath(folder: Path, monkeypatch:
     assert saved(*BUILD) is None
 
 
-def test_so_does_the_program(folder: Path) -> None:
-    """Somebody may be working on it."""
-    save(*BUILD)
-    checks = Path(STAMP).read_text(errors="surrogateescape").split("\0\0")[2].split("\0")
-    assert {plan.__file__, cli.__file__} <= set(checks[1::3])
-
-
-def test_a_file_is_looked_at_once(folder: Path) -> None:
-    """Its stat values show its type as well."""
-    save(*BUILD)
-    checks = Path(STAMP).read_text(errors="surrogateescape").split("\0\0")[2].split("\0")
-    looks = {(check.partition(" ")[0], path) for check, path in zip(checks[::3], checks[1::3], strict=True)}
-    assert len(looks) == len(checks) // 3 > 33
-
-
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
     save(*BUILD)
     for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/notes.txt", "robots/other.urdf", ".urdfsync/own.txt"):
@@ -246,7 +239,7 @@ MESHES: dict[str, tuple[Edit, str]] = {
 }
 
 
-@pytest.mark.parametrize("command", [BUILD, CHECK, STATUS])
+@pytest.mark.parametrize("command", [BUILD, CHECK])
 @pytest.mark.parametrize("name", MESHES)
 def test_what_becomes_of_a_source_mesh_is_told(folder: Path, command: list[str], name: str, capsys: Capture) -> None:
     save(*command)
@@ -254,13 +247,13 @@ def test_what_becomes_of_a_source_mesh_is_told(folder: Path, command: list[str],
     edit(folder)
     assert saved(*command) is None
     capsys.readouterr()
-    cli.main([*command, *(["--verbose"] if command is not STATUS else [])])
+    cli.main([*command, "--verbose"])
     said = capsys.readouterr()
     assert words in said.out + said.err
     assert cli.main(["build", "--check", "-q"]) == (not name.startswith(("deleted", "no")) and command is not BUILD)
 
 
-# When an answer is saved
+# When it is remembered
 
 
 @pytest.mark.parametrize("path", [URDF, LEG])
@@ -271,84 +264,123 @@ def test_young_files_are_compared_by_content(folder: Path, path: str, monkeypatc
     monkeypatch.setattr(
         facts, "stat_of", lambda status: (status.st_mode, status.st_ino, status.st_dev, status.st_size, now, now)
     )
-    monkeypatch.setattr(Dependencies, "add_modules", lambda _: None)  # which would be young, too
     for _ in range(2):  # the first one in a copy notes that it wrote this folder
         assert cli.main(BUILD) == 0
     before = Path(path).read_bytes()
+    assert remembered_robot("leg")
     Path(path).write_bytes(before[:-2] + b"x" + before[-1:])
-    assert saved(*BUILD) is None
+    assert not remembered_robot("leg")
     Path(path).write_bytes(before)
-    assert saved(*BUILD) is not None
+    assert remembered_robot("leg")
 
 
 def test_once_its_files_are_old_stat_values_tell(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path(URDF).touch()
     with monkeypatch.context() as patch:
         patch.setattr(facts, "YOUNG", 60_000_000_000)
-        patch.setattr(Dependencies, "add_modules", lambda _: None)
         for _ in range(2):
             assert cli.main(BUILD) == 0
-        young = Path(STAMP).read_text(errors="surrogateescape")
-        assert (saved(*BUILD), Path(STAMP).read_text(errors="surrogateescape")) == (saved(*BUILD), young)
+        assert not loaded("leg").facts.is_old
+        assert remembered_robot("leg")
+        assert not loaded("leg").facts.is_old
     time.sleep(0.1)
-    answer = saved(*BUILD)
-    old = Path(STAMP).read_text(errors="surrogateescape")
-    assert answer is not None
-    assert (len(re.findall("\0[0-9a-f]{64}\0", young)) > 1, re.findall("\0[0-9a-f]{64}\0", old)) == (True, [])
-    monkeypatch.setattr(uptodate, "hash_file", lambda path: pytest.fail(path))
-    assert saved(*BUILD) == answer
+    assert remembered_robot("leg")
+    assert loaded("leg").facts.is_old
+    monkeypatch.setattr(record, "hash_file", lambda path: pytest.fail(path))
+    assert remembered_robot("leg")
 
 
-# Files that hold no answer
+def loaded(robot: str) -> record.Record:
+    found = record.load(".urdfsync", f"{robot}{noop.ROBOT}")
+    assert found is not None
+    return found
 
 
-def test_a_truncated_file_holds_no_answer(folder: Path) -> None:
+def remembered_robot(robot: str) -> bool:
+    """Whether the record of a robot holds."""
+    found = record.load(".urdfsync", f"{robot}{noop.ROBOT}")
+    return found is not None and record.find_change(".urdfsync", f"{robot}{noop.ROBOT}", found, {}) is None
+
+
+# Files that are no records
+
+
+FILES = [f"{DEPS}/{name}" for name in ("leg.robot", "urdfsync.toml.config", "program")]
+
+
+@pytest.mark.parametrize("file", FILES[:2])
+def test_a_damaged_record_counts_as_none(folder: Path, file: str) -> None:
     save(*BUILD)
-    content, status = Path(STAMP).read_bytes(), Path(STAMP).stat()
+    content, status = Path(file).read_bytes(), Path(file).stat()
     zeros = [content[: len(content) // 2] + b"\0" * (len(content) // 2)]
-    for other in [*(content[:n] for n in (0, 5, 30, len(content) // 2, len(content) - 1)), *zeros, b"\xff\0\0"]:
-        Path(STAMP).write_bytes(other)
-        os.utime(STAMP, ns=(status.st_mtime_ns, status.st_mtime_ns))
-        assert saved(*BUILD) is None
-        assert uptodate.print_answer(BUILD) is None
-    Path(STAMP).write_bytes(content)
-    os.utime(STAMP, ns=(status.st_mtime_ns, status.st_mtime_ns))
-    assert saved(*BUILD) is not None, "nothing else was wrong"
+    for other in [*(content[:n] for n in (0, 5, 30, len(content) // 3)), *zeros, b"\xff\0\0"]:
+        Path(file).write_bytes(other)
+        os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
+        assert noop.answer(BUILD) is None
+        assert cli.main(CHECK) == 0
+        Path(file).write_bytes(content)
+        os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
+    assert saved(*BUILD) is not None or cli.main(BUILD) == 0
 
 
-def test_a_copy_holds_no_answer(folder: Path) -> None:
+def test_a_damaged_result_is_made_again(folder: Path) -> None:
     save(*BUILD)
-    shutil.copy2(STAMP, "copy")
-    Path("copy").replace(STAMP)
+    file, status = Path(DEPS, "leg.robot"), Path(DEPS, "leg.robot").stat()
+    content = file.read_bytes()
+    for end in (len(content) - 1, content.rindex(b"\0\0") + 40):
+        file.write_bytes(content[:end])
+        os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
+        assert cli.main(["build", "--format", "json"]) == 0
+
+
+@pytest.mark.parametrize("file", FILES[:2])
+def test_a_copy_counts_as_none(folder: Path, file: str) -> None:
+    save(*BUILD)
+    shutil.copy2(file, "copy")
+    Path("copy").replace(file)
     assert saved(*BUILD) is None, "such as one that somebody has committed"
 
 
-def test_a_file_of_nothing_but_separators_is_no_answer(folder: Path) -> None:
+def test_a_file_of_nothing_but_separators_is_no_record(folder: Path) -> None:
     save(*BUILD)
-    with Path(STAMP).open("r+b") as file:  # which git packs into some kilobytes
+    with Path(DEPS, "leg.robot").open("r+b") as file:  # which git packs into some kilobytes
         file.truncate(0)
         file.truncate(20_000_000_000)
     assert saved(*BUILD) is None
 
 
-@pytest.mark.parametrize("name", ["stamp-build", ".stamp.urdfsync-tmp"])
-def test_no_link_is_followed_where_an_answer_is_saved(folder: Path, name: str) -> None:
+@pytest.mark.parametrize(
+    "name", ["leg.robot", ".leg.robot.urdfsync-tmp", "urdfsync.toml.config", "leg.told", "program"]
+)
+def test_no_link_is_followed_where_something_is_remembered(folder: Path, name: str) -> None:
     victim = folder.parent / "victim"
     victim.write_text("precious")
-    (folder / ".urdfsync" / name).symlink_to(victim)
+    Path(DEPS).mkdir(exist_ok=True)
+    Path(DEPS, name).unlink(missing_ok=True)
+    Path(DEPS, name).symlink_to(victim)
     save(*BUILD)
     assert victim.read_text() == "precious"
-    assert not (folder / ".urdfsync" / name).is_symlink()
 
 
-def test_no_answer_is_saved_where_the_time_of_a_change_can_be_set(
+def test_a_linked_folder_gets_no_record(folder: Path) -> None:
+    elsewhere = folder.parent / "elsewhere"
+    elsewhere.mkdir()
+    Path(DEPS).symlink_to(elsewhere)
+    time.sleep(0.1)
+    assert cli.main(BUILD) == 0
+    assert list(elsewhere.iterdir()) == []
+
+
+def test_nothing_is_remembered_where_the_time_of_a_change_can_be_set(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    time.sleep(0.1)  # so that it would be saved
+    time.sleep(0.1)  # so that it would be remembered
     with monkeypatch.context() as patch:
+        patch.setattr(record, "_folders_with_times", {})
         patch.setattr(os, "fstat", lambda descriptor, original=os.fstat: _as_on_fat(original(descriptor)))
         assert cli.main(BUILD) == 0
-        assert not Path(STAMP).exists()
+        assert not Path(DEPS, "leg.robot").exists()
+    monkeypatch.setattr(record, "_folders_with_times", {})
     save(*BUILD)
 
 
@@ -358,35 +390,20 @@ def _as_on_fat(status: os.stat_result) -> os.stat_result:
     return os.stat_result(tuple(status), times)
 
 
-def test_a_progress_bar_is_not_saved(folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(console, "BAR_AFTER", 0.0)
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
-    save(*BUILD)
-    assert "━" in capsys.readouterr().err, "there was one"
-    assert uptodate.print_answer(BUILD) == ""
-    said = capsys.readouterr()
-    assert "━" not in said.err
-    assert said.out.count("in step") == 2
-
-
-def test_an_answer_that_can_not_be_saved_is_no_error(folder: Path, capsys: Capture) -> None:
-    Path(STAMP).mkdir()
-    time.sleep(0.1)  # so that it would be saved
+def test_a_record_that_can_not_be_saved_is_no_error(folder: Path, capsys: Capture) -> None:
+    Path(DEPS, "leg.robot").mkdir(parents=True)
+    time.sleep(0.1)  # so that it would be remembered
     assert cli.main(BUILD) == 0
     assert capsys.readouterr().out == f"{IN_STEP}\n"
-    assert sorted(path.name for path in Path(".urdfsync").iterdir() if path.name.startswith(".")) == [
-        ".gitattributes",
-        ".gitignore",
-    ]
 
 
-# Check and command agree, whatever happens to the files
+# A record and a plan agree, whatever happens to the files
 
 
 PATHS = (
     *(URDF, LEG, "urdfsync.toml", "robots/leg_meshes/base.stl", "robots/arm_meshes/base.stl", "own/link.mo.jinja"),
     *("modelica/Leg/package.order", "modelica/Leg/Links/Tip/package.mo", "modelica/Lab/package.mo"),
-    *(".urdfsync/robots/leg.state", ".urdfsync/robots/gone.state"),
+    *(".urdfsync/robots/leg.state", ".urdfsync/notes/leg.json"),
     *("ros/a/package.xml", "ros/group/arm_meshes/package.xml", ".urdfsync/planned.json"),
 )
 CHANGES = st.tuples(
@@ -402,12 +419,12 @@ STEPS = st.lists(st.one_of(CHANGES, st.sampled_from([BUILD, CHECK, STATUS, "rest
 @pytest.mark.slow
 @often(6)
 @given(STEPS)
-def test_check_and_command_agree(
+def test_record_and_plan_agree(
     in_step: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch, steps: list[object]
 ) -> None:
-    site = tmp_path_factory.mktemp("site")
-    place = site / "project"
+    place = tmp_path_factory.mktemp("site") / "project"
     shutil.copytree(in_step, place)
+    (place / ".urdfsync/robots/gone.state").unlink()
     first = {path: _state(place / path) for path in PATHS}
     with monkeypatch.context() as patch:
         patch.chdir(place)
@@ -420,11 +437,34 @@ def test_check_and_command_agree(
                 path, what, how, old = step
                 _bring(place / path, what, how, old, first[path])
             else:
-                time.sleep(0.06)  # long enough for the next answer
-            for command in (BUILD, CHECK, STATUS):
-                said = saved(*command)
-                # a saved answer repeats findings that the next command would count as told before
-                assert said is None or _output(said) == _output(_full(command)), (command, step)
+                time.sleep(0.06)  # long enough for the files to be old
+            lines = saved(*CHECK)
+            with _nothing_remembered():
+                planned = _document()
+                assert lines is None or (0, "".join(f"{robot}: {words}\n" for robot, words, _ in lines)) == _output(
+                    CHECK
+                )
+            assert _document() == planned, step
+
+
+@contextlib.contextmanager
+def _nothing_remembered() -> Iterator[None]:
+    with (
+        mock.patch.object(remembered, "recall", return_value=None),
+        mock.patch.object(remembered, "remember"),
+    ):
+        yield
+
+
+def _output(command: list[str]) -> tuple[int, str]:
+    """The exit code of a command, and what goes to the standard output."""
+    with contextlib.redirect_stdout(io.StringIO()) as output, contextlib.redirect_stderr(io.StringIO()):
+        return cli.main(command), output.getvalue()
+
+
+def _document() -> object:
+    code, text = _output([*CHECK, "--format", "json"])
+    return code, json.loads(text)
 
 
 State = tuple[bytes, os.stat_result] | None
@@ -458,19 +498,6 @@ def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
         os.utime(path, ns=(first[1].st_atime_ns, first[1].st_mtime_ns))
 
 
-def _output(said: list[str] | None) -> list[str] | None:
-    """What goes to the standard output."""
-    return said and [text for name, text in zip(said[::2], said[1::2], strict=True) if name == streams.OUTPUT]
-
-
-def _full(command: list[str]) -> list[str] | None:
-    """What the command says if it is carried out, in the form of a saved answer; None unless it succeeds."""
-    said: streams.Transcript = []
-    with streams.SafeStreams(said), mock.patch.object(uptodate, "save_answer"):
-        code = cli.main(command)
-    return [text for pair in said if pair[1] for text in pair] if code == 0 else None
-
-
 # The whole program
 
 
@@ -486,25 +513,21 @@ def imported(*arguments: str) -> tuple[set[str], str]:
 
 @pytest.mark.slow
 def test_nothing_heavy_is_imported(folder: Path) -> None:
-    answers.until(Path(STAMP).exists, lambda: imported("-c", FULL, *BUILD))  # by the whole program
-    time.sleep(facts.YOUNG / 1e9 + 2)  # the copy is young for two seconds
-    imported("-m", "urdfsync", *BUILD)
+    time.sleep(2.1)  # the copy is young for two seconds
+    for _ in range(2):
+        imported("-c", FULL, *BUILD)  # by the whole program
     anyway, _ = imported("-c", "import runpy")
     names = imported("-m", "urdfsync", *BUILD)
     assert names[1] == f"{IN_STEP}\n"
-    ours = {"urdfsync.answers", *(f"urdfsync.answers.{name}" for name in ("uptodate", "facts", "streams"))}
+    ours = {f"urdfsync.dependencies.{name}" for name in ("facts", "localfile", "program", "record")}
+    ours |= {"urdfsync", "urdfsync.noop", "urdfsync.dependencies", "urdfsync.output", "urdfsync.output.streams"}
     light = {"__future__", "atexit", "errno", "gc", "runpy", "time"}
-    assert names[0] - anyway - ours <= {"urdfsync", *light}
-    Path(URDF).touch()
-    assert imported("-c", FULL, *BUILD)[1] == imported("-m", "urdfsync", *BUILD)[1] == names[1]
-    hashing, _ = imported("-c", "import runpy, hashlib")
-    names = imported("-m", "urdfsync", *BUILD)  # of a file that is young
-    assert names[0] - hashing - ours <= {"urdfsync", *light}
+    assert names[0] - anyway <= ours | light
 
 
-def test_a_build_that_has_no_answer_and_nothing_to_do_imports_no_library(folder: Path) -> None:
+def test_a_build_that_remembers_nothing_and_has_nothing_to_do_imports_no_library(folder: Path) -> None:
     assert cli.main(BUILD) == 0  # the first one in a copy notes that it wrote this folder
-    Path(STAMP).unlink(missing_ok=True)
+    shutil.rmtree(DEPS)
     names, said = imported("-c", FULL, *BUILD)
     assert said == f"{IN_STEP}\n"
     assert not names & {"jinja2", "rich", "lxml", "numpy", "yourdfpy"}
@@ -548,9 +571,9 @@ FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"
 @pytest.mark.parametrize("variables", [{}, {"NO_COLOR": "1"}])
 def test_it_looks_the_same_on_a_terminal(folder: Path, variables: dict[str, str]) -> None:
     full = f"from urdfsync.output import console; console.BAR_AFTER = 1e9; {FULL}"  # no bar on a busy machine
+    time.sleep(2.1)
     _on_terminal(full, variables)  # what it says in full, the next ones count
-    said = {_on_terminal(full, variables)}
-    answers.until(Path(STAMP).exists, lambda: said.add(_on_terminal(full, variables)))
+    said = {_on_terminal(full, variables), _on_terminal(full, variables)}
     short = "import sys; from urdfsync.__main__ import main; main(); assert 'argparse' not in sys.modules"
     said.add(_on_terminal(short, variables))
     (same,) = said

@@ -1,0 +1,110 @@
+"""What is read is recorded; the list is incomplete if something changed meanwhile."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from support import xacros
+from support.networks import RECORD, configure, resistor, run, run_all
+
+from urdfsync.dependencies import reads
+from urdfsync.dependencies.facts import MODELICA, NAMES, NOTHING, PATH, VARIABLE, facts_of
+
+
+def test_environment_variables_are_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("LENGTH", raising=False)
+    for value in (None, "", "0.5", "0.6"):
+        if value is not None:
+            monkeypatch.setenv("LENGTH", value)
+        before = facts_of(VARIABLE, "LENGTH")
+        with reads.Reads() as found:
+            assert reads.read_variable("LENGTH") == value
+        assert found.entries == {(VARIABLE, "LENGTH"): before}
+        monkeypatch.setenv("LENGTH", "another")
+        assert facts_of(VARIABLE, "LENGTH") != before
+
+
+def test_what_changes_or_fails_meanwhile_makes_the_record_incomplete(tmp_path: Path) -> None:
+    file = tmp_path / "file"
+    with reads.Reads() as found:
+        assert not reads.is_file(file)
+        file.write_text("a")
+        assert reads.is_file(file)
+    assert not found.complete, "it came meanwhile"
+    with reads.Reads() as found:
+        assert reads.read_file(file) == b"a"
+        assert found.complete
+        file.write_text("ab")
+        assert reads.read_file(file) == b"ab"
+    assert not found.complete, "it changed meanwhile"
+    with reads.Reads() as found, pytest.raises(OSError, match="too long"):
+        reads.is_file(tmp_path / ("a" * 5000))
+    assert not found.complete, "the system did not tell"
+
+
+def test_a_plan_lists_what_it_has_read(project: Path) -> None:
+    """Files, places where nothing is, names in folders, and outputs that are to be made."""
+    configure('package_paths = ["later"]\ntemplates = "own"\n')
+    (project / "own").mkdir()
+    (project / "Mine.mo").write_text("model Mine end Mine;")
+    (project / "step.csv").unlink()
+    entries = set(run(dry=True).reads.entries)
+    listed = ((PATH, "ladder.json"), (PATH, "Mine.mo"), (NAMES, "own"), (MODELICA, "."))
+    assert {(kind, str((project / name).resolve())) for kind, name in listed} <= entries
+    assert {(PATH, str(project / name)) for name in ("step.csv", "later/step.csv", "modelica")} <= entries
+    run()
+    assert (PATH, str(project / RECORD)) in run(dry=True).reads.entries
+
+
+def test_an_error_carries_the_list_in_the_place_of_a_plan(project: Path) -> None:
+    for content in (None, "{"):
+        (project / "ladder.json").unlink() if content is None else (project / "ladder.json").write_text(content)
+        (failed,) = run_all()
+        assert (PATH, str(project / "ladder.json")) in failed.reads.entries
+
+
+def test_so_does_an_error_of_xacro(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    source = xacros.ARM.replace("parts/beam.xacro", "parts/*.xacro").replace("masses.yaml", "gone.yaml")
+    xacros.write(tmp_path, {"arm.urdf.xacro": source})
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf.xacro"\npackage = "Arm"\n')
+    (failed,) = run_all()
+    assert failed.failed
+    entries = failed.reads.entries
+    assert {(PATH, str(tmp_path / "urdf/gone.yaml")), (NAMES, str(tmp_path / "urdf/parts"))} <= set(entries)
+
+
+def test_a_build_lists_what_it_wrote_as_it_is_then(project: Path) -> None:
+    run()
+    resistor(150)
+    result = run()
+    assert result.writes
+    facts = result.reads
+    assert list(facts.changes(facts.look())) == []
+    (project / RECORD).write_text("changed")
+    assert list(facts.changes(facts.look())) == [(PATH, str(project / RECORD))]
+
+
+# Links
+
+
+def test_a_link_changes_with_itself_and_with_its_target(tmp_path: Path) -> None:
+    first, second, link = tmp_path / "first", tmp_path / "second", tmp_path / "link"
+    for target in (first, second):
+        target.write_text("same")
+    link.symlink_to(first)
+    before = facts_of(PATH, link)
+    first.write_text("other text")
+    changed = facts_of(PATH, link)
+    link.unlink()
+    link.symlink_to(second)
+    retargeted = facts_of(PATH, link)
+    second.unlink()
+    assert len({before, changed, retargeted, facts_of(PATH, link)}) == 4
+
+
+def test_the_times_of_a_folder_are_no_fact(tmp_path: Path) -> None:
+    before = facts_of(PATH, tmp_path)
+    (tmp_path / "new").touch()
+    assert facts_of(PATH, tmp_path) == before != NOTHING == facts_of(PATH, tmp_path / "new/below")

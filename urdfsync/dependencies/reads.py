@@ -1,0 +1,221 @@
+"""The one door for reading: lists each file and folder that a piece of work reads, with facts that show a change.
+
+A robot's record holds while the facts in its list are unchanged, and the daemon watches the same list. Code that
+decides about work reads only through this module. If other code reads files, the caller calls `depend_on` or
+`cannot_record`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import stat
+import time
+from collections.abc import Iterable, Iterator, Mapping
+from contextvars import ContextVar, Token
+
+from urdfsync.dependencies.facts import (
+    MODELICA,
+    NAMES,
+    PATH,
+    VARIABLE,
+    Entry,
+    Facts,
+    checksum,
+    facts_of,
+    failed,
+    hash_content,
+    is_young,
+    look,
+    names_in,
+    read_unrecorded,
+)
+from urdfsync.dependencies.facts import file_type as type_in
+from urdfsync.dependencies.facts import is_file as has_file
+
+
+class Reads:
+    """The list of all that this thread reads through this module inside a `with` block, and inside nested blocks."""
+
+    def __init__(self) -> None:
+        self._token: Token[Reads | None] | None = None
+        self.entries: dict[Entry, Facts] = {}
+        self.hashes: dict[Entry, str] = {}
+        """Hash of the content of each file that was young when it was read; empty if unknown."""
+        self.complete = True
+        """Whether the list has all reads, and no path changed between two reads. Otherwise nothing is remembered."""
+
+    def __enter__(self) -> Reads:
+        self._token = _current.set(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._token is not None:
+            _current.reset(self._token)
+        self._token = None  # a worker sends its list, and a token can't be pickled
+        include(self)
+
+    def add(self, kind: str, path: str | os.PathLike[str], facts: Facts) -> None:
+        """Record the facts about a path, before its content is read."""
+        entry = kind, os.fspath(path)
+        if self.entries.setdefault(entry, facts) != facts:
+            self.complete = False  # the path changed between two reads
+        elif kind == PATH and is_young(facts, time.time_ns()):
+            self.hashes.setdefault(entry, "")
+
+    def add_hash(self, entry: Entry, sha256: str) -> None:
+        """Record the hash of a young file."""
+        if self.hashes.get(entry) and self.hashes[entry] != sha256:
+            self.complete = False  # the file changed between two reads, and its stat values did not
+        self.hashes[entry] = self.hashes.get(entry) or sha256
+
+    def renew(self, written: Mapping[str, bytes | None]) -> None:
+        """Renew the facts of written files (None for a deleted file), and of the folders around them."""
+        changed = set(written)
+        for path in written:
+            while (path := os.path.dirname(path)) not in changed:
+                changed.add(path)
+        for entry in {(PATH, path) for path in written} | {entry for entry in self.entries if entry[1] in changed}:
+            self.entries[entry], content = look(*entry), written.get(entry[1])
+            self.hashes.pop(entry, None)
+            if content is not None and entry[0] == PATH:
+                self.hashes[entry] = hash_content(content)
+
+
+_current: ContextVar[Reads | None] = ContextVar("reads", default=None)
+
+
+@contextlib.contextmanager
+def unrecorded() -> Iterator[None]:
+    """Record no reads inside a `with` block."""
+    token = _current.set(None)
+    try:
+        yield
+    finally:
+        _current.reset(token)
+
+
+def cannot_record() -> None:
+    """Note that the present work reads what no entry shows: its result is not remembered."""
+    if (reads := _current.get()) is not None:
+        reads.complete = False
+
+
+def include(other: Reads) -> None:
+    """Add another list, such as that of another process."""
+    if (reads := _current.get()) is not None:
+        reads.complete &= other.complete
+        for entry, facts in other.entries.items():
+            reads.complete &= reads.entries.setdefault(entry, facts) == facts
+        for entry, sha256 in other.hashes.items():
+            reads.add_hash(entry, sha256)
+
+
+def _look(kind: str, path: str | os.PathLike[str]) -> Facts:
+    """Return the facts about a path now, and record them. Raises OSError if the path can't be accessed."""
+    try:
+        facts = facts_of(kind, path)
+    except OSError as error:
+        _record(kind, path, failed(error))
+        cannot_record()
+        raise
+    _record(kind, path, facts)
+    return facts
+
+
+def _record(kind: str, path: str | os.PathLike[str], facts: Facts) -> None:
+    if (reads := _current.get()) is not None:
+        reads.add(kind, path, facts)
+
+
+def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
+    """Return the file type (see `stat.S_IFMT`) at a path; 0 for none. Raises OSError if the path can't be accessed."""
+    return type_in(_look(PATH, path), follow=follow)
+
+
+def is_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a regular file, or a link to such a file, is at a path. Raises OSError if that is unknown."""
+    return has_file(_look(PATH, path))
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Whether a folder, or a link to a folder, is at a path. Raises OSError if that is unknown."""
+    return file_type(path) == stat.S_IFDIR
+
+
+def read_variable(name: str) -> str | None:
+    """Return the value of an environment variable; None if it is not set."""
+    _look(VARIABLE, name)
+    return os.environ.get(name)
+
+
+def read_file(path: str | os.PathLike[str]) -> bytes:
+    """Read a regular file of at most `MAX_FILE` bytes. Raises OSError, also for any other kind of file."""
+    depend_on(path)
+    content = read_unrecorded(path)
+    note_content(path, content)
+    return content
+
+
+def note_content(path: str | os.PathLike[str], content: bytes) -> None:
+    """Record the hash of a young file: its stat values may not show the next change."""
+    reads, entry = _current.get(), (PATH, os.fspath(path))
+    if reads is not None and entry in reads.hashes:
+        reads.add_hash(entry, hash_content(content))
+
+
+def read_stat(path: str | os.PathLike[str]) -> Facts:
+    """Return the facts of a path (see `facts.PATH`); `(0,)` for none. Call it before reading. Raises OSError."""
+    return _look(PATH, path)
+
+
+def list_folder(folder: str | os.PathLike[str]) -> list[str]:
+    """Return the names in a folder, in no order. Raises OSError."""
+    return [entry.name for entry in _scan(NAMES, folder)]
+
+
+def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
+    """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError."""
+    return _scan(MODELICA, folder)
+
+
+def _scan(kind: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
+    try:
+        with os.scandir(folder) as scanned:
+            entries = list(scanned)
+    except OSError as error:
+        _record(kind, folder, failed(error))
+        raise
+    _record(kind, folder, names_in(kind, entries))
+    return entries
+
+
+def note_names(folder: str | os.PathLike[str], names: Iterable[str]) -> None:
+    """Record the names in a folder that other code has listed."""
+    _record(NAMES, folder, checksum(names))
+
+
+def depend_on(path: str | os.PathLike[str]) -> None:
+    """Record a file before other code reads it."""
+    if _current.get() is not None:
+        try:
+            _look(PATH, path)
+        except OSError:
+            return  # the reader meets the same error, and reports it
+
+
+def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
+    """Yield the paths of all regular files below a folder, and of links to regular files; skip links to folders."""
+    waiting = [os.fspath(folder)]
+    while waiting:
+        current = waiting.pop()
+        try:
+            names = list_folder(current)
+        except OSError:
+            continue  # the folder is missing or unreadable
+        for path in [f"{current}{os.sep}{name}" for name in names]:
+            facts = _look(PATH, path)
+            if has_file(facts):
+                yield path
+            elif type_in(facts, follow=False) == stat.S_IFDIR:
+                waiting.append(path)

@@ -1,0 +1,141 @@
+"""Remembers the result of a robot's last complete build that had nothing to do, with all that this build has read.
+
+Builds, dry runs, `status`, `diff`, the hooks and the daemon ask `recall` before they plan a robot.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import msgspec
+
+from urdfsync import noop, registry
+from urdfsync.changes import Changes
+from urdfsync.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.dependencies import record
+from urdfsync.dependencies.facts import Entry, Facts
+from urdfsync.dependencies.reads import Reads, depend_on
+from urdfsync.dependencies.record import FactList, Record
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
+from urdfsync.engine.findings import orphaned_state
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.result import Result
+from urdfsync.files import digest, shown
+from urdfsync.state.transaction import DRAFT, PLANNED
+
+_SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED, Reason.UNKNOWN})
+"""Reasons of actions that `build` does not list."""
+
+
+class _Stored(msgspec.Struct, frozen=True, array_like=True):
+    """The parts of a result with nothing to write that do not follow from the configuration."""
+
+    actions: tuple[Action, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    is_broken: bool
+    changes: Changes | None
+    lines: str
+    """Hash of the robot's lines in the configuration if `diagnostics` state one; else empty."""
+
+
+class Keys:
+    """The keys of the robots of one configuration: each holds all that decides about a robot and is no file."""
+
+    def __init__(self, config: Config, options: BuildOptions) -> None:
+        self._folders = [(robot.name, str(robot.folder), robot.on_conflict) for robot in config.robots]
+        self._shared = repr((config.file, config.check, options.package_paths, record.surroundings()))
+        self._is_plain = not (options.full or options.draw or options.choices or options.adopts or options.removes)
+
+    def key(self, robot: RobotConfig) -> str:
+        """Return the robot's key; empty if the options ask for a new plan. Raises ConfigError for a broken domain."""
+        if not self._is_plain:
+            return ""
+        own = msgspec.json.encode(msgspec.structs.replace(robot, lines={}), enc_hook=_plain, order="sorted")
+        others = [entry for entry in self._folders if entry[0] != robot.name]
+        code = "" if registry.is_own(robot.domain) else registry.program(robot.domain)
+        shared = f"{self._shared}{others}{code}".encode(errors="surrogateescape")
+        return digest(own + b"\0" + shared)
+
+
+def _plain(value: Any) -> Any:
+    return sorted(value) if isinstance(value, frozenset) else str(value)
+
+
+def recall(
+    config: Config, robot: RobotConfig, options: BuildOptions, key: str, seen: dict[Entry, Facts]
+) -> Result | None:
+    """Return the remembered result of a robot; None if anything has changed since, or nothing is remembered.
+
+    `seen` has facts that were looked at just now, and gets the others.
+    """
+    folder, name = str(config.root / STATE_FOLDER), f"{robot.name}{noop.ROBOT}"
+    found = record.load(folder, name) if key else None
+    if found is None or found.key != key or record.find_change(folder, name, found, seen):
+        return None
+    try:
+        stored = msgspec.msgpack.decode(found.result, type=_Stored)
+    except (msgspec.MsgspecError, UnicodeDecodeError):
+        return None
+    if stored.lines and stored.lines != _lines(robot):
+        return None
+    return Result(
+        robot.name,
+        robot.target.package,
+        robot.folder,
+        config.root,
+        Actions(stored.actions),
+        stored.diagnostics,
+        dry=options.dry,
+        is_broken=stored.is_broken,
+        changes=stored.changes,
+        reads=found.facts,
+    )
+
+
+def remember(config: Config, robot: RobotConfig, key: str, reads: Reads, result: Result) -> None:
+    """Remember a result without writes, unless the list of reads is incomplete."""
+    if not (key and reads.complete) or result.failed or result.stale or result.conflicts or result.settled:
+        return
+    stated = any(finding.file == shown(config.file) for finding in result.diagnostics)
+    stored = _Stored(
+        tuple(result.actions), result.diagnostics, result.is_broken, result.changes, _lines(robot) if stated else ""
+    )
+    facts, folder = FactList.of(reads), str(config.root / STATE_FOLDER)
+    words = [result.summary, _quick_commands(result), *map(finding_key, robot.without_ignored(result.diagnostics))]
+    Record(key, facts, words, msgspec.msgpack.encode(stored)).save(folder, f"{robot.name}{noop.ROBOT}")
+
+
+def remember_configuration(config: Config, reads: Reads) -> None:
+    """Remember a configuration without warnings whose robots were all built: then a no-op build need not read it."""
+    for robot in config.robots:
+        is_plain = registry.is_own(robot.domain) and robot.output.is_relative_to(config.root)
+        if robot.on_build == "check" or not is_plain:
+            return  # these builds do more than compare
+    folder = config.root / STATE_FOLDER
+    with reads:
+        for name in (PLANNED, DRAFT):
+            depend_on(folder / name)
+        strays = orphaned_state(config)
+    if not strays:
+        keys = Keys(config, BuildOptions())
+        noop.remember(str(config.file), reads, {robot.name: keys.key(robot) for robot in config.robots})
+
+
+def _lines(robot: RobotConfig) -> str:
+    return digest(repr(sorted(robot.lines.items())).encode())
+
+
+def _quick_commands(result: Result) -> str:
+    """Return the commands that say no more than the summary, and how many findings there are; `-` for none."""
+    findings = (each.severity is Severity.ERROR or each.file.endswith(".mo") for each in result.diagnostics)
+    if not result.in_step or any(findings) or any(action.reason not in _SILENT for action in result.actions):
+        return "-"
+    return "build" if any(action.status is not FileStatus.IN_STEP for action in result.actions) else "build status"
+
+
+def finding_key(finding: Diagnostic) -> str:
+    """Return a hash of a finding, the same from each working folder."""
+    file = os.path.abspath(finding.file)  # noqa: PTH100 - strings: many robots have many findings
+    return digest(f"{finding.code}\0{finding.message}\0{file}".encode(errors="surrogatepass"))
