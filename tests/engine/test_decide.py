@@ -595,7 +595,7 @@ def test_uses_of_what_has_another_name_get_the_new_one(
 
 
 @pytest.mark.parametrize(
-    ("module", "name"), [(None, ""), (builtins, "open"), (os, "stat")], ids=["link", "file", "folder"]
+    ("module", "name"), [(None, ""), (builtins, "open"), (os, "lstat")], ids=["link", "file", "folder"]
 )
 def test_an_own_class_that_cant_be_read_stops_no_build(
     project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, module: ModuleType | None, name: str

@@ -169,7 +169,9 @@ class Watch(Listener):
     @property
     def said(self) -> str:
         """All that is known, to explain a failure."""
-        lines = (f"{event['event']} {event.get('robot', '')} {event.get('summary', '')}" for event in self.events)
+        lines = (
+            f"{event.get('event', event)} {event.get('robot', '')} {event.get('summary', '')}" for event in self.events
+        )
         return "\n".join([*lines, self.errors])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import NamedTuple
@@ -10,7 +11,6 @@ import msgspec
 
 from urdfsync import __version__, registry
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.reads import file_type
 from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine import parents, source
@@ -132,8 +132,9 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
     """Yield robots with a record but no configuration, and the key of their folder; None for an unreadable record."""
     # a robot counts if its record file exists: if the disk ignores case, `arm` and `Arm` share one
-    configured = {robot.name.casefold() for robot in config.robots if file_type(store.path(robot.name), follow=False)}
-    for name in store.names():
+    names = store.names()  # also records which files there are
+    configured = {robot.name.casefold() for robot in config.robots if os.path.lexists(store.path(robot.name))}
+    for name in names:
         if name.casefold() not in configured:
             try:
                 record, _ = store.load(name)

@@ -264,8 +264,8 @@ class Daemon:
             self._listener(event)
 
     def _watch_folders(self) -> None:
-        entries = {entry for watched in self._robots.values() for entry in watched.facts.entries}
-        self._robots_of = find_places({name: watched.facts.entries for name, watched in self._robots.items()})
+        entries_of = {name: watched.places for name, watched in self._robots.items()}
+        self._robots_of, entries = find_places(entries_of), set().union(*entries_of.values())
         folders = find_watched_folders(self._config, entries, self._options.build.package_paths)
         unwatched = self._observer.watch_folders(folders)
         told = {diagnostic.hint for diagnostic in self._unwatched}

@@ -73,7 +73,7 @@ def find_places(entries: Mapping[str, Collection[Entry]]) -> Mapping[str, set[st
             folder, _, name = path.rpartition(os.sep)
             if kind in LISTINGS:
                 on_the_way = _way_to(path)[-1:]
-            elif os.path.islink(path):  # noqa: PTH114
+            elif not folder or os.path.islink(path):  # noqa: PTH114
                 on_the_way = _way_to(path)
             else:
                 if folder not in ways:

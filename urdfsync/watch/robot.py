@@ -10,7 +10,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies.facts import PATH, Entry, Facts
+from urdfsync.dependencies.facts import PATH, VARIABLE, Entry, Facts
 from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import Diagnostic
 
@@ -65,6 +65,11 @@ class WatchedRobot(msgspec.Struct):
         if not self.changes:
             self.facts = self.facts.aged(self.seen)
         return self.seen != before
+
+    @property
+    def places(self) -> set[Entry]:
+        """The entries in which events may come: a process keeps its environment."""
+        return {entry for entry in self.facts.entries if entry[0] != VARIABLE}
 
     @property
     def has_changed(self) -> bool:
