@@ -11,6 +11,7 @@ from urdfsync.changes import Changes, Effect, Effects, compare
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
+from urdfsync.engine.decide import decide_package
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import generate_robot
@@ -18,7 +19,7 @@ from urdfsync.engine.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
-from urdfsync.engine.stage import Drawing
+from urdfsync.engine.stage import draw_model
 from urdfsync.files import shown
 from urdfsync.output.outline import number_table, outline
 from urdfsync.output.sections import Section, Table
@@ -75,9 +76,7 @@ def gather(
     generation = generate_robot(inputs)
     compared, older = _with_older(compared, inputs, generation.now, shown_before)
     changes, result = compared.result.changes or Changes(), compared.result
-    draw: Drawing | None = inputs.domain.drawing
-    model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
-    actions = result.actions if against is None else None  # the actions of a comparison are not those of a build
+    decision = decide_package(inputs, generation)
     return Content(
         robot=robot,
         version=(generation.now, generation.imported.contents),
@@ -89,8 +88,8 @@ def gather(
         renamed={f"{kind} {old}": f"{kind} {new}" for (kind, old), new in changes.renames.items()},
         changes=_change_words(changes),
         files=_files(generation.package, robot),
-        diagram=(draw and draw(*model)) or "",
-        edits=RobotEdits(robot.name, config.root, tuple(find_edited(inputs, generation, actions))),
+        diagram=draw_model(inputs, generation, decision) or "",
+        edits=RobotEdits(robot.name, config.root, tuple(find_edited(inputs, generation, decision.actions))),
         conflicts=result.conflicts,
     )
 
