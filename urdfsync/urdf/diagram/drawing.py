@@ -73,25 +73,23 @@ def draw(robot: Robot, target: Target, options: Options, differing: Mapping[str,
     """
     assembly = Assembly(robot, options, target)
     names = assembly.connectors
-    diagram, notes = layout(assembly.tree, names), list[str]()
+    diagram, files, notes = layout(assembly.tree, names), _files(assembly), list[str]()
     path, frame_a = f"{target.name}.mo", {"frame_a": diagram.placements["frame_a"]}
     source, model = (read_model(text, frame_a) for text in differing.get(path, ("", "")))
     parts = dict(_parts(assembly, differing, model))
-    changed = {name for name, files in _files(assembly).items() if not differing.keys().isdisjoint(files)}
-    if model:
-        known = diagram.placements.keys() | parts.keys()
-        absent = [name for name in diagram.placements if name not in model.diagram.placements]
-        notes += [f"in the source, but not in {path}: {', '.join(absent)}"] if absent else []
-        own = {name: node for name, node in model.components.items() if name not in known}
-        parts |= {name: _Part("own", _class_name(node)) for name, node in own.items()}
-        changed |= {
-            name for name, node in model.components.items() if not _is_as_generated(name, node, source)
-        } - own.keys()
+    changed = {name for name in parts if not differing.keys().isdisjoint(files.get(name, ()))}
+    if source and model:
+        both = [(name, source.components.get(name), model.components.get(name)) for name in parts]
+        changed |= {name for name, old, new in both if old and new and not is_same(old, new, layout=False)}
+        own = model.components.keys() - diagram.placements.keys()
+        parts |= {name: _Part("own", _class_name(model.components[name])) for name in sorted(own)}
+        if absent := [name for name in diagram.placements if name not in model.diagram.placements]:
+            notes.append(f"in the source, but not in {path}: {', '.join(absent)}")
         diagram = model.diagram
     elif path in differing:
         notes.append(f"{path} can't be read: this is the diagram of the source")
-    drawn = {name: part for name, part in parts.items() if name in diagram.placements}
-    kinds: set[Kind] = {part.kind for part in drawn.values()} | ({"changed"} if changed & drawn.keys() else set())
+    parts = {name: part for name, part in parts.items() if name in diagram.placements}
+    kinds: set[Kind] = {part.kind for part in parts.values()} | ({"changed"} if changed & parts.keys() else set())
     x1, y1, x2, y2 = diagram.extent
     legend, bottom = _legend(kinds, (x1, -y1 + _FOOTER), x2 + _MARGIN)
     environment = jinja2.Environment(
@@ -116,7 +114,7 @@ def draw(robot: Robot, target: Target, options: Options, differing: Mapping[str,
         placements={
             name: box for name, box in diagram.placements.items() if name not in ("sensorParameters", "startPositions")
         },
-        parts=drawn,
+        parts=parts,
         changed=changed,
         notes=[(note, bottom + row * _LEGEND) for row, note in enumerate(notes)],
         axes={drive.axis: drive.motion for drive in names.drives.values()}
@@ -134,12 +132,6 @@ def _files(assembly: Assembly) -> dict[str, tuple[str, str]]:
         for (kind, _), name in assembly.tree.names.items()
         for folder in ["Links" if kind == "link" else "Joints"]
     }
-
-
-def _is_as_generated(name: str, declaration: SyntaxTree, source: ModelText | None) -> bool:
-    """Return whether the source has the same component, in whatever place."""
-    generated = source.components.get(name) if source else None
-    return generated is not None and is_same(declaration, generated, layout=False)
 
 
 def _class_name(declaration: SyntaxTree) -> str:

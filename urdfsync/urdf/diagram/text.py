@@ -4,31 +4,30 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from urdfsync.modelica.lexer import lex
-from urdfsync.modelica.tree import Leaf, Node, Statement, SyntaxTree, UnreadableError, read_tree
+from urdfsync.modelica.tree import Node, Statement, SyntaxTree, UnreadableError, read_tree
 from urdfsync.modelica.values import literals
-from urdfsync.urdf.diagram.layout import PORTS, Diagram, Path, Placement, Point, as_path
+from urdfsync.urdf.diagram.layout import PORTS, Diagram, Path, Placement, as_path
 
 _KINDS: Mapping[tuple[int, ...], str] = {(95, 95, 95): "frame", (0, 0, 0): "rotational", (0, 127, 0): "translational"}
 """The kinds of lines by their colours in the templates and in the Modelica Standard Library."""
-_END = re.compile(r"('(?:[^'\\]|\\.)*+'|\w++)(?:\[[^\]]*+\])?(?:\.(\w++))?")
-"""Matches a connector: the component, subscripts, and the component's connector."""
+_NAME = r"(?:'(?:[^'\\]|\\.)*+'|\w++)"
+_END = re.compile(rf"(({_NAME})(?:\[[^\]]*+\])?+\.?((?:{_NAME}|\[[^\]]*+\]|\.)*+))")
+"""Matches an end of a connection, with its component, and the connector of the component."""
 _FARTHEST = 100_000
-"""The largest coordinate that is drawn; a number beyond is damage."""
+"""The largest coordinate that is drawn."""
 _ROW, _STEP = 15, 40
-"""The components of a row below the diagram, and the distance of their middles."""
+"""The number of components in a row below the diagram, and the distance of their middles."""
 
 
 class ModelText(NamedTuple):
-    """The diagram of a text, and the statements of the components that the diagram may show."""
+    """The diagram in the text of a robot model, and the declarations of all components by their names."""
 
     diagram: Diagram
-    """A line has its kind, or its colour if that is no kind's."""
     components: Mapping[str, SyntaxTree]
-    """The declarations of all components, by their names."""
 
 
 def _read_body(text: str) -> SyntaxTree | None:
@@ -40,16 +39,16 @@ def _read_body(text: str) -> SyntaxTree | None:
     try:
         for statement in part.node.parts:
             if isinstance(statement.node, Statement):
-                statement.node.parts  # noqa: B018 - reads the statement: only names were read so far
+                statement.node.parts  # noqa: B018 - reads the statement: `read_tree` reads only its name
     except UnreadableError:
         return None
     return part.node
 
 
 def find(node: Node, *path: str) -> str:
-    """Return the value of a modifier or annotation: `annotation`, then the names of arguments; empty if there is none.
+    """Return the expression of a modifier of a component or base class, or, after `annotation`, of an annotation.
 
-    Without `annotation`, the path begins with a modifier of a component or a base class.
+    The expression is empty if there is none.
     """
     first, *names = path if path[0] == "annotation" else ("arguments", *path)
     keys = [first, *(key for name in names for key in (name, "arguments"))][:-1]
@@ -62,10 +61,10 @@ def find(node: Node, *path: str) -> str:
 
 
 def find_in(text: str, key: str, *path: str) -> str:
-    """Return the value of a modifier in a class: of `component NAME`, or of the first base class, `extends`."""
+    """Return the expression of a modifier in a class: of `component NAME`, or of the first base class, `extends`."""
     body = _read_body(text)
-    parts = (part.node for part in body.parts if f"{part.key} ".startswith(f"{key} ")) if body else ()
-    return next((find(node, *path) for node in parts), "")
+    nodes = (part.node for part in body.parts if f"{part.key} ".startswith(f"{key} ")) if body else ()
+    return next((find(node, *path) for node in nodes), "")
 
 
 def read_model(text: str, inherited: Mapping[str, Placement]) -> ModelText | None:
@@ -77,18 +76,24 @@ def read_model(text: str, inherited: Mapping[str, Placement]) -> ModelText | Non
     if body is None:
         return None
     components = dict(_components(body))
-    named = {name: _placement(statement) for name, statement in components.items()}
-    places = {**inherited, **{name: place for name, place in named.items() if place}}
-    connections = [part.node for part in body.parts if part.key.startswith("connect ")]
-    ends = [_ends(statement) for statement in connections]
-    x1, y1, x2, y2 = _extent(body, places)
-    connected = dict.fromkeys(match[1] for pair in ends for end in pair if (match := _END.match(end)))
-    for number, name in enumerate(name for name in connected if name in named and name not in places):
+    places = {**inherited, **{name: place for name, node in components.items() if (place := _placement(node))}}
+    note = body.find("annotation")
+    extent = _numbers(note.node, "Diagram", "coordinateSystem", "extent") if note else ()
+    boxes = [*places.values(), *([Placement(*extent)] if len(extent) == 4 else ())]
+    x1, y1, x2, y2 = (side(values) for side, values in zip((min, min, max, max), zip(*boxes, strict=True), strict=True))
+    connections = [
+        (part.node, ends)
+        for part in body.parts
+        if part.key.startswith("connect ") and len(ends := _END.findall(part.key.removeprefix("connect "))) == 2
+    ]
+    connected = dict.fromkeys(name for _, ends in connections for _, name, _ in ends)
+    unplaced = [name for name in connected if name in components and name not in places]
+    for number, name in enumerate(unplaced):
         row, column = divmod(number, _ROW)
-        places[name] = Placement.around((x1 + _STEP // 2 + column * _STEP, y1 - _STEP * row - _STEP // 2))
-    y1 = min([y1, *(place.y1 - _STEP // 4 for place in places.values())])
-    drawn = [(pair, _line(node, pair, places)) for pair, node in zip(ends, connections, strict=True)]
-    lines = {pair: line for pair, line in drawn if line}
+        places[name] = Placement.around((x1 + (2 * column + 1) * _STEP // 2, y1 - (2 * row + 1) * _STEP // 2))
+    y1 -= _STEP * math.ceil(len(unplaced) / _ROW)
+    drawn = [((start[0], end[0]), _line(node, (start, end), places)) for node, (start, end) in connections]
+    lines = {ends: line for ends, line in drawn if line}
     return ModelText(Diagram((x1, y1, x2, y2), places, lines), components)
 
 
@@ -97,81 +102,49 @@ def _components(body: SyntaxTree) -> Iterator[tuple[str, SyntaxTree]]:
     for part in body.parts:
         if not (part.key.startswith("component ") and isinstance(part.node, SyntaxTree)):
             continue
-        listed = part.node.find("components")
-        first, *others = _split(listed.node.text) if listed else [part.node.text.rstrip(";")]
-        statement = Statement(f"{first};", is_equation=False)
-        type_ = statement.find("type")
-        for text in (first, *(f"{type_.node.text if type_ else ''} {other}" for other in others)):
-            statement = Statement(f"{text};", is_equation=False)
+        depth, commas, text = 0, [-1], part.node.text.rstrip(";")
+        for token in lex(text)[0]:
+            depth += (token.text in "([{") - (token.text in ")]}")
+            if token.text == "," and not depth:
+                commas.append(token.start)
+        first, *others = (text[at + 1 : end] for at, end in zip(commas, [*commas[1:], len(text)], strict=True))
+        type_ = Statement(f"{first};", is_equation=False).find("type")
+        for one in (first, *(f"{type_.node.text if type_ else ''} {other}" for other in others)):
+            statement = Statement(f"{one};", is_equation=False)
             if name := statement.find("name"):
                 yield name.node.text, statement
-
-
-def _split(text: str) -> list[str]:
-    """Return the parts of a text between its commas, but not those in brackets."""
-    depth, commas = 0, [-1]
-    for token in lex(text)[0]:
-        depth += (token.text in "([{") - (token.text in ")]}")
-        if token.text == "," and not depth:
-            commas.append(token.start)
-    return [text[start + 1 : stop] for start, stop in zip(commas, [*commas[1:], len(text)], strict=True)]
 
 
 def _numbers(node: Node, *path: str) -> tuple[int, ...]:
     """Return the coordinates of an annotation, in whole units; empty if there are none that can be drawn."""
     values = literals(find(node, "annotation", *path))
-    if not isinstance(values, tuple) or not all(abs(value) <= _FARTHEST for value in values):
+    if not isinstance(values, tuple) or any(abs(value) > _FARTHEST for value in values):
         return ()
-    return tuple(map(round, values))
+    return tuple(round(value) for value in values)
 
 
 def _placement(statement: Node) -> Placement | None:
     """Return the place of a component; a turned component has the rectangle around it."""
-    where = "Placement", "transformation"
-    extent = _numbers(statement, *where, "extent")
+    extent, origin, turn = (
+        _numbers(statement, "Placement", "transformation", name) for name in ("extent", "origin", "rotation")
+    )
     if len(extent) != 4:
         return None
-    x, y = _numbers(statement, *where, "origin") or (0, 0)
-    angle = math.radians(next(iter(_numbers(statement, *where, "rotation")), 0))
+    (x, y), angle = origin if len(origin) == 2 else (0, 0), math.radians(turn[0] if turn else 0)
     cos, sin = math.cos(angle), math.sin(angle)
-    corners = [(a, b) for a in extent[::2] for b in extent[1::2]]
-    across, upright = (
-        [round(x + a * cos - b * sin) for a, b in corners],
-        [round(y + a * sin + b * cos) for a, b in corners],
-    )
+    corners = [(round(x + a * cos - b * sin), round(y + a * sin + b * cos)) for a in extent[::2] for b in extent[1::2]]
+    across, upright = zip(*corners, strict=True)
     return Placement(min(across), min(upright), max(across), max(upright))
 
 
-def _extent(body: SyntaxTree, places: Mapping[str, Placement]) -> tuple[int, int, int, int]:
-    """Return the extent of the diagram; components outside of it make it larger."""
-    note = body.find("annotation")
-    extent = _numbers(note.node, "Diagram", "coordinateSystem", "extent") if note else ()
-    boxes = [*places.values(), *([Placement(*extent)] if len(extent) == 4 else [])]
-    return (
-        min(box.x1 for box in boxes),
-        min(box.y1 for box in boxes),
-        max(box.x2 for box in boxes),
-        max(box.y2 for box in boxes),
-    )
-
-
-def _ends(connection: Node) -> tuple[str, str]:
-    """Return both connectors, in alphabetical order."""
-    part = connection.find("connect") if isinstance(connection, SyntaxTree) else None
-    first, second = part.node.words if part and isinstance(part.node, Leaf) else ("", "")
-    return str(first), str(second)
-
-
-def _line(connection: Node, ends: tuple[str, str], places: Mapping[str, Placement]) -> tuple[str, Path] | None:
+def _line(node: Node, ends: Sequence[tuple[str, str, str]], places: Mapping[str, Placement]) -> tuple[str, Path] | None:
     """Return the line of a connection with its kind or colour: without a Line, a short way; None without places."""
-    numbers, color = _numbers(connection, "Line", "points"), _numbers(connection, "Line", "color") or (0, 0, 0)
-    points: list[Point] = list(zip(numbers[::2], numbers[1::2], strict=False))
-    kind = _KINDS.get(color, f"rgb{color}")
-    if not points:
-        matches = [_END.match(end) for end in ends]
-        named = [(places.get(match[1]), match[2]) for match in matches if match]
-        points = [place.port(port) if port in PORTS else place.centre for place, port in named if place]
-        kind = "frame" if any(re.search(r"frame(_\w+)?$", end, re.IGNORECASE) for end in ends) else "rotational"
-        points[1:1] = [(points[-1][0], points[0][1])] if points else []
+    numbers, color = (_numbers(node, "Line", name) for name in ("points", "color"))
+    points = list(zip(numbers[::2], numbers[1::2], strict=False))
+    kind = _KINDS.get(color or (0, 0, 0), f"rgb{color}")
+    if not points and all(name in places for _, name, _ in ends):
+        start, end = (places[name].port(port) if port in PORTS else places[name].centre for _, name, port in ends)
+        points = [start, (end[0], start[1]), end]
+        kind = "frame" if any("frame" in (port or name).lower() for _, name, port in ends) else "rotational"
     path = as_path(points)
     return (kind, path) if len(path) > 1 else None
