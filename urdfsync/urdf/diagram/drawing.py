@@ -208,7 +208,8 @@ def _curved(points: Path, radius: float) -> str:
         sides = [(a - x, b - y, math.hypot(a - x, b - y)) for a, b in (before, after)]
         reach = min(radius, *(length / 2 for *_, length in sides))
         (x1, y1), (x2, y2) = ((x + reach * dx / length, y + reach * dy / length) for dx, dy, length in sides)
-        data.append(f"L{x1:.9g} {-y1:.9g}" + (f"Q{x} {-y} {x2:.9g} {-y2:.9g}" if reach else ""))
+        # a difference, since `-y1` would be written as -0
+        data.append(f"L{x1:.9g} {0 - y1:.9g}" + (f"Q{x} {-y} {x2:.9g} {0 - y2:.9g}" if reach else ""))
     data.append(f"L{points[-1][0]} {-points[-1][1]}")
     return "".join(data)
 

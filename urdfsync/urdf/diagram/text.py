@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from urdfsync.modelica.lexer import lex
-from urdfsync.modelica.tree import Node, Statement, SyntaxTree, UnreadableError, read_tree
+from urdfsync.modelica.tree import Leaf, Node, Statement, SyntaxTree, UnreadableError, read_tree
 from urdfsync.modelica.values import literals
 from urdfsync.urdf.diagram.layout import PORTS, Diagram, Path, Placement, as_path
 
 _KINDS: Mapping[tuple[int, ...], str] = {(95, 95, 95): "frame", (0, 0, 0): "rotational", (0, 127, 0): "translational"}
 """The kinds of lines by their colours in the templates and in the Modelica Standard Library."""
-_NAME = r"(?:'(?:[^'\\]|\\.)*+'|\w++)"
-_END = re.compile(rf"(({_NAME})(?:\[[^\]]*+\])?+\.?((?:{_NAME}|\[[^\]]*+\]|\.)*+))")
-"""Matches an end of a connection, with its component, and the connector of the component."""
+_COMPONENT = re.compile(r"'(?:[^'\\]|\\.)*+'|\w++")
+"""Matches the component at the beginning of a connector's name."""
 _FARTHEST = 100_000
 """The largest coordinate that is drawn."""
 _ROW, _STEP = 15, 40
@@ -81,18 +80,14 @@ def read_model(text: str, inherited: Mapping[str, Placement]) -> ModelText | Non
     extent = _numbers(note.node, "Diagram", "coordinateSystem", "extent") if note else ()
     boxes = [*places.values(), *([Placement(*extent)] if len(extent) == 4 else ())]
     x1, y1, x2, y2 = (side(values) for side, values in zip((min, min, max, max), zip(*boxes, strict=True), strict=True))
-    connections = [
-        (part.node, ends)
-        for part in body.parts
-        if part.key.startswith("connect ") and len(ends := _END.findall(part.key.removeprefix("connect "))) == 2
-    ]
-    connected = dict.fromkeys(name for _, ends in connections for _, name, _ in ends)
+    connections = {_ends(part.node): part.node for part in body.parts if part.key.startswith("connect ")}
+    connected = dict.fromkeys(match[0] for ends in connections for end in ends if (match := _COMPONENT.match(end)))
     unplaced = [name for name in connected if name in components and name not in places]
     for number, name in enumerate(unplaced):
         row, column = divmod(number, _ROW)
         places[name] = Placement.around((x1 + (2 * column + 1) * _STEP // 2, y1 - (2 * row + 1) * _STEP // 2))
     y1 -= _STEP * math.ceil(len(unplaced) / _ROW)
-    drawn = [((start[0], end[0]), _line(node, (start, end), places)) for node, (start, end) in connections]
+    drawn = [(ends, _line(node, ends, places)) for ends, node in connections.items()]
     lines = {ends: line for ends, line in drawn if line}
     return ModelText(Diagram((x1, y1, x2, y2), places, lines), components)
 
@@ -137,14 +132,26 @@ def _placement(statement: Node) -> Placement | None:
     return Placement(min(across), min(upright), max(across), max(upright))
 
 
-def _line(node: Node, ends: Sequence[tuple[str, str, str]], places: Mapping[str, Placement]) -> tuple[str, Path] | None:
+def _ends(connection: Node) -> tuple[str, str]:
+    """Return the names of both connectors, in alphabetical order."""
+    part = connection.find("connect") if isinstance(connection, SyntaxTree) else None
+    one, other = part.node.words if part and isinstance(part.node, Leaf) else ("", "")
+    return str(one), str(other)
+
+
+def _line(node: Node, ends: tuple[str, str], places: Mapping[str, Placement]) -> tuple[str, Path] | None:
     """Return the line of a connection with its kind or colour: without a Line, a short way; None without places."""
     numbers, color = (_numbers(node, "Line", name) for name in ("points", "color"))
     points = list(zip(numbers[::2], numbers[1::2], strict=False))
     kind = _KINDS.get(color or (0, 0, 0), f"rgb{color}")
-    if not points and all(name in places for _, name, _ in ends):
-        start, end = (places[name].port(port) if port in PORTS else places[name].centre for _, name, port in ends)
-        points = [start, (end[0], start[1]), end]
-        kind = "frame" if any("frame" in (port or name).lower() for _, name, port in ends) else "rotational"
+    if not points:
+        for end in ends:
+            match = _COMPONENT.match(end)
+            if match is None or match[0] not in places:
+                return None
+            port, place = end.removeprefix(match[0]).rpartition(".")[2], places[match[0]]
+            points.append(place.port(port) if port in PORTS else place.centre)
+            kind = "frame" if "frame" in (port or end).lower() else kind
+        points.insert(1, (points[1][0], points[0][1]))
     path = as_path(points)
     return (kind, path) if len(path) > 1 else None
