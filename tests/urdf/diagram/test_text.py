@@ -118,13 +118,12 @@ def test_an_added_component_stands_at_its_place_with_its_line() -> None:
     [
         ([f"{IMU};"], f"{CONNECT};", {"imu"}),
         ([f"{IMU}, second {PLACE};"], f"{CONNECT}; connect(second.frame_a, imu.frame_a);", {"imu", "second"}),
+        (["  inner Modelica.Mechanics.MultiBody.World world;", f"{IMU};"], f"{CONNECT};", {"imu", "world"}),
         (["  Foo eyes[2] if true;"], "  connect(eyes[1].frame_a, hand.frame_a);", {"eyes"}),
         (["  Foo 'a b.c';"], "  connect('a b.c'.frame_a, hand.frame_a);", {"'a b.c'"}),
     ],
 )
-def test_a_connected_component_without_a_place_stands_below(
-    elements: list[str], equations: str, names: set[str]
-) -> None:
+def test_a_component_without_a_place_stands_below(elements: list[str], equations: str, names: set[str]) -> None:
     picture = drawn(added(*elements, equations=equations))
     assert names <= titles(picture)
     read = read_model(added(*elements, equations=equations)["Bot.mo"][1], FRAME)
@@ -135,6 +134,11 @@ def test_a_connected_component_without_a_place_stands_below(
     assert all(place.y2 <= generated.diagram.extent[1] for place in unplaced)
     assert read.diagram.extent[1] < min(place.y1 for place in unplaced)
     assert len(read.diagram.lines) > len(generated.diagram.lines)
+
+
+def test_variables_and_parameters_are_no_parts_of_the_picture() -> None:
+    declared = added("  parameter Real gain = 2;", "  Modelica.Units.SI.Angle phi, psi;", "  Real x[3];")
+    assert titles(drawn(declared)) == titles(drawn({}))
 
 
 def test_a_user_s_layout_is_that_of_the_picture() -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path as FilePath
@@ -20,7 +21,7 @@ from urdfsync.modelica.tree import SyntaxTree, is_same
 from urdfsync.modelica.values import literals
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.diagram.layout import Diagram, Path, Point, layout
-from urdfsync.urdf.diagram.text import ModelText, find, find_in, read_model
+from urdfsync.urdf.diagram.text import ModelText, find, find_in, read_model, type_of
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, JointType, Robot
@@ -136,8 +137,7 @@ def _files(assembly: Assembly) -> dict[str, tuple[str, str]]:
 
 def _class_name(declaration: SyntaxTree) -> str:
     """Return the last name of a component's class."""
-    part = declaration.find("type")
-    return part.node.text.partition("[")[0].rpartition(".")[2] if part else ""
+    return re.split(r"[.\s]", type_of(declaration))[-1]
 
 
 def _parts(

@@ -16,6 +16,8 @@ _KINDS: Mapping[tuple[int, ...], str] = {(95, 95, 95): "frame", (0, 0, 0): "rota
 """The kinds of lines by their colours in the templates and in the Modelica Standard Library."""
 _COMPONENT = re.compile(r"'(?:[^'\\]|\\.)*+'|\w++")
 """Matches the component at the beginning of a connector's name."""
+_VARIABLE = re.compile(r"\b(?:parameter|constant|input|output|discrete|Real|Integer|Boolean|String|SI|Units)\b")
+"""Matches the type of a component that no diagram shows."""
 _FARTHEST = 100_000
 """The largest coordinate that is drawn."""
 _ROW, _STEP = 15, 40
@@ -59,6 +61,12 @@ def find(node: Node, *path: str) -> str:
     return node.text
 
 
+def type_of(declaration: Node) -> str:
+    """Return the class of a component, with prefixes and without subscripts."""
+    part = declaration.find("type") if isinstance(declaration, SyntaxTree) else None
+    return part.node.text.partition("[")[0].strip() if part else ""
+
+
 def find_in(text: str, key: str, *path: str) -> str:
     """Return the expression of a modifier in a class: of `component NAME`, or of the first base class, `extends`."""
     body = _read_body(text)
@@ -69,7 +77,7 @@ def find_in(text: str, key: str, *path: str) -> str:
 def read_model(text: str, inherited: Mapping[str, Placement]) -> ModelText | None:
     """Return the diagram in a robot model's text; None if the text is not a single class, or has a syntax error.
 
-    `inherited` has the connectors of base classes. Connected components without a place stand below the others.
+    `inherited` has the connectors of base classes. Components without a place stand below the others.
     """
     body = _read_body(text)
     if body is None:
@@ -81,8 +89,9 @@ def read_model(text: str, inherited: Mapping[str, Placement]) -> ModelText | Non
     boxes = [*places.values(), *([Placement(*extent)] if len(extent) == 4 else ())]
     x1, y1, x2, y2 = (side(values) for side, values in zip((min, min, max, max), zip(*boxes, strict=True), strict=True))
     connections = {_ends(part.node): part.node for part in body.parts if part.key.startswith("connect ")}
-    connected = dict.fromkeys(match[0] for ends in connections for end in ends if (match := _COMPONENT.match(end)))
-    unplaced = [name for name in connected if name in components and name not in places]
+    connected = {match[0] for ends in connections for end in ends if (match := _COMPONENT.match(end))}
+    shown = (name for name, node in components.items() if name in connected or not _VARIABLE.search(type_of(node)))
+    unplaced = [name for name in shown if name not in places]
     for number, name in enumerate(unplaced):
         row, column = divmod(number, _ROW)
         places[name] = Placement.around((x1 + (2 * column + 1) * _STEP // 2, y1 - (2 * row + 1) * _STEP // 2))
