@@ -63,7 +63,7 @@ def titles(root: etree._Element, *, marked: bool = False) -> set[str]:
 
 def test_the_generated_text_has_the_layout() -> None:
     expected = layout(PACKAGE.skeleton, Assembly(PACKAGE.robot, PACKAGE.options, PACKAGE.target).connectors)
-    read = read_model(PACKAGE.texts["Bot.mo"], FRAME)
+    read = read_model(PACKAGE.texts["Bot.mo"], FRAME, {})
     assert read is not None
     assert read.diagram.placements == expected.placements
     assert read.diagram.extent == expected.extent
@@ -126,8 +126,8 @@ def test_an_added_component_stands_at_its_place_with_its_line() -> None:
 def test_a_component_without_a_place_stands_below(elements: list[str], equations: str, names: set[str]) -> None:
     picture = drawn(added(*elements, equations=equations))
     assert names <= titles(picture)
-    read = read_model(added(*elements, equations=equations)["Bot.mo"][1], FRAME)
-    generated = read_model(PACKAGE.texts["Bot.mo"], FRAME)
+    read = read_model(added(*elements, equations=equations)["Bot.mo"][1], FRAME, {})
+    generated = read_model(PACKAGE.texts["Bot.mo"], FRAME, {})
     assert read is not None
     assert generated is not None
     unplaced = [read.diagram.placements[name] for name in names if PLACE not in elements[0] or name == "imu"]
@@ -145,7 +145,7 @@ def test_a_user_s_layout_is_that_of_the_picture() -> None:
     text = PACKAGE.texts["Bot.mo"]
     places = re.findall(r"Links\.Hand hand.*?Placement\(transformation\(extent=(\{\{.*?\}\})", text, re.DOTALL)
     turned = "{{-10, -20}, {10, 20}}, origin={300, -90}, rotation=90"
-    read = read_model(text.replace(places[0], turned, 1), FRAME)
+    read = read_model(text.replace(places[0], turned, 1), FRAME, {})
     assert read is not None
     assert read.diagram.placements["hand"] == Placement(280, -100, 320, -80)
     assert read.diagram.extent[2] >= 320

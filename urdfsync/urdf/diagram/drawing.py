@@ -17,7 +17,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import jinja2
 
 from urdfsync.domain import Target
-from urdfsync.modelica.tree import SyntaxTree, is_same
+from urdfsync.modelica.tree import KnownStatements, SyntaxTree, is_same
 from urdfsync.modelica.values import literals
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.diagram.layout import Diagram, Path, Point, layout
@@ -76,7 +76,8 @@ def draw(robot: Robot, target: Target, options: Options, differing: Mapping[str,
     names = assembly.connectors
     diagram, files, notes = layout(assembly.tree, names), _files(assembly), list[str]()
     path, frame_a = f"{target.name}.mo", {"frame_a": diagram.placements["frame_a"]}
-    source, model = (read_model(text, frame_a) for text in differing.get(path, ("", "")))
+    statements: KnownStatements = {}  # both texts have most of their statements in common
+    source, model = (read_model(text, frame_a, statements) for text in differing.get(path, ("", "")))
     parts = dict(_parts(assembly, differing, model))
     changed = {name for name in parts if not differing.keys().isdisjoint(files.get(name, ()))}
     if source and model:

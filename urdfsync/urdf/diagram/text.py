@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from urdfsync.modelica.lexer import lex
-from urdfsync.modelica.tree import Leaf, Node, Statement, SyntaxTree, UnreadableError, read_tree
+from urdfsync.modelica.tree import KnownStatements, Leaf, Node, Statement, SyntaxTree, UnreadableError, read_tree
 from urdfsync.modelica.values import literals
 from urdfsync.urdf.diagram.layout import PORTS, Diagram, Path, Placement, as_path
 
@@ -31,9 +31,9 @@ class ModelText(NamedTuple):
     components: Mapping[str, SyntaxTree]
 
 
-def _read_body(text: str) -> SyntaxTree | None:
+def _read_body(text: str, statements: KnownStatements) -> SyntaxTree | None:
     """Return the elements and equations of a class; None if the text is not a single class, or has a syntax error."""
-    tree = read_tree(text)
+    tree = read_tree(text, statements)
     part = tree.find("body") if tree else None
     if part is None or not isinstance(part.node, SyntaxTree):
         return None
@@ -69,17 +69,18 @@ def type_of(declaration: Node) -> str:
 
 def find_in(text: str, key: str, *path: str) -> str:
     """Return the expression of a modifier in a class: of `component NAME`, or of the first base class, `extends`."""
-    body = _read_body(text)
+    body = _read_body(text, {})
     nodes = (part.node for part in body.parts if f"{part.key} ".startswith(f"{key} ")) if body else ()
     return next((find(node, *path) for node in nodes), "")
 
 
-def read_model(text: str, inherited: Mapping[str, Placement]) -> ModelText | None:
+def read_model(text: str, inherited: Mapping[str, Placement], statements: KnownStatements) -> ModelText | None:
     """Return the diagram in a robot model's text; None if the text is not a single class, or has a syntax error.
 
-    `inherited` has the connectors of base classes. Components without a place stand below the others.
+    `inherited` has the connectors of base classes. Components without a place stand below the others. Known
+    `statements` are not read again, and new ones are added.
     """
-    body = _read_body(text)
+    body = _read_body(text, statements)
     if body is None:
         return None
     components = dict(_components(body))
@@ -105,6 +106,9 @@ def _components(body: SyntaxTree) -> Iterator[tuple[str, SyntaxTree]]:
     """Yield each component with its declaration; one of several in a declaration gets a declaration of its own."""
     for part in body.parts:
         if not (part.key.startswith("component ") and isinstance(part.node, SyntaxTree)):
+            continue
+        if part.node.find("components") is None:
+            yield part.key.removeprefix("component "), part.node
             continue
         depth, commas, text = 0, [-1], part.node.text.rstrip(";")
         for token in lex(text)[0]:
