@@ -36,7 +36,7 @@ def test_the_picture_of_the_arm_is_the_diagram_of_the_example() -> None:
     options = Options()
     snapshot = DOMAIN.read(ARM.read_bytes(), ARM.name, options).snapshot
     assert snapshot is not None
-    drawing = DOMAIN.drawing(snapshot, {}, Target("UrdfSync.Examples.SixAxisArm", "SixAxisArm"), options)
+    drawing = DOMAIN.drawing(snapshot, {}, Target("UrdfSync.Examples.SixAxisArm", "SixAxisArm"), options, {})
     assert (REPOSITORY / "docs/images/six_axis_arm.svg").read_text(encoding="utf-8") == drawing, (
         "run `urdfsync build six_axis_arm --svg` and copy .urdfsync/svg/six_axis_arm.svg"
     )
@@ -48,7 +48,7 @@ def test_the_picture_of_the_four_bar_is_the_diagram_of_the_example() -> None:
     snapshot = DOMAIN.read(source.read_bytes(), source.name, robot.options).snapshot
     assert snapshot is not None
     assert (REPOSITORY / "docs/images/four_bar.svg").read_text(encoding="utf-8") == DOMAIN.drawing(
-        snapshot, {}, robot.target, robot.options
+        snapshot, {}, robot.target, robot.options, {}
     ), "run `urdfsync build four_bar --svg` and copy .urdfsync/svg/four_bar.svg"
 
 

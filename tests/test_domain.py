@@ -181,9 +181,9 @@ def test_artifacts_follow_from_their_input_alone(case: Case) -> None:
     assert (one.artifacts, one.orders) == (two.artifacts, two.orders)
     assert texts(one) == texts(two)
     if case.domain.drawing:
-        drawing = case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
+        drawing = case.domain.drawing(case.snapshot, case.imports, TARGET, case.options, {})
         assert drawing is None or "<svg" in drawing
-        assert drawing == again.domain.drawing(again.snapshot, again.imports, TARGET, again.options)
+        assert drawing == again.domain.drawing(again.snapshot, again.imports, TARGET, again.options, {})
 
 
 def test_imports_show_in_the_text_only_while_they_are_there(case: Case) -> None:

@@ -234,7 +234,7 @@ def test_a_hand_moves_the_arm_by_dragging_typing_and_poses(arm: Path, report: Re
     page.run(f"{number}.value = '-30', {number}.dispatchEvent(new Event('change'))")
     assert page.run("page.positions.get('joint elbow')") == pytest.approx(-math.pi / 6)
     assert page.run("document.querySelector('[data-axis=\"joint elbow\"]').textContent").endswith(
-        "°-199.96-0.5236 rad70.015"
+        "° = -0.5236 rad-199.96 °70.015 °"
     )
     page.run("element('units').firstChild.click()")
     # keys, with the focus on a slider and in a number
@@ -277,6 +277,87 @@ def test_changed_links_have_the_colour_and_the_old_robot_is_there(arm: Path, rep
     page.run("chooseVersion('now')")
     assert page.run(color) == page.run("page.now.bodies.get('link forearm').layers.visual[0].userData.color.getHex()")
     assert page.run("[page.before.root.visible, element('legend').hidden]") == [False, True]
+    assert page.problems == []
+
+
+def test_a_position_beyond_a_limit_is_told_beside_the_slider_and_in_the_picture(
+    arm: Path, report: Report, chromium: Page
+) -> None:
+    page = opened(chromium, report())
+    row = "document.querySelector('[data-axis=\"joint {}\"]')"
+    words, told = f"{row.format('elbow')}.textContent", "element('told').textContent"
+
+    def type_(name: str, position: float) -> None:
+        number = f"{row.format(name)}.querySelector('[type=number]')"
+        page.run(f"({number}.value = '{position}', {number}.dispatchEvent(new Event('change')))")
+
+    type_("elbow", 1.2)
+    assert "beyond" not in page.run(words)
+    assert "limit" not in page.run(told)
+    type_("elbow", 1.3)
+    assert "beyond its limit1.222 rad" in page.run(words)
+    assert page.run(f"{row.format('elbow')}.querySelector('[aria-invalid=true]') !== null")
+    assert page.run(told) == "Beyond the limits: elbow"
+    page.run("select('link forearm')")
+    assert page.run(told) == "link forearm · Beyond the limits: elbow"
+    page.run("pose('Zero')")
+    assert page.run(told) == "Pose: Zero"
+    # a follower has limits of its own
+    type_("gripper_stroke", 0.05)
+    assert page.run(told).endswith("Beyond the limits: gripper_stroke, finger_coupling, pinion_coupling")
+    assert "beyond its limit" in page.run(f"{row.format('finger_coupling')}.textContent")
+    assert page.problems == []
+
+
+def test_space_plays_wherever_the_focus_is_and_presses_nothing(arm: Path, report: Report, chromium: Page) -> None:
+    page = opened(chromium, report())
+    places = (
+        "#play",
+        "[data-pose=Middle]",
+        "#tab-tree",
+        "summary",
+        "[data-axis] .name",
+        "#axes input",
+        "[role=treeitem]",
+    )
+    state = "JSON.stringify([[...page.positions], page.selected, element('tree').hidden, element('poses').open])"
+    page.run("chooseTab(element('tab-tree'))")
+    page.run("page.player.pause = () => {}")
+    for place in places:
+        page.run(f"chooseTab(element('tab-{'tree' if 'tree' in place else 'axes'}'))")
+        before = page.run(state)
+        page.run(f"document.querySelector('{place}').focus()")
+        page.press(" ")
+        assert page.run("page.player.isPlaying"), place
+        page.press(" ")
+        assert not page.run("page.player.isPlaying"), place
+        page.run("page.player.seek(0)")
+        assert page.run(state) == before, place
+    # a text takes its blanks
+    page.run("(chooseTab(element('tab-tree')), element('filter').focus())")
+    page.press(" ")
+    assert not page.run("page.player.isPlaying")
+    assert page.run("element('filter').value") == " "
+    assert page.problems == []
+
+
+def test_the_selection_has_a_colour_of_its_own(arm: Path, report: Report, chromium: Page) -> None:
+    assert cli.main(["build", "--quiet"]) == 0
+    replace(arm, '<origin xyz="0 0 0.44"/>', '<origin xyz="0 0 0.5"/>')
+    page = opened(chromium, report())
+    old = page.run("page.before.bodies.get('link wrist').layers.visual[0].material.color.getHex()")
+    page.run("select('link forearm')")
+    glow = page.run("page.now.bodies.get('link forearm').layers.visual[0].material.emissive.toArray()")
+    names = "accent", "changed", "added", "removed", "selected"
+    red, green, blue = (page.run(f"themeColor('{name}').toArray()") for name in ("selected", "accent", "selected"))
+    assert old == page.run("themeColor('accent').getHex()")
+    assert glow == pytest.approx([0.55 * part for part in red])
+    assert blue == red != green
+    for dark in ("light", "dark"):
+        page.run(f"setTheme('{dark}')")
+        assert len({page.run(f"themeColor('{name}').getHex()") for name in names}) == len(names)
+    frame = "element('drawing').shadowRoot.querySelector('[data-selected]').getAttribute('stroke')"
+    assert page.run(frame) == "#c2188b"
     assert page.problems == []
 
 

@@ -57,3 +57,54 @@ def test_a_revision_is_the_older_version(arm: Path, report: Report, monkeypatch:
     assert values["renamed"] == {"link grasp_point": "link grip"}
     assert values["statuses"] == {"link grip": "renamed"}
     assert values["against"] == "HEAD"
+
+
+def test_the_diagram_and_the_details_show_what_is_on_disk(arm: Path, report: Report) -> None:
+    cli.main(["build", "--quiet"])
+    numbers, robot = Path("modelica/Arm/Links/ForearmParameters.mo"), Path("modelica/Arm/Arm.mo")
+    numbers.write_text(numbers.read_text().replace("mass = 4.2", "mass = 4.35"))
+    sensor = "Modelica.Mechanics.MultiBody.Sensors.AbsoluteSensor imu"
+    place = "annotation (Placement(transformation(extent={{220, -80}, {240, -60}})))"
+    robot.write_text(
+        robot.read_text()
+        .replace("\nequation\n", f"\n  {sensor}\n    {place};\n\nequation\n  connect(imu.frame_a, wrist.frame_a);\n", 1)
+        .replace("Joints.Elbow elbow(\n", "Joints.Elbow elbow(\n    phi_start = 0.1,\n", 1)
+    )
+    page = read(report())
+    values = data_of(page)
+    for diagram in (values["diagram"], drawn()):
+        assert isinstance(diagram, str)
+        assert ">4.35 kg<" in diagram
+        assert ">imu<" in diagram
+        assert ">differs from the source<" in diagram
+        assert ">4.2 kg<" not in diagram
+    assert values["edited"] == {
+        "link forearm": [["inertial mass", "inertial.mass 4.2 → 4.35", "4.35"]],
+        "joint elbow": [["phi_start", "phi_start added", "phi_start = 0.1"]],
+    }
+    words = " ".join(page.words.split())
+    assert "as in the source, without your edits" in words
+    assert "These numbers are those of the source, without your edits." in words
+
+
+def test_nothing_edited_has_no_mark(arm: Path, report: Report) -> None:
+    cli.main(["build", "--quiet"])
+    page = read(report())
+    values = data_of(page)
+    assert values["edited"] == {}
+    assert values["diagram"] == drawn()
+    assert "source<" not in drawn()
+    assert "without your edits" not in page.words
+
+
+def test_in_a_conflict_the_diagram_shows_the_text_that_stays(arm: Path, report: Report) -> None:
+    cli.main(["build", "--quiet"])
+    numbers = Path("modelica/Arm/Links/ForearmParameters.mo")
+    numbers.write_text(numbers.read_text().replace("mass = 4.2", "mass = 4.35"))
+    arm.write_text(arm.read_text().replace('<mass value="4.2"/>', '<mass value="5.1"/>'))
+    assert ">4.35 kg<" in str(data_of(read(report()))["diagram"])
+
+
+def drawn() -> str:
+    assert cli.main(["build", "--svg", "--quiet"]) == 0
+    return Path(".urdfsync/svg/arm.svg").read_text("utf-8")

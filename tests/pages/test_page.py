@@ -15,7 +15,7 @@ from xml.sax.saxutils import quoteattr
 import pytest
 from support.pages import Elements, data_of, read
 
-from urdfsync import config
+from urdfsync import cli, config
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.experiment import Deviation, Quantity
 from urdfsync.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
@@ -51,6 +51,22 @@ def test_names_are_no_markup_wherever_they_stand(report: Report) -> None:
     now = data_of(page)["now"]
     assert isinstance(now, dict)
     assert now["bodies"][0]["element"] == f"link {name}"
+
+
+def test_no_heading_stands_twice(arm: Path, report: Report) -> None:
+    report()
+    cli.main(["build", "--quiet"])
+    for file in ("Links/ForearmParameters.mo", "Links/WristParameters.mo"):
+        path = Path("modelica/Arm", file)
+        path.write_text(path.read_text().replace("mass = ", "mass = 1 + "))
+    arm.write_text(arm.read_text().replace('<mass value="15.5"/>', '<mass value="15.6"/>'))
+    text = report().read_text("utf-8")
+    sections = re.findall(r'<section id="([\w-]+)".*?>(.*?)</section>', text, re.DOTALL)
+    headings = {name: re.findall(r"<(?:h2|caption)>(.*?)<", inner) for name, inner in sections}
+    assert headings["changes"] == ["What changed", "Effects", "Files", "In numbers"]
+    assert headings["edits"] == ["Your edits"]
+    assert headings["findings"] == ["Findings"]
+    assert [inner.count("<thead>") for name, inner in sections if name == "edits"] == [1]
 
 
 def test_the_page_names_the_licence_of_three_js_and_what_wrote_it(report: Report) -> None:

@@ -178,7 +178,14 @@ class RcNetwork(Domain):
                 tuple(fields) or ("network",), ChangeClass.PARAMETER if unit else ChangeClass.STRUCTURAL, unit
             )
 
-    def drawing(self, snapshot: Network, imports: Mapping[str, Import], target: Target, options: Options) -> str | None:
+    def drawing(
+        self,
+        snapshot: Network,
+        imports: Mapping[str, Import],
+        target: Target,
+        options: Options,
+        differing: Mapping[str, tuple[str, str]],
+    ) -> str | None:
         texts = [
             f'<text y="{20 * (y + 1)}">{name}</text>'
             for y, name in enumerate(element.name for element in snapshot.elements)

@@ -204,5 +204,5 @@ def test_a_source_is_read_and_generated_or_has_complete_diagnostics(content: byt
         assert CONTROLS.findall(text) == [], path
     assert parse(package.content("package.mo").decode()).faults == []
     assert parse(text).faults == [], path
-    if (drawing := DOMAIN.drawing(reading.snapshot, {}, TARGET, options)) is not None:
+    if (drawing := DOMAIN.drawing(reading.snapshot, {}, TARGET, options, {})) is not None:
         etree.fromstring(drawing.encode())

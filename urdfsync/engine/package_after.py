@@ -137,6 +137,21 @@ class PackageAfter(Mapping[str, bytes]):
         return {**{self.inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
 
     @cached_property
+    def differing(self) -> dict[str, tuple[str, str]]:
+        """The generated text and the text of each file that differ, by the path below the package.
+
+        A class that the user turned into a folder has the path of its file. For a class of the user's own, the
+        generated text is empty.
+        """
+        generated, found = self.package.artifacts, dict[str, tuple[str, str]]()
+        for path, file in self._files.items():
+            place = path if path in generated else as_file(path)
+            source = text_of(self.package.content(place)) if place in generated else ""
+            if not file.is_generated and (text := text_of(self[path])) != source:
+                found[place] = source, text
+        return found
+
+    @cached_property
     def extended_orders(self) -> dict[str, tuple[str, set[str]]]:
         """Each `package.order` with names of the user's classes, by path: its text, and the lines with these names."""
         inputs, files, orders, merged = self.inputs, self.inputs.files, self.package.orders, self.merged

@@ -26,6 +26,7 @@ from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Former, Inputs, Settled
 from urdfsync.engine.last_build import hash_of, option_values
+from urdfsync.engine.package_after import PackageAfter
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.renames import match_with_last, pending
@@ -42,9 +43,10 @@ from urdfsync.state.record import FileRecord, Open, Record, as_recorded
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
 
-Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any], str | None]
+Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any, Mapping[str, tuple[str, str]]], str | None]
 """Returns the main model's diagram as SVG text; None for a model without a diagram. Pure. A domain's attribute
-`drawing`."""
+`drawing`. The last argument has the texts of the package that differ from the generated ones: by path, the generated
+text, empty for a class of the user's own, and the text on disk."""
 
 
 class _Versions(msgspec.Struct, frozen=True):
@@ -82,9 +84,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
     actions = _actions_after(decision.actions, inputs.settled)
     files, versions = _file_changes(inputs, generation, decision), _save_versions(inputs, decision.conflicts)
     is_writing = bool(files) or any(action.writes for action in actions)
-    model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
-    draw: Drawing | None = inputs.domain.drawing
-    picture = draw(*model) if draw and inputs.options.draw else None
+    picture = draw_model(inputs, generation, decision) if inputs.options.draw else None
     drawing = None if picture is None else store.drawing(robot.name)
     changes = [*files.values(), *(store.save(drawing, picture.encode()) if picture and drawing else ())]
     notes: Notes | None = None
@@ -140,6 +140,16 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         settled=frozenset(inputs.settled.keys),
     )
     return Plan(result, store.hashes(), decision.shared, tuple(changes), _emptied(inputs, changes), notes)
+
+
+def draw_model(inputs: Inputs, generation: Generation, decision: Decision) -> str | None:
+    """Return the diagram of the main model as the build leaves the package; None if the domain has no diagram."""
+    draw: Drawing | None = inputs.domain.drawing
+    if draw is None:
+        return None
+    model = generation.now.snapshot, generation.imported.imports, inputs.robot.target, inputs.robot.options
+    after = PackageAfter(inputs, generation.package, decision.actions, decision.texts)
+    return draw(*model, after.differing)
 
 
 def _actions_after(actions: Actions, settled: Settled) -> Actions:

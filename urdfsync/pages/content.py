@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from urdfsync.changes import Changes, Effect, Effects, compare
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
+from urdfsync.engine.decide import decide_package
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import generate_robot
@@ -18,11 +20,12 @@ from urdfsync.engine.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
-from urdfsync.engine.stage import Drawing
+from urdfsync.engine.stage import draw_model
 from urdfsync.files import shown
 from urdfsync.output.outline import number_table, outline
 from urdfsync.output.sections import Section, Table
 from urdfsync.pages.picture import Picture, picture
+from urdfsync.pages.scene import Body, Hinge, Loop, Scene
 from urdfsync.versions.comparison import Comparison, Contents, compare_sources
 from urdfsync.versions.report import to_section
 
@@ -51,6 +54,8 @@ class Content(msgspec.Struct, frozen=True):
     diagram: str
     """SVG; empty if there is none."""
     edits: RobotEdits
+    edited: Mapping[str, Sequence[tuple[str, str, str]]]
+    """The user's edits of each element: the property's name as in the picture, the edit in words, the new text."""
     conflicts: Sequence[DisputedFile]
 
 
@@ -75,22 +80,23 @@ def gather(
     generation = generate_robot(inputs)
     compared, older = _with_older(compared, inputs, generation.now, shown_before)
     changes, result = compared.result.changes or Changes(), compared.result
-    draw: Drawing | None = inputs.domain.drawing
-    model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
-    actions = result.actions if against is None else None  # the actions of a comparison are not those of a build
+    decision = decide_package(inputs, generation)
+    edits = RobotEdits(robot.name, config.root, tuple(find_edited(inputs, generation, decision.actions)))
+    drawn = picture(inputs, generation, older if changes.changes else None)
     return Content(
         robot=robot,
         version=(generation.now, generation.imported.contents),
         section=to_section(compared),
         numbers=number_table(compared.effects or _numbers(inputs.domain, generation.now)),
         against=(compared.against or "the last build").encode("utf-8", "replace").decode(),
-        picture=picture(inputs, generation, older if changes.changes else None),
+        picture=drawn,
         statuses=_statuses(changes),
         renamed={f"{kind} {old}": f"{kind} {new}" for (kind, old), new in changes.renames.items()},
         changes=_change_words(changes),
         files=_files(generation.package, robot),
-        diagram=(draw and draw(*model)) or "",
-        edits=RobotEdits(robot.name, config.root, tuple(find_edited(inputs, generation, actions))),
+        diagram=draw_model(inputs, generation, decision) or "",
+        edits=edits,
+        edited=_edited(edits, drawn.now),
         conflicts=result.conflicts,
     )
 
@@ -148,6 +154,22 @@ def _change_words(changes: Changes) -> dict[str, list[str]]:
         rows = outline(msgspec.structs.replace(changes, changes=tuple(of_element)))
         words[element] = [str(row) for _, of_rows in rows for row in of_rows]
     return words
+
+
+def _edited(edits: RobotEdits, scene: Scene) -> dict[str, list[tuple[str, str, str]]]:
+    """Return the edits of each element of the picture, in its own files and in the robot model."""
+    parts: Sequence[Body | Hinge | Loop] = (*scene.bodies, *scene.hinges, *scene.loops)
+    elements = {f"component `{part.component}`": part.element for part in parts}
+    edited: dict[str, list[tuple[str, str, str]]] = {part.element: [] for part in parts}
+    for file in edits.files:
+        for edit in file.edits or ():
+            of_element = edited.get(elements.get(edit.element, "") if file.owner not in edited else file.owner)
+            if of_element is not None and edit.part != "layout":
+                words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", edit.part).lower().replace(".", " ")
+                of_element.append(
+                    (words, f"{edit.element if not edit.part else ''} {edit.told}".strip(), edit.mine or "")
+                )
+    return {element: of_element for element, of_element in edited.items() if of_element}
 
 
 def _files(package: Package, robot: RobotConfig) -> dict[str, list[str]]:

@@ -74,7 +74,10 @@ function refresh() {
 /* Says something beside the picture; without words, what is measured or selected. */
 function say(words) {
   const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : `This ${data.now.noun} has no shapes: its frames are shown.`;
-  element("told").textContent = words || page.ruler?.words() || page.selected || bare;
+  const passed = page.now.scene.hinges.filter((hinge) => isBeyond(hinge, page.positions.get(hinge.element))).map((hinge) => nameOf(hinge.element));
+  const alarm = passed.length ? `Beyond the limits: ${passed.join(", ")}` : "";
+  element("told").textContent = [words || page.ruler?.words() || page.selected || bare, alarm].filter(Boolean).join(" · ");
+  element("told").classList.toggle("removed", alarm !== "");
 }
 
 function select(name) {
@@ -88,13 +91,13 @@ function select(name) {
 
 /* Colours the picture: the selection glows, changed links have their colours, the older version is faint. */
 function paint() {
-  const colors = Object.fromEntries(["changed", "added", "removed", "accent"].map((name) => [name, themeColor(name)]));
+  const colors = Object.fromEntries(["changed", "added", "removed", "accent", "selected"].map((name) => [name, themeColor(name)]));
   const hinge = data.now.hinges.find((each) => each.element === page.selected), selected = hinge ? hinge.child : page.selected;
   const compares = page.version !== "now";
   page.now.paint((name) => {
     const status = data.statuses[name] === "renamed" ? "changed" : data.statuses[name];
-    const light = name === selected ? colors.accent : page.light && status ? colors[status] : null;
-    return { color: compares && status ? colors[status] : null, opacity: 1, glow: light && light.clone().multiplyScalar(name === selected ? 0.55 : page.light) };
+    const light = name === selected ? colors.selected : page.light && status ? colors[status] : null;
+    return { color: compares && status && name !== selected ? colors[status] : null, opacity: 1, glow: light && light.clone().multiplyScalar(name === selected ? 0.55 : page.light) };
   });
   page.now.root.visible = page.version !== "before";
   if (page.before) {
@@ -104,7 +107,7 @@ function paint() {
       const current = data.renamed[name] || name, status = data.statuses[current];
       const color = data.statuses[name] === "removed" ? colors.removed : page.version === "both" ? colors.accent : status === "changed" ? colors.changed : null;
       const faint = data.statuses[name] === "removed" ? 0.6 : status === "changed" ? 0.35 : 0.14;
-      return { color, opacity: page.version === "both" ? faint : 1, glow: current === selected ? colors.accent.clone().multiplyScalar(0.3) : null };
+      return { color, opacity: page.version === "both" ? faint : 1, glow: current === selected ? colors.selected.clone().multiplyScalar(0.3) : null };
     });
   }
   for (const layer of LAYERS) page.now.show(layer, page.layers[layer]);
@@ -337,7 +340,7 @@ document.addEventListener("keydown", (event) => {
   else if (event.key === "b" && data.before) chooseVersion(versions[(versions.indexOf(page.version) + 1) % versions.length]);
   else if (event.key === "r") pose("Start");
   else if (event.key === "u" && page.ruler) measure();
-  else if (event.key === " " && page.player && !event.target.matches("button, a, summary, [role=treeitem]")) page.player.toggle();
+  else if (event.key === " " && page.player) { if (!event.repeat) page.player.toggle(); }
   else if (event.key === "d") element("theme").click();
   else if (event.key === "Escape") {
     if (page.ruler?.isOn) measure();
@@ -345,6 +348,10 @@ document.addEventListener("keydown", (event) => {
   }
   else return;
   event.preventDefault(); // a number's input would take it
+});
+
+document.addEventListener("keyup", (event) => { // some browsers press a focused button only now
+  if (event.key === " " && page.player && !event.target.matches("[type=search]")) event.preventDefault();
 });
 
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");

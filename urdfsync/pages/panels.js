@@ -24,9 +24,10 @@ function rounded(value) {
   return String(Number(value.toPrecision(5)));
 }
 
-function mark(statuses, element) {
-  const status = statuses[element];
-  return status ? [" ", make("span", { class: `mark ${status}` }, status)] : [];
+/* Returns marks for what changed in the source, and for what the user edited. */
+function mark(data, element) {
+  const words = [data.statuses[element], data.edited[element] && "edited"].filter(Boolean);
+  return words.flatMap((word) => [" ", make("span", { class: `mark ${word}` }, word)]);
 }
 
 /* Fills the panel of axes. `move` is called with an element and a position, `units` has a button for each unit of angles.
@@ -56,7 +57,7 @@ function fillAxes(panel, units, data, move, select) {
   free.sort((one, other) => order.get(one.child) - order.get(other.child));
   for (const [hinge, way] of [...free, ...followers].flatMap((each) => waysOf(each).map((way) => [each, way]))) {
     const { turns } = way, name = nameOf(way.name);
-    const label = make("button", { type: "button", class: "name" }, [`${SYMBOLS[hinge.motion]} ${name}`, ...mark(data.statuses, hinge.element)],
+    const label = make("button", { type: "button", class: "name" }, [`${SYMBOLS[hinge.motion]} ${name}`, ...mark(data, hinge.element)],
       { click: () => select(hinge.element) });
     const unitShown = make("span", { class: "unit" }, "");
     if (follows(hinge)) {
@@ -64,7 +65,8 @@ function fillAxes(panel, units, data, move, select) {
       panel.append(make("div", { class: "axis", "data-axis": hinge.element }, make("div", { class: "top" }, [label, make("span", { class: "quiet" }, follows(hinge)), value, unitShown])));
       shown.set(way.name, (position) => {
         value.textContent = (position * scaleOf(turns)).toFixed(scaleOf(turns) === 1 ? 4 : 2);
-        unitShown.textContent = turns ? unit : "m";
+        value.className = isBeyond(hinge, position) ? "removed" : "";
+        unitShown.textContent = `${turns ? unit : "m"}${value.className && ", beyond its limit"}`;
       });
       continue;
     }
@@ -72,17 +74,19 @@ function fillAxes(panel, units, data, move, select) {
     const set = (text, scale) => { if (text !== "" && Number.isFinite(Number(text))) move(way.name, Number(text) / scale); };
     const slider = make("input", { type: "range", min: low, max: high, step: "any", "aria-label": `Position of ${name}` }, [], { input: () => set(slider.value, 1) });
     const number = make("input", { type: "number", step: "any" }, [], { change: () => set(number.value, scaleOf(turns)) });
-    const ends = [make("span"), make("span"), make("span")];
+    const ends = [make("span"), make("span", { class: "removed" }), make("span")];
     panel.append(make("div", { class: "axis", "data-axis": way.name }, [make("div", { class: "top" }, [label, number, unitShown]), slider, make("div", { class: "ends" }, ends)]));
     shown.set(way.name, (position) => {
       const scale = scaleOf(turns);
       slider.value = position;
       if (document.activeElement !== number) number.value = Number((position * scale).toFixed(scale === 1 ? 6 : 4));
-      unitShown.textContent = turns ? unit : "m";
-      number.setAttribute("aria-label", `Position of ${name} in ${unitShown.textContent}`);
+      const shownUnit = turns ? unit : "m", isPassed = isBeyond(hinge, position);
       const other = !turns ? `${(position * 1000).toFixed(1)} mm` : scale === 1 ? `${(position * DEGREES).toFixed(1)}°` : `${position.toFixed(4)} rad`;
-      const limits = [hinge.lower, hinge.upper].map((limit) => limit === null ? "no limit" : rounded(limit * scale));
-      [limits[0], other, limits[1]].forEach((words, place) => { ends[place].textContent = words; });
+      unitShown.textContent = `${shownUnit} = ${other}`;
+      number.setAttribute("aria-label", `Position of ${name} in ${shownUnit}`);
+      number.setAttribute("aria-invalid", String(isPassed));
+      const limits = [hinge.lower, hinge.upper].map((limit) => limit === null ? "no limit" : `${rounded(limit * scale)} ${shownUnit}`);
+      [limits[0], isPassed ? "beyond its limit" : "", limits[1]].forEach((words, place) => { ends[place].textContent = words; });
     });
   }
   return show;
@@ -95,9 +99,9 @@ function fillTree(panel, data, select) {
   for (const body of data.now.bodies) {
     const hinge = above.get(body.element);
     depth.set(body.element, hinge ? depth.get(hinge.parent) + 1 : 0);
-    const content = [make("span", {}, nameOf(body.element)), ...mark(data.statuses, body.element)];
+    const content = [make("span", {}, nameOf(body.element)), ...mark(data, body.element)];
     if (hinge?.element) {
-      content.unshift(make("span", { class: "joint" }, [`${SYMBOLS[hinge.motion]} ${nameOf(hinge.element)}`, ...mark(data.statuses, hinge.element), " › "],
+      content.unshift(make("span", { class: "joint" }, [`${SYMBOLS[hinge.motion]} ${nameOf(hinge.element)}`, ...mark(data, hinge.element), " › "],
         { click: (event) => { event.stopPropagation(); select(hinge.element); } }));
     }
     const item = make("div", { role: "treeitem", "aria-level": depth.get(body.element) + 1, "aria-selected": "false", tabindex: items.size ? "-1" : "0", "data-link": body.element }, content,
@@ -109,7 +113,7 @@ function fillTree(panel, data, select) {
   list.addEventListener("keydown", (event) => {
     const visible = [...items.values()].filter((item) => !item.hidden), place = visible.indexOf(document.activeElement);
     const next = { ArrowDown: place + 1, ArrowUp: place - 1, Home: 0, End: visible.length - 1 }[event.key];
-    if (event.key === "Enter" || event.key === " ") document.activeElement.click();
+    if (event.key === "Enter") document.activeElement.click();
     else if (next === undefined) return;
     else visible[next]?.focus();
     event.preventDefault();
@@ -145,10 +149,14 @@ function fillDetails(panel, data, element, select) {
     return;
   }
   const link = (name) => make("button", { type: "button", class: "name" }, name, { click: () => select(name) });
-  const parts = [make("h3", {}, [element, ...mark(data.statuses, element)])];
+  const parts = [make("h3", {}, [element, ...mark(data, element)])], edits = data.edited[element] || [];
   const changes = data.changes[element] || [];
   if (changes.length) parts.push(make("ul", {}, changes.map((words) => make("li", { class: "changed" }, words))));
-  const facts = item.facts.flatMap(([label, value]) => [make("dt", {}, label), make("dd", {}, value)]);
+  if (edits.length) parts.push(make("ul", {}, edits.map(([, words]) => make("li", { class: "edited" }, `your edit: ${words}`))));
+  const facts = item.facts.flatMap(([label, value]) => { // those of the source; the user's beside them
+    const mine = edits.find(([edited]) => edited === label)?.[2];
+    return [make("dt", {}, label), make("dd", {}, [value, ...(mine ? [" ", make("span", { class: "mark edited" }, `yours: ${mine}`)] : [])])];
+  });
   const around = item.shapes
     ? [...hinges, ...loops].filter((each) => endsOf(each).includes(element)).map((each) => each.element).filter(Boolean)
     : endsOf(item).filter((name) => bodies.some((body) => body.element === name));
@@ -191,7 +199,7 @@ function drawDiagram(place, data, select) {
     marked?.remove();
     const icon = icons.get(element);
     if (!icon) return;
-    marked = frame("#1d5fd1", 2.4);
+    marked = frame("#c2188b", 2.4);
     marked.setAttribute("data-selected", element);
     icon.append(marked);
     const box = icon.getBoundingClientRect(), window_ = place.getBoundingClientRect();

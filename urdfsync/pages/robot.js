@@ -4,6 +4,7 @@
 const LAYERS = ["visual", "collision", "frame", "mass", "inertia"];
 const NO_EDGE = 1e-12; // square of an edge, in m², that counts as no edge: rounding gives those of thin bodies either sign
 
+const BEYOND = 1e-6; // in rad or m: less is a loop's rounding
 const ONE_WAY = { rotational: true, translational: false }; // whether the motion turns
 const ALONG = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
@@ -25,6 +26,11 @@ function waysOf(hinge) {
 /* Returns whether an axis moves by itself: it follows no other, neither directly nor through loops. */
 function isFree(hinge) {
   return Boolean(hinge.motion) && !hinge.leader && !hinge.is_dependent;
+}
+
+/* Returns whether a position is beyond the limits of a hinge. */
+function isBeyond({ lower, upper }, position) {
+  return lower !== null && position < lower - BEYOND || upper !== null && position > upper + BEYOND;
 }
 
 /* Returns the ends of a way; without limits those that a slider has. */

@@ -130,11 +130,12 @@ class UrdfDomain(Domain):
         imports: Mapping[str, Import],  # noqa: ARG002 - the diagram shows no shapes
         target: Target,
         options: Options,
+        differing: Mapping[str, tuple[str, str]],
     ) -> str | None:
-        """Return the diagram of the robot model; only the package approach has one."""
+        """Return the diagram of the robot model on disk; only the package approach has one."""
         from urdfsync.urdf.diagram.drawing import draw
 
-        return draw(snapshot, target, options) if "package" in options.approach else None
+        return draw(snapshot, target, options, differing) if "package" in options.approach else None
 
     def record(
         self, reading: Reading, file: str, target: Target, options: Options

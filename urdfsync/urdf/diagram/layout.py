@@ -110,15 +110,16 @@ class Placement(NamedTuple):
 
 
 class Diagram(NamedTuple):
-    """A finished layout, by component names; all coordinates are even.
+    """A finished layout, by component names. Coordinates are even, but those in a user's text may be odd.
 
-    `extent` is (x1, y1, x2, y2). The key of a line has its two ends, in the order of the connect equation. A line to a
-    connector of the model ends in the middle of the connector.
+    `extent` is (x1, y1, x2, y2). The key of a line has its two ends, in the order of the connect equation; its value
+    has the kind of the line, or a colour of the user's. A line to a connector of the model ends in the middle of the
+    connector.
     """
 
     extent: tuple[int, int, int, int]
     placements: dict[str, Placement]
-    lines: dict[tuple[str, str], tuple[LineKind, Path]]
+    lines: Mapping[tuple[str, str], tuple[LineKind | str, Path]]
 
 
 class _Grid(NamedTuple):
@@ -376,7 +377,7 @@ def _lines(
         return placements[component].port(port) if port else placements[component].centre
 
     def route(kind: LineKind, start: str, end: str, *bends: Point) -> None:
-        lines[start, end] = kind, _path([place(start), *bends, place(end)])
+        lines[start, end] = kind, as_path([place(start), *bends, place(end)])
 
     def route_frames(start: str, end: str, x: int) -> None:
         route("frame", start, end, (x, place(start)[1]), (x, place(end)[1]))
@@ -466,7 +467,7 @@ def _count(tracks: Mapping[str | _End, int]) -> int:
     return 1 + max(tracks.values(), default=-1)
 
 
-def _path(points: Iterable[Point]) -> Path:
+def as_path(points: Iterable[Point]) -> Path:
     """Return the polyline without repeated points, and without points inside a straight line."""
     corners: list[Point] = []
     for point in points:
