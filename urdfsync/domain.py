@@ -249,6 +249,14 @@ class Domain(Protocol):
         """Return the unit of the value at a path of plain data such as `parts`, `motor`, `mass`; empty if unknown."""
         return ""
 
+    def parts(self, snapshot: Snapshot, options: Any) -> Mapping[str, Snapshot]:
+        """Return the parts that templates need not use, such as `column mass`: for each, the model without it."""
+        return {}
+
+    def part_of(self, path: Sequence[str]) -> str:
+        """Return the part that a change belongs to, by the change's path; empty if it belongs to none."""
+        return ""
+
     def uses(self, options: Any) -> Sequence[tuple[str, str]]:
         """Return the libraries that a generated package needs, with their versions, for a top-level `uses`."""
         return ()

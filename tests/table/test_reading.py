@@ -190,6 +190,14 @@ def test_connections_name_elements(links: str, words: str) -> None:
     assert words in str(reading((HEADER + "a,1\n").encode() + MARK + links.encode()).diagnostics[0])
 
 
+def test_an_equal_connection_is_told_with_the_line_of_the_other() -> None:
+    links = "from,to,length [m]\na,a,1\na,a,2\na,a,1\n"
+    found = reading((HEADER + "a,1\n").encode() + MARK + links.encode())
+    (finding,) = found.diagnostics
+    assert str(finding).startswith("parts.csv:8: warning: the connection `a a` stands in line 6, too; delete one")
+    assert len(found.snapshot.connections) == 3
+
+
 @pytest.mark.parametrize(
     ("options", "option"), [({"key": "id"}, "key"), ({"kind": "Mass"}, "kind"), ({"columns": {"m": "kg"}}, "columns")]
 )

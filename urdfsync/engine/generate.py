@@ -53,6 +53,11 @@ class Package:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
 
+    @property
+    def owners(self) -> Mapping[str, str]:
+        """The owner of each text file, by path."""
+        return {path: artifact.owner for path, artifact in self.artifacts.items()}
+
     @functools.cached_property
     def paths_by_hash(self) -> Mapping[str, str]:
         """The path of each text, by its hash."""

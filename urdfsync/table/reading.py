@@ -157,6 +157,12 @@ class _Reader:
                     near = nearest(name, elements)
                     hint = f"did you mean `{near}`?" if near else "add the element, or correct the connection"
                     self._error("no-element", f"there is no element `{name}`", line, hint)
+            if (same := next((key for key, other in rows.items() if other == row), None)) is not None:
+                message = f"the connection `{' '.join(ends)}` stands in line {self.lines[f'connection {same}']}, too"
+                hint = "delete one, or number equal connections in a column of their own"
+                self.findings.append(
+                    Diagnostic(Severity.WARNING, "equal-connections", message, self._file, line, hint=hint)
+                )
             key, number = " ".join(ends), 2
             while key in rows:
                 key, number = f"{' '.join(ends)} {number}", number + 1

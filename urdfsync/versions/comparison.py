@@ -34,6 +34,7 @@ from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import Exit, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
+from urdfsync.engine.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
 from urdfsync.modelica.names import class_name
@@ -250,6 +251,11 @@ def _with_version(
     packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
     if domain.describe is None:
         differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
+    unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
+    owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
+    differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
+    told_unused = tell_unused(domain, unused, differences.unshown, shown(robot.source), {})
+    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored((*new_findings, *told_unused)))
     changed = packages[1].changed_since(packages[0])
     older, newer = (_files_of(*pair, changed) for pair in zip(packages, (old, new), strict=True))
     actions = []
