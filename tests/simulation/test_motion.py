@@ -42,13 +42,20 @@ def test_columns_are_found_by_name_and_units_are_converted(tmp_path: Path) -> No
     }
 
 
+def test_a_european_table_of_inputs_has_semicolons_and_decimal_commas(tmp_path: Path) -> None:
+    text = f"{HEADER.replace(',', ';')}\n0;0;0;0;0\n0,5;-1,25;1E-3;0,1;2\n"
+    assert [values[1] for values in read(tmp_path, text).values()] == [0.5, -1.25, 0.001, 0.1, 2]
+
+
 @pytest.mark.parametrize(
     ("text", "line", "words"),
     [
         ("", 0, "the file has no motion"),
         (f"{HEADER}\n0,0,0,0,0\n", 0, "the file has no motion"),
         ("elbow_phi,time\n0,0\n1,0\n", 1, "the first column is `elbow_phi`, not `time`"),
-        ("time;elbow_phi\n0;0\n1;0\n", 1, "separate columns by commas"),
+        ("time elbow_phi\n0 0\n1 0\n", 1, "name `time` first, then the inputs"),
+        ("time;elbow_phi\n0;0\n1;0\n", 1, "columns are missing: slide_s, speeds[2], wrist_tau"),
+        (f"{HEADER.replace(',', ';')}\n0;0;0;0;0\n0,5;1.5;0;0;0\n", 3, "`0,5` has a comma, but `1.5` in line 3"),
         ("time,elbow_phi\n0,0\n1,0\n", 1, "columns are missing: slide_s, speeds[2], wrist_tau"),
         (f"{HEADER},elbo_phi\n0,0,0,0,0,0\n1,0,0,0,0,0\n", 1, "no input `elbo_phi`; did you mean `elbow_phi`?"),
         (f"{HEADER},elbow_phi\n0,0,0,0,0,0\n1,0,0,0,0,0\n", 1, "`elbow_phi` is there twice"),

@@ -41,6 +41,18 @@ def test_a_changed_row_renews_one_record(project: Path, execute: Execute) -> Non
     assert "effort = 4.3)" in ELBOW.read_text()
 
 
+def test_a_european_catalogue_gives_the_same_numbers(project: Path, execute: Execute) -> None:
+    SERVOS.write_text(re.sub(r"(?<=\d)\.(?=\d)", ",", SERVOS.read_text().replace(",", ";")))
+    assert "arm: in step" in execute("build").out
+
+
+def test_both_readings_know_the_torque_of_american_data_sheets(project: Path, execute: Execute) -> None:
+    edit(SERVOS, "[N.cm]", "[oz-in]")
+    execute("build")
+    assert "effort = 2.89" in ELBOW.read_text()
+    assert "differs" not in execute("check", "arm", code=None).words
+
+
 def test_a_number_that_no_joint_takes_is_named(project: Path, execute: Execute) -> None:
     edit(SERVOS, "pitch [turn/m],note", "pitch [turn/m],mass [g]")
     for words, mass in (("two stages of spur gears", "60"), ("the same with a longer train", ""), ("a spindle", "")):

@@ -18,6 +18,7 @@ import msgspec
 from urdfsync.answers.facts import read_unrecorded
 from urdfsync.diagnostics import SourceError
 from urdfsync.files import shown
+from urdfsync.numerals import MarkError, Row, find_separator, with_points
 from urdfsync.simulation.models import Input
 from urdfsync.spelling import nearest
 
@@ -65,7 +66,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
     return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
 
 
-def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
+def _read_rows(file: Path) -> Sequence[Row]:
     """Return the rows that are not empty, with their line numbers: a header, and at least two more rows."""
     try:
         text = read_unrecorded(file).decode("utf-8-sig")  # does not wait for a pipe, or read an endless device
@@ -74,7 +75,8 @@ def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
         _refuse(file, "the file is not in UTF-8", line, "save it as UTF-8")
-    reader, rows = csv.reader(io.StringIO(text, newline=""), strict=True), list[tuple[int, list[str]]]()
+    separator, rows = find_separator(text), list[Row]()
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
@@ -86,7 +88,10 @@ def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
         _refuse(file, f"the file is no CSV: {error}", reader.line_num)
     if len(rows) < 3:
         _refuse(file, "the file has no motion", hint="write a header, `time` and the inputs, and two rows or more")
-    return rows
+    try:
+        return rows if separator == "," else [rows[0], *with_points(rows[1:], range(len(rows[0][1])))]
+    except MarkError as error:
+        _refuse(file, error.message, error.line, error.hint)
 
 
 def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
@@ -115,7 +120,7 @@ def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Inpu
         match = _HEADER.fullmatch(cell)
         name, unit = (match["name"], match["unit"]) if match else (cell, None)
         if not factors and name != "time":
-            _refuse(file, f"the first column is `{name}`, not `time`", line, "separate columns by commas, `time` first")
+            _refuse(file, f"the first column is `{name}`, not `time`", line, "name `time` first, then the inputs")
         if name not in units:
             near = nearest(name, units)
             others = f"the inputs are {', '.join(list(units)[1:])}"

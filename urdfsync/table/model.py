@@ -24,6 +24,8 @@ class Sheet(NamedTuple):
     rows: Sequence[tuple[int, Sequence[object]]]
     notes: Sequence[str] = ()
     """Names of parts of the source that the sheet lacks."""
+    may_have_commas: bool = False
+    """Whether numbers may have decimal commas, since no comma separates cells; see `numerals`."""
 
 
 NOTHING = Sheet((), ())

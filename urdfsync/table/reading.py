@@ -20,6 +20,8 @@ from urdfsync.table.units import Unit, find_unit, is_same_kind
 _HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*", re.DOTALL)
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
 _KIND = re.compile(r"[A-Za-z0-9_-]+")
+_TEXTS = "text", "boolean"
+"""The types of columns without numbers."""
 _TRUTH = {"true": True, "false": False}
 
 
@@ -56,6 +58,10 @@ class _Reader:
         key = self._options.key or (name_and_unit(elements.header[0])[0] if elements.header else "")
         columns = self._columns(elements, {key, self._options.kind} - {""})
         links = self._columns(connections, {FROM, TO})
+        elements, connections = (
+            formats.with_decimal_points(sheet, [n for n, c in enumerate(found) if c.type not in _TEXTS], self._file)
+            for sheet, found in ((elements, columns), (connections, links))
+        )
         known = {column.name for column in (*columns, *links)}
         for option, name in [
             ("key", key),
@@ -124,6 +130,8 @@ class _Reader:
             self._error(error.diagnostics[0].code, error.diagnostics[0].message, 1, error.diagnostics[0].hint)
             return "text"
         cells = [cells[number] for _, cells in sheet.rows if number < len(cells) and cells[number] not in (None, "")]
+        if sheet.may_have_commas:
+            cells = [cell.replace(",", ".") if isinstance(cell, str) else cell for cell in cells]
         if cells and all(_is_number(cell) for cell in cells):
             hint = f"write `{name} [kg]` with the unit, `{name} [1]` without a unit, or `{name} [text]`"
             self._error("no-unit", f"column `{name}` has numbers but no unit", 1, hint)

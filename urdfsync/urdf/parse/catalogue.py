@@ -67,11 +67,12 @@ def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str
     """Yield the element of each joint, and its line in the catalogue."""
     from xml.sax.saxutils import quoteattr  # a late import saves most robots 9 ms
 
-    from urdfsync.table.formats import read_sheets  # likewise
+    from urdfsync.table.formats import read_sheets, with_decimal_points  # likewise
     from urdfsync.table.reading import name_and_unit
 
     sheet, _ = read_sheets(content, file)
     header = [name_and_unit(cell) for cell in sheet.header]
+    sheet = with_decimal_points(sheet, [n for n, (_, unit) in enumerate(header) if unit not in ("", "text")], file)
     names, columns = [name for name, _ in header], dict[str, Sequence[str]]()
     for number in _PLACES:
         named = options.motor_columns.get(number, number)
