@@ -7,6 +7,7 @@ import contextlib
 import json
 import os
 import re
+import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -85,7 +86,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     _refuse_existing(file)
     domain = registry.domain(args.domain)
     named = arguments.split_sources(args.sources, args.parser)
-    guesses, warnings = guess_robots(domain, file.parent, named)
+    guesses, warnings = guess_robots("init", domain, file.parent, named)
     is_clone = merge_driver.can_install(file.parent)
     question = "Let git merge these models by their elements, in this clone?"
     is_asked = is_clone and not args.merge_driver and arguments.can_ask(console)
@@ -107,7 +108,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def guess_robots(
-    domain: Domain, root: Path, named: Sequence[NamedSource], known: Sequence[Guess] = ()
+    command: str, domain: Domain, root: Path, named: Sequence[NamedSource], known: Sequence[Guess] = ()
 ) -> tuple[list[Guess], list[Diagnostic]]:
     """Guess a robot for each of the `named` sources, or for all sources below `root`; also return warnings.
 
@@ -129,7 +130,7 @@ def guess_robots(
             guess, noted = _guess(domain, source, given, root, [*known, *guesses])
         except SourceError as error:
             if named:
-                raise
+                raise SourceError(*(_with_argument(one, command, source, given) for one in error.diagnostics)) from None
             errors += error.diagnostics
             first = next(one for one in error.diagnostics if one.severity is Severity.ERROR)
             hint = f"correct the source and add it, or run `urdfsync init {shown(source)}`"
@@ -141,6 +142,16 @@ def guess_robots(
     if not guesses:
         raise SourceError(*errors)
     return guesses, warnings
+
+
+def _with_argument(finding: Diagnostic, command: str, source: Path, given: Mapping[str, str]) -> Diagnostic:
+    """Return the finding; for unset arguments of xacro, its hint is the command with these arguments."""
+    if finding.code != "no-argument":
+        return finding
+    name = _names(next(iter(given.values()), "") or source.name.partition(".")[0])[0]
+    unset = {one: name if one == "name" else "VALUE" for one in re.findall(r"`([^`]+)`", finding.message)}
+    words = [str(source), *(f"{key}:={value}" for key, value in {**given, **unset}.items())]
+    return msgspec.structs.replace(finding, hint=f"run `urdfsync {command} {shlex.join(words)}`")
 
 
 def _search(folder: Path, suffix: str) -> Iterator[Path]:
