@@ -5,18 +5,19 @@ Positions and speeds follow a cubic spline, which can be differentiated; other i
 
 from __future__ import annotations
 
+import bisect
 import csv
 import io
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
 import msgspec
 
 from urdfsync.answers.facts import read_unrecorded
-from urdfsync.diagnostics import SourceError
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.files import shown
 from urdfsync.numerals import MarkError, Row, find_separator, with_points
 from urdfsync.simulation.models import Input
@@ -35,6 +36,10 @@ _UNITS = {
 }
 """The possible units of a column, with their factors, by the unit of the input."""
 _SMOOTH = ("rad", "m", "rad/s", "m/s")
+_OVERSHOOT = 0.05
+"""The share of the range of an input by which its spline may leave two rows; a sine with 8 rows a turn takes 0.04."""
+_STRAIGHT = 2
+"""Up to this number of rows, the spline is a straight line."""
 _HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s*")
 
 
@@ -97,6 +102,29 @@ def _read_rows(file: Path) -> Sequence[Row]:
 def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
     """Return a motion with all inputs at 0 until `stop`."""
     return Motion((0.0, stop), tuple((signal, (0.0, 0.0)) for signal in inputs))
+
+
+def find_overshoots(motion: Motion, file: Path) -> Iterator[Diagnostic]:
+    """Yield a warning for each input whose spline leaves the values of its rows by more than rows of a sine would."""
+    from scipy.interpolate import CubicSpline  # see `second_derivatives`
+
+    for signal, values in motion.values if len(motion.times) > _STRAIGHT else ():
+        if signal.unit not in _SMOOTH:
+            continue
+        curve, size = CubicSpline(motion.times, values), max(values) - min(values)
+        turns = [float(time) for time in curve.derivative().roots(extrapolate=False) if math.isfinite(time)]
+        worst, at, row = 0.0, 0.0, 0
+        for time in turns:
+            after = min(max(bisect.bisect(motion.times, time), 1), len(values) - 1)
+            low, high = sorted(values[after - 1 : after + 1])
+            excess = max(float(curve(time)) - high, low - float(curve(time)))
+            worst, at, row = max((worst, at, row), (excess, time, after))
+        if worst > _OVERSHOOT * size:
+            unit = f"{signal.unit} ({math.degrees(curve(at)):.4g}°)" if signal.unit == "rad" else signal.unit
+            ends = " and ".join(f"{value:.4g}" for value in values[row - 1 : row + 1])
+            message = f"`{signal.name}` reaches {curve(at):.4g} {unit} at {at:.4g} s, and the rows around have {ends}"
+            hint = "add rows there, since a cubic spline joins the rows"
+            yield Diagnostic(Severity.WARNING, "overshoot", message, shown(file), hint=hint)
 
 
 def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
