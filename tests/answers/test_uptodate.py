@@ -69,7 +69,7 @@ def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: C
     said = capsys.readouterr()
     assert uptodate.print_answer(command) == ""
     assert capsys.readouterr() == said
-    assert "as before" in said.err or "stray-state" in said.out + said.err or command[-1] == "-q"
+    assert ": still " in said.err or "stray-state" in said.out + said.err or command[-1] == "-q"
 
 
 def test_a_finding_is_not_repeated_once_it_was_told(folder: Path, capsys: Capture) -> None:

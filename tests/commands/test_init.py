@@ -69,7 +69,9 @@ def test_a_warning_is_told_after_the_summary_and_a_note_by_the_build_alone(execu
     assert execute("init", "../cad/arm.urdf").err == ""
     assert execute("build").err.startswith(f"{Path('../cad/arm.urdf')}:1: note: not modelled: ")
     os.chdir("modelica")
-    assert execute("build").err == "arm: 1 finding as before; --verbose shows it\n", "by another path, it is the same"
+    assert execute("build").err == "arm: still 1 finding (not-modelled); --verbose shows it\n", (
+        "by another path, it is the same"
+    )
 
 
 def test_what_a_model_leaves_out_is_allowed(execute: Execute, folder: Path) -> None:

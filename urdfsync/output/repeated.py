@@ -39,7 +39,9 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
     ]
     console.findings(new)
     if (rest := len(diagnostics) - len(new)) and not console.quiet:
-        words = f"{result.robot}: {counted(rest, 'finding')} as before; --verbose shows {'it' if rest == 1 else 'them'}"
+        codes = ", ".join(dict.fromkeys(one.code for one in diagnostics if one not in new))
+        them = "it" if rest == 1 else "them"
+        words = f"{result.robot}: still {counted(rest, 'finding')} ({codes}); --verbose shows {them}"
         console.print([line((words, "dim"))], error=True)
     if before == frozenset(keys) or result.dry or result.failed or console.quiet:
         return

@@ -53,7 +53,7 @@ class TableDomain(Domain):
     """Turns tables of elements into Modelica packages."""
 
     name = "table"
-    warnings = ("equal-connections", "not-modelled")
+    warnings = ("not-modelled",)
     model = Table
     options = Options
     beside = named_file = _Connections()
