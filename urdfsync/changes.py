@@ -144,6 +144,8 @@ class Changes(msgspec.Struct, frozen=True):
     """Whether templates, options, or the version of urdfsync differ."""
     options: tuple[str, ...] = ()
     """The changed options; empty if templates or the version of urdfsync differ."""
+    package: str = ""
+    """The former and the present name of the package, if its name changed, and templates and options did not."""
     unshown: tuple[Change, ...] = ()
     """The changes of parts that no template uses; among `changes`, they are unmodelled."""
 

@@ -132,8 +132,13 @@ def _find_changes(
         news = changes.by_texts(news, generation.package.changed_models(last.package))
     news = _with_unshown(inputs, generation, news, unused)
     is_same = last.record.generator == inputs.generator and last.target == robot.target
-    if is_same and last.record.options == option_values(robot.options):
-        return news
+    if last.record.generator == inputs.generator and last.record.options == option_values(robot.options):
+        if is_same:
+            return news
+        former, present = (f"{target.package} with the class {target.name}" for target in (last.target, robot.target))
+        if last.target.package != robot.target.package:
+            former, present = last.target.package, robot.target.package
+        return msgspec.structs.replace(news, generator=True, package=f"{former} → {present}")
     options: list[str] = []
     if is_same and last.options is not None:
         names = robot.options.__struct_fields__
