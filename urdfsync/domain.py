@@ -224,6 +224,7 @@ class Domain(Protocol):
     named_file: Any = None  # `urdfsync.engine.source.NamedFile`
     imports: Any = None  # `urdfsync.engine.imports.Mentions`
     describe: Any = None  # `urdfsync.changes.Describe`
+    parts: Any = None  # `urdfsync.engine.unused.Parts`
     effects: Any = None  # `urdfsync.changes.Effects`
     record: Any = None  # `urdfsync.api.Recorder`
     checks: Any = None  # `urdfsync.checks.experiment.Checks`
@@ -249,13 +250,9 @@ class Domain(Protocol):
         """Return the unit of the value at a path of plain data such as `parts`, `motor`, `mass`; empty if unknown."""
         return ""
 
-    def parts(self, snapshot: Snapshot, options: Any) -> Mapping[str, Snapshot]:
-        """Return the parts that templates need not use, such as `column mass`: for each, the model without it."""
-        return {}
-
-    def part_of(self, path: Sequence[str]) -> str:
-        """Return the part that a change belongs to, by the change's path; empty if it belongs to none."""
-        return ""
+    def arranged(self, old: Snapshot, new: Snapshot) -> Snapshot:
+        """Return an old model in the order of the new one, for a domain whose artifacts follow an unrecorded order."""
+        return old
 
     def uses(self, options: Any) -> Sequence[tuple[str, str]]:
         """Return the libraries that a generated package needs, with their versions, for a top-level `uses`."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -216,3 +217,23 @@ def test_the_page_shows_elements_and_connections(project: Path, execute: Execute
     assert meshes == {}
     assert "page: " in execute("report", "-o", "motors.html").out
     assert '<section id="robot" aria-label="Table">' in Path("motors.html").read_text()
+
+
+def test_the_package_has_the_order_of_the_rows(folder: Path, execute: Execute) -> None:
+    Path("p.csv").write_text("name,mass [kg]\nzebra,1\nant,2\nmole,3\n")
+    Path("p.connections.csv").write_text("from,to\nzebra,ant\nant,mole\n")
+    execute("init", "--domain", "table", "p.csv")
+    execute("build")
+    order, system = Path("modelica/P/Records/package.order"), Path("modelica/P/P.mo")
+    assert order.read_text().split() == ["Zebra", "Ant", "Mole"]
+    assert re.findall(r"Models\.(\w+)", system.read_text()) == ["Zebra", "Ant", "Mole"]
+    edit(Path("p.csv"), "ant,2", "ant,5")
+    assert "1 parameter change since" in execute("diff", code=1).out, "the order is no change"
+    edit(Path("p.csv"), "ant,5", "bear,4\nant,2")
+    execute("build")
+    assert order.read_text().split() == ["Zebra", "Bear", "Ant", "Mole"]
+    edit(Path("p.csv"), "zebra,1\nbear,4\n", "bear,4\nzebra,1\n")
+    assert "update     modelica/P/P.mo" in execute("diff", code=1).out
+    execute("build")
+    assert re.findall(r"Models\.(\w+)", system.read_text()) == ["Bear", "Zebra", "Ant", "Mole"]
+    assert "in step" in execute("build", "--check").out

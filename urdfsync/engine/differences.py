@@ -128,8 +128,8 @@ def _find_changes(
         return None
     if news.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
         return None  # git may have merged two models into an invalid model
-    if domain.describe is None and news.changes and last.package is not None:
-        news = changes.by_texts(news, generation.package.changed_models(last.package))
+    if domain.describe is None and news.changes and (before := last.package_like(generation.now.snapshot)) is not None:
+        news = changes.by_texts(news, generation.package.changed_models(before))
     news = _with_unshown(inputs, generation, news, unused)
     is_same = last.record.generator == inputs.generator and last.target == robot.target
     if last.record.generator == inputs.generator and last.record.options == option_values(robot.options):
@@ -160,9 +160,9 @@ def _with_unshown(inputs: Inputs, generation: Generation, news: Changes, unused:
     found = with_unshown(news, inputs.domain, unused, set(owners.values()), changed | imported)
     if not found.unshown:
         return found
-    if last.package is None:
+    if (before := last.package_like(generation.now.snapshot)) is None:
         return news
-    changed = changed_owners(package, last.package)
+    changed = changed_owners(package, before)
     return with_unshown(news, inputs.domain, unused, set(owners.values()), changed | imported)
 
 

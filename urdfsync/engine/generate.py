@@ -111,7 +111,7 @@ def generate(domain: Domain, version: Version, target: Target, options: Any, tem
     """Return the package of a model. Raises OutputError for forbidden paths."""
     snapshot, imports = version.snapshot, version.imports or {}
     # the key is JSON: 0.0 == -0.0, but their texts differ
-    key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options), order="sorted")
+    key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options))
     artifacts = _recent.pop(key, None)
     if artifacts is None:
         artifacts = tuple(domain.artifacts(snapshot, imports, target, options))

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from typing import Any
+from typing import Any, Protocol
 
 import msgspec
 
 from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.domain import ChangeClass, ChangeKind, Domain, Target, Version
+from urdfsync.domain import ChangeClass, ChangeKind, Domain, Snapshot, Target, Version
 from urdfsync.engine.generate import Package
 from urdfsync.files import Templates
 
@@ -19,14 +19,26 @@ IMPORTS = "imports"
 """Stands for the owners of imported files."""
 
 
+class Parts(Protocol):
+    """The parts of a model that templates need not use, such as `column mass`; a domain's attribute `parts`."""
+
+    def without_each(self, snapshot: Snapshot, options: Any) -> Mapping[str, Snapshot]:
+        """Return for each part the model without it."""
+        ...
+
+    def part_of(self, path: Sequence[str]) -> str:
+        """Return the part that a change belongs to, by the change's path; empty if it belongs to none."""
+        ...
+
+
 def find_unused(
     domain: Domain, version: Version, target: Target, options: Any, templates: Templates, package: Package
 ) -> frozenset[str]:
     """Return the parts of a model without which its package would have the same texts."""
-    parts = domain.parts(version.snapshot, options)
+    parts: Parts | None = domain.parts
     others = {
         part: Package(domain.artifacts(snapshot, version.imports or {}, target, options), templates, target.package)
-        for part, snapshot in parts.items()
+        for part, snapshot in (parts.without_each(version.snapshot, options) if parts else {}).items()
     }
     return frozenset(part for part, other in others.items() if not _differs(package, other))
 
@@ -64,7 +76,7 @@ def with_unshown(
     is_whole = any(owner not in elements or " " not in owner for owner in changed - {IMPORTS})
 
     def is_shown(change: Change) -> bool:
-        if domain.part_of(change.path) in unused:
+        if domain.parts and domain.parts.part_of(change.path) in unused:
             return False
         return is_whole or change.element in changed or (bool(changed) and change.element not in owners)
 
@@ -82,7 +94,7 @@ def tell_unused(
 ) -> Iterator[Diagnostic]:
     """Yield a warning for each part that no template uses, and for each change of other parts that no text shows."""
     places = {f"no template uses {part}": part for part in sorted(unused)}
-    rest = (change for change in unshown if domain.part_of(change.path) not in unused)
+    rest = (change for change in unshown if not (domain.parts and domain.parts.part_of(change.path) in unused))
     verbs = {ChangeKind.ADDED: "is new", ChangeKind.REMOVED: "is gone"}
     places |= {
         f"{change} {verbs.get(change.kind, 'changed')}, but no template uses it": change.element for change in rest

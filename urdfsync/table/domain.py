@@ -49,6 +49,28 @@ class _Connections:
         return join(content, other, file)
 
 
+class _Columns:
+    """The columns of a table, which templates need not use; see `Parts`."""
+
+    def without_each(self, snapshot: Table, options: Options) -> Mapping[str, Table]:
+        """Return the columns with filled cells; the columns that name elements are used anyway."""
+        found, naming = dict[str, Table](), (options.kind, FROM, TO)
+        for noun, (types, rows) in _SHEETS.items():
+            columns, cells = getattr(snapshot, types), getattr(snapshot, rows)
+            for column in {name: None for row in cells.values() for name in row if name not in naming}:
+                without = {key: _without(row, column) for key, row in cells.items()}
+                parts = {types: _without(columns, column), rows: without}
+                found[f"{noun} {column}"] = msgspec.structs.replace(snapshot, **parts)
+        return found
+
+    def part_of(self, path: Sequence[str]) -> str:
+        """Return the column of a change."""
+        is_column = path[0].startswith(tuple(f"{noun} " for noun in _SHEETS))
+        if is_column or len(path) < 2:
+            return path[0] if is_column else ""
+        return f"{'column' if path[0].startswith('element ') else 'connection column'} {path[1]}"
+
+
 class TableDomain(Domain):
     """Turns tables of elements into Modelica packages."""
 
@@ -57,6 +79,7 @@ class TableDomain(Domain):
     model = Table
     options = Options
     beside = named_file = _Connections()
+    parts = _Columns()
     advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:
@@ -129,23 +152,15 @@ class TableDomain(Domain):
             features["connection", key] = Features(contents, existing)
         return features
 
-    def parts(self, snapshot: Table, options: Options) -> Mapping[str, Table]:
-        """Return the columns with filled cells; the columns that name elements are used anyway."""
-        found, naming = dict[str, Table](), (options.kind, FROM, TO)
-        for noun, (types, rows) in _SHEETS.items():
-            columns, cells = getattr(snapshot, types), getattr(snapshot, rows)
-            for column in {name: None for row in cells.values() for name in row if name not in naming}:
-                without = {key: _without(row, column) for key, row in cells.items()}
-                parts = {types: _without(columns, column), rows: without}
-                found[f"{noun} {column}"] = msgspec.structs.replace(snapshot, **parts)
-        return found
+    def arranged(self, old: Table, new: Table) -> Table:
+        """Return an old table with its rows in the order of the new one."""
 
-    def part_of(self, path: Sequence[str]) -> str:
-        """Return the column of a change."""
-        is_column = path[0].startswith(tuple(f"{noun} " for noun in _SHEETS))
-        if is_column or len(path) < 2:
-            return path[0] if is_column else ""
-        return f"{'column' if path[0].startswith('element ') else 'connection column'} {path[1]}"
+        def in_order(rows: dict[str, Any], others: Mapping[str, Any]) -> dict[str, Any]:
+            places = {key: place for place, key in enumerate(others)}
+            return dict(sorted(rows.items(), key=lambda row: places.get(row[0], len(places))))
+
+        elements, links = in_order(old.elements, new.elements), in_order(old.connections, new.connections)
+        return msgspec.structs.replace(old, elements=elements, connections=links)
 
     def unit(self, snapshot: Table, path: Sequence[str]) -> str:
         """Return the unit of a value at a path such as `elements`, `motor`, `mass`."""

@@ -56,7 +56,7 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Table(msgspec.Struct, frozen=True):
-    """All rows of a source, sorted by their keys."""
+    """All rows of a source, in its order. The order is not recorded, and no difference (see `Domain.arranged`)."""
 
     columns: dict[str, str]
     """The columns of elements: the SI unit of numbers in Modelica's spelling, or `text`, `integer`, `boolean`."""

@@ -90,7 +90,7 @@ class _Reader:
         types, of_links = (
             {c.name: c.type if isinstance(c.type, str) else c.type.si for c in each} for each in (columns, links)
         )
-        return Table(types, dict(sorted(rows.items())), of_links, dict(sorted(joined.items())))
+        return Table(types, rows, of_links, joined)
 
     def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
         """Return the columns; the columns in `texts` have texts."""

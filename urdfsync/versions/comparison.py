@@ -245,7 +245,8 @@ def _with_version(
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
     differences = changes.compare(old, new, domain, robot.options, matching)
     versions = (old, imported_before.contents), (new, imported.contents)
-    if not differences.changes:
+    is_same_order = msgspec.json.encode(old.snapshot) == msgspec.json.encode(new.snapshot)
+    if not differences.changes and is_same_order:
         return Comparison(result, shown(robot.source), against, versions=versions)
     templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
     packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
