@@ -233,7 +233,9 @@ def test_the_package_has_the_order_of_the_rows(folder: Path, execute: Execute) -
     execute("build")
     assert order.read_text().split() == ["Zebra", "Bear", "Ant", "Mole"]
     edit(Path("p.csv"), "zebra,1\nbear,4\n", "bear,4\nzebra,1\n")
-    assert "update     modelica/P/P.mo" in execute("diff", code=1).out
+    Path("old.csv").write_text("name,mass [kg]\nzebra,1\nbear,4\nant,2\nmole,3\n")
+    for command in (["diff"], ["diff", "p", "--against", "old.csv"]):
+        assert "update     modelica/P/P.mo" in execute(*command, code=1).out
     execute("build")
     assert re.findall(r"Models\.(\w+)", system.read_text()) == ["Bear", "Zebra", "Ant", "Mole"]
     assert "in step" in execute("build", "--check").out

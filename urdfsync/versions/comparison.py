@@ -77,7 +77,9 @@ class Comparison(msgspec.Struct, frozen=True):
     def in_step(self) -> bool:
         """Return whether both versions give the same package, and the package on disk is in step."""
         changes = self.result.changes or Changes()
-        return self.result.in_step and changes.change_class in (ChangeClass.NONE, ChangeClass.UNMODELLED)
+        has_files = self.against is not None and bool(self.result.actions)  # rows of a table may change places only
+        silent = (ChangeClass.NONE, ChangeClass.UNMODELLED)
+        return self.result.in_step and changes.change_class in silent and not has_files
 
     @property
     def summary(self) -> str:
@@ -245,8 +247,9 @@ def _with_version(
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
     differences = changes.compare(old, new, domain, robot.options, matching)
     versions = (old, imported_before.contents), (new, imported.contents)
-    is_same_order = msgspec.json.encode(old.snapshot) == msgspec.json.encode(new.snapshot)
-    if not differences.changes and is_same_order:
+    encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]
+    is_reordered = old.snapshot == new.snapshot and encoded[0] != encoded[1]
+    if not differences.changes and not is_reordered:
         return Comparison(result, shown(robot.source), against, versions=versions)
     templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
     packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
@@ -266,7 +269,8 @@ def _with_version(
         kind = Reason.CREATE if path not in older else Reason.DELETE if path not in newer else Reason.UPDATE
         place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
         actions.append(Action(place, kind, role, owner))
-    result = msgspec.structs.replace(result, actions=Actions(actions), changes=differences)
+    news = differences if differences.changes else None
+    result = msgspec.structs.replace(result, actions=Actions(actions), changes=news)
     effects = _effects(domain, old, new, differences, robot)
     return Comparison(result, shown(robot.source), against, effects=effects, versions=versions)
 
