@@ -136,7 +136,7 @@ class MeshProcess:
         self.end()
         limit = {signal.SIGKILL: WALL_SECONDS, getattr(signal, "SIGPROF", None): request.seconds}.get(code)
         if limit is None:
-            return MeshError("the file ends the process that reads it")
+            return MeshError("the process that reads the file fails")
         return MeshError(f"reading the file takes more than {limit:g} s", COARSER)
 
     def end(self) -> None:
