@@ -158,6 +158,7 @@ class _Reader:
         self, sheet: Sheet, columns: Sequence[_Column], elements: Mapping[str, object]
     ) -> dict[str, dict[str, Value]]:
         rows = dict[str, dict[str, Value]]()
+        first_lines = dict[object, int]()
         for line, row in self._values(sheet, columns):
             ends = [str(row.get(end) or "") for end in (FROM, TO)]
             for name in ends:
@@ -165,12 +166,14 @@ class _Reader:
                     near = nearest(name, elements)
                     hint = f"did you mean `{near}`?" if near else "add the element, or correct the connection"
                     self._error("no-element", f"there is no element `{name}`", line, hint)
-            if (same := next((key for key, other in rows.items() if other == row), None)) is not None:
-                message = f"the connection `{' '.join(ends)}` stands in line {self.lines[f'connection {same}']}, too"
+            cells = tuple(sorted(row.items()))
+            if cells in first_lines:
+                message = f"the connection `{' '.join(ends)}` stands in line {first_lines[cells]}, too"
                 hint = "delete one, or number equal connections in a column of their own"
                 self.findings.append(
                     Diagnostic(Severity.WARNING, "equal-connections", message, self._file, line, hint=hint)
                 )
+            first_lines.setdefault(cells, line)
             key, number = " ".join(ends), 2
             while key in rows:
                 key, number = f"{' '.join(ends)} {number}", number + 1
