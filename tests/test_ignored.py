@@ -60,7 +60,7 @@ def test_check_does_not_either(project: Path, execute: Execute, monkeypatch: pyt
 
 def test_a_saved_answer_does_not_outlive_the_list(noted: Path, execute: Execute) -> None:
     assert WORDS in execute("build").err
-    assert "1 finding as before" in execute("build").err
+    assert "still 1 finding (" in execute("build").err
     configure('ignore = ["no-ground"]\n')
     assert WORDS not in execute("build").err
     assert WORDS not in execute("build").err

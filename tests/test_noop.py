@@ -91,7 +91,7 @@ def test_findings_are_counted_once_a_build_has_told_them(folder: Path, capsys: C
         if noop.answer(command) is None:
             cli.main(command)
         said = capsys.readouterr().err
-        assert ("odd_one" in said, "1 finding as before" in said) == (is_new, not is_new), command
+        assert ("odd_one" in said, "still 1 finding" in said) == (is_new, not is_new), command
         time.sleep(0.1)
     assert saved(*BUILD) is not None
 

@@ -235,7 +235,7 @@ def simulate(
     from urdfsync.simulation.results import SimulateOptions
 
     loaded, files = load(config), files or {}
-    robot = loaded.select_one(robots, "simulate")
+    robot = loaded.select_one(robots, "simulate", given.get("model", ""))
     check_outputs(files, input_files(loaded, robot, given.get("motion")))
     chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
     result = run.simulate(loaded, robot, SimulateOptions(tool=chosen, **given), progress)

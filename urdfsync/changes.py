@@ -144,6 +144,10 @@ class Changes(msgspec.Struct, frozen=True):
     """Whether templates, options, or the version of urdfsync differ."""
     options: tuple[str, ...] = ()
     """The changed options; empty if templates or the version of urdfsync differ."""
+    package: str = ""
+    """The former and the present name of the package, if its name changed, and templates and options did not."""
+    unshown: tuple[Change, ...] = ()
+    """The changes of parts that no template uses; among `changes`, they are unmodelled."""
 
     @property
     def change_class(self) -> ChangeClass:
@@ -212,7 +216,7 @@ def _describe(
     before = _under_new_names(plain(old.snapshot), renames)
     for difference in find_differences(old, new, before, plain(new.snapshot)):
         kind, *path = map(str, difference.path)
-        words = (f"{kind.removesuffix('s')} {path[0]}", *path[1:]) if path else (kind,)
+        words = (f"{kind.removesuffix('s').replace('_', ' ')} {path[0]}", *path[1:]) if path else (kind,)
         is_value = difference.kind is ChangeKind.CHANGED
         of_value = unit(new.snapshot, [kind, *path])
         yield difference.change(words, ChangeClass.PARAMETER if is_value else ChangeClass.STRUCTURAL, of_value)

@@ -9,14 +9,14 @@ import signal
 import sys
 import threading
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from typing import Any, get_args
 
 from urdfsync import overview
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.result import Exit
 from urdfsync.output import streams
-from urdfsync.output.console import Console
+from urdfsync.output.console import Console, Format
 from urdfsync.spelling import nearest
 
 _COMMANDS = (
@@ -74,7 +74,9 @@ def _arguments(given: list[str]) -> argparse.Namespace:
         raise arguments.UsageError(parser, f"no command `{given[0]}`", _meant(given[0], _COMMANDS))
     args, unknown = parser.parse_known_args(given)
     if unknown:  # argparse's own usage would lack the command's options
-        hint = _meant(unknown[0].partition("=")[0], args.parser.options())
+        name = unknown[0].partition("=")[0]
+        is_format = "format" in args and name[2:] in get_args(Format)
+        hint = f"write --format {name[2:]}" if is_format else _meant(name, args.parser.options())
         raise arguments.UsageError(args.parser, f"unrecognized arguments: {' '.join(unknown)}", hint)
     return args
 

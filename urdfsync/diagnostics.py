@@ -11,11 +11,11 @@ import msgspec
 
 IGNORABLE = frozenset(
     "as-recorded broken-state byte-order-mark compiler-warning connector-changed does-not-compile dotted-modifier "
-    "fmu-differs fmu-not-simulated fmu-not-valid kept-save other-part "
+    "equal-connections fmu-differs fmu-not-simulated fmu-not-valid kept-save other-part "
     "left-behind limit-passed nested-redeclare no-joints no-package-path no-users-path no-uses "
-    "not-checked order-lacks order-twice out-of-step proposal-kept put-aside recovered rename-done "
+    "not-checked order-lacks order-twice out-of-step overshoot proposal-kept put-aside recovered rename-done "
     "renamed-robot repeated same-but-for-case stray-state stray-template terminated too-long too-many-folders "
-    "units unknown-build unused-argument unresolved wrong-kind wrong-within xacro-said".split()
+    "units unknown-build unused unused-argument unresolved wrong-kind wrong-within xacro-said".split()
 )
 """Codes of warnings and notes that a configuration may ignore, beside the codes of the robot's domain."""
 

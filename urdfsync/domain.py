@@ -224,6 +224,7 @@ class Domain(Protocol):
     named_file: Any = None  # `urdfsync.engine.source.NamedFile`
     imports: Any = None  # `urdfsync.engine.imports.Mentions`
     describe: Any = None  # `urdfsync.changes.Describe`
+    parts: Any = None  # `urdfsync.engine.unused.Parts`
     effects: Any = None  # `urdfsync.changes.Effects`
     record: Any = None  # `urdfsync.api.Recorder`
     checks: Any = None  # `urdfsync.checks.experiment.Checks`
@@ -248,6 +249,10 @@ class Domain(Protocol):
     def unit(self, snapshot: Snapshot, path: Sequence[str]) -> str:
         """Return the unit of the value at a path of plain data such as `parts`, `motor`, `mass`; empty if unknown."""
         return ""
+
+    def arranged(self, old: Snapshot, new: Snapshot) -> Snapshot:
+        """Return an old model in the order of the new one, for a domain whose artifacts follow an unrecorded order."""
+        return old
 
     def uses(self, options: Any) -> Sequence[tuple[str, str]]:
         """Return the libraries that a generated package needs, with their versions, for a top-level `uses`."""

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from urdfsync.dependencies.reads import Reads
 
 CONFIGURATION = "urdfsync.toml"
+NONE = "-"
+"""Stands for no words in a record."""
 ROBOT = ".robot"
 """The ending of the names of robots' records."""
 _STATE = ".urdfsync"
@@ -73,8 +75,8 @@ def find_config(arguments: Sequence[str]) -> str | None:
     return file
 
 
-def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, int]] | None:
-    """Return each robot's name, its line, and the number of its findings; None if the command has to run."""
+def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str]] | None:
+    """Return each robot's name, its line, and the sentence about its findings; None if the command has to run."""
     try:
         request, file = Request(arguments), find_config(arguments)
     except ValueError:
@@ -98,17 +100,17 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, int]] | None:
     return lines or None
 
 
-def _line(folder: str, robot: str, key: str, command: str, seen: dict[Entry, Facts]) -> tuple[str, str, int] | None:
+def _line(folder: str, robot: str, key: str, command: str, seen: dict[Entry, Facts]) -> tuple[str, str, str] | None:
     name = f"{robot}{ROBOT}"
     known = record.load(folder, name)
-    if known is None or known.key != key or len(known.words) < 2:
+    if known is None or known.key != key or len(known.words) < 3:
         return None
-    summary, commands, *findings = known.words
+    summary, commands, sentence, *findings = known.words
     if command not in commands.split() or record.find_change(folder, name, known, seen):
         return None
     if not record.findings_told(folder, robot).issuperset(findings):
         return None
-    return robot, summary, len(findings)
+    return robot, summary, sentence.removeprefix(NONE)
 
 
 def _name(config_file: str) -> str:
@@ -128,8 +130,7 @@ def answer(arguments: Sequence[str]) -> str | None:
                 marks = [("✓ ", "green")] if _has_marks(output) else []
                 _write(output, *marks, (robot, "bold"), (f": {summary}", ""))
                 if findings:
-                    words = f"{findings} finding{'s' if findings > 1 else ''} as before; --verbose shows"
-                    _write(sys.stderr, (f"{robot}: {words} {'them' if findings > 1 else 'it'}", "dim"))
+                    _write(sys.stderr, (f"{robot}: {findings}", "dim"))
         return output.trouble
 
 

@@ -88,6 +88,18 @@ def test_robots_of_a_fleet_have_names_and_arguments_of_their_own(folder: Path, e
     assert config.load(folder / "urdfsync.toml").robots[1].name == "cart_3"
 
 
+def test_a_missing_argument_is_told_as_a_command_that_works(folder: Path, execute: Execute) -> None:
+    """The xacro of Universal Robots uses `name` before the default of `name`."""
+    execute("init", write_fleet(folder))
+    head = '<robot name="$(arg name)" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="name" default="ur"/>'
+    arguments = '<xacro:arg name="ur_type" default="ur5x"/><link name="$(arg ur_type)"/>'
+    (folder / "ur.urdf.xacro").write_text(f"{head}{arguments}</robot>")
+    told = execute("add", "ur.urdf.xacro", "ur_type:=ur10e", code=2).err
+    assert "the argument `name` is not set; run `urdfsync add ur.urdf.xacro ur_type:=ur10e name:=ur10e`" in told
+    command = told.partition("run `urdfsync ")[2].partition("`")[0].split()
+    assert "ur10e: ur.urdf.xacro becomes package Ur10e" in execute(*command).words
+
+
 @pytest.mark.parametrize("fault", ["no schema", "write", "sync", "exchange"])
 def test_a_failure_leaves_the_configuration_as_it_was(project: Path, execute: Execute, fault: str) -> None:
     (project / "other.json").write_text((project / "ladder.json").read_text())

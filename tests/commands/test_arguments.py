@@ -54,6 +54,7 @@ def test_what_was_meant_is_said(execute: Execute) -> None:
     meant = {("biuld",): "build", ("build", "--dryrun"): "--dry-run", ("resolve", "--al", "--keep"): "--all"}
     for arguments, name in meant.items():
         assert f"; did you mean `{name}`? [usage]" in execute(*arguments, code=2).err
+    assert "unrecognized arguments: --json; write --format json [usage]" in execute("build", "--json", code=2).err
     assert "; `urdfsync --help` says more [usage]" in execute("swim", code=2).err
 
 

@@ -69,7 +69,9 @@ def test_a_warning_is_told_after_the_summary_and_a_note_by_the_build_alone(execu
     assert execute("init", "../cad/arm.urdf").err == ""
     assert execute("build").err.startswith(f"{Path('../cad/arm.urdf')}:1: note: not modelled: ")
     os.chdir("modelica")
-    assert execute("build").err == "arm: 1 finding as before; --verbose shows it\n", "by another path, it is the same"
+    assert execute("build").err == "arm: still 1 finding (not-modelled); --verbose shows it\n", (
+        "by another path, it is the same"
+    )
 
 
 def test_what_a_model_leaves_out_is_allowed(execute: Execute, folder: Path) -> None:
@@ -255,3 +257,15 @@ def test_outside_of_a_clone_no_driver_is_spoken_of(
     (bare / "urdfsync.toml").unlink()
     assert "run it in a clone [git]" in execute(*INIT, "ladder.json", "--merge-driver", code=2).err
     assert not (bare / "urdfsync.toml").exists()
+
+
+@pytest.mark.parametrize(("source", "called", "package"), [
+    ("iCub/model.urdf", "icub", "ICub"), ("robots/Häuser/robot.urdf", "hauser", "Hauser"),
+    ("cad/g1_29dof.urdf", "g1_29dof", "G1_29dof"), ("tool/urdf/model.urdf", "tool", "Tool"),
+])  # fmt: skip
+def test_a_robot_is_named_by_its_source_unless_many_have_that_name(
+    bare: Path, execute: Execute, source: str, called: str, package: str
+) -> None:
+    Path(source).parent.mkdir(parents=True)
+    Path(source).write_text(robot(*links(base=1.0), name="iCub" if "iCub" in source else "robot"))
+    assert f"{called}: {source} becomes package {package}" in execute("init", source).words

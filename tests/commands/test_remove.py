@@ -58,9 +58,9 @@ def test_edited_files_and_what_the_users_files_need_stay_and_are_named(plant: Pa
         printed = execute("remove", "filter", "--dry-run")
     assert [line for line in printed.lines if line.endswith("kept")] == [
         f"  orphan     {FILTER}/Elements/C1.mo  no longer generated, but you edited it; kept",
-        f"  needed     {FILTER}/Elements/C1Parameters.mo  no longer generated, but your files need it; kept",
-        f"  needed     {FILTER}/Elements/package.mo  no longer generated, but your files need it; kept",
-        f"  needed     {FILTER}/package.mo  no longer generated, but your files need it; kept",
+        f"  orphan     {FILTER}/Elements/C1Parameters.mo  no longer generated, but your files need it; kept",
+        f"  orphan     {FILTER}/Elements/package.mo  no longer generated, but your files need it; kept",
+        f"  orphan     {FILTER}/package.mo  no longer generated, but your files need it; kept",
     ]
     assert f"{FILTER}/Bench.mo:3: warning: there is no class `Elements.R1`" in printed.err
     execute(*REMOVE)

@@ -77,6 +77,11 @@ def test_one_of_several_robots_has_to_be_named(compiler: Compiler, execute: Exec
         file.write('[robots.other]\nsource = "arm.urdf"\npackage = "Other"\n')
     assert "name one: arm, other" in execute("simulate", code=2).words
     execute("simulate", "arm")
+    for model in ("Arm.ArmTest", "ArmTest"):  # the model names the robot
+        assert "arm: Arm.ArmTest" in execute("simulate", "--model", model).words
+    told = execute("simulate", "--model", "Plant.Cell", code=2).words
+    assert "`Plant.Cell` is in none of the packages of arm, other, so it does not tell the robot" in told
+    assert "name the robot that the model uses: `urdfsync simulate arm --model Plant.Cell`" in told
 
 
 def test_an_interruption_leaves_nothing(compiler: Compiler, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -104,6 +104,14 @@ def test_options_are_named_only_if_nothing_else_changed(arm: Path, execute: Exec
     assert "a template, an option or urdfsync itself changed" in execute("build", "--dry-run").words
 
 
+def test_a_renamed_package_is_told_as_such(arm: Path, execute: Execute) -> None:
+    edit(arm / "urdfsync.toml", 'package = "Arm"', 'package = "Crane"')
+    assert "the package's name changed: Arm → Crane" in execute("build", "--dry-run").words
+    edit(arm / "urdfsync.toml", 'package = "Crane"', 'package = "Arm"\nclass = "Crane"')
+    told = "the package's name changed: Arm with the class Arm → Arm with the class Crane"
+    assert told in execute("build", "--dry-run").words
+
+
 @pytest.mark.parametrize("option", ['["frames","none"]', '["frames",3]', '["roof","red"]'])
 def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
     arm: Path, execute: Execute, option: str

@@ -10,7 +10,8 @@ from urdfsync.modelica.names import any_case, class_name, is_class_name, is_iden
 
 
 @pytest.mark.parametrize(("text", "name"), [
-    ("my-robot v2", "MyRobotV2"), ("aBC_d", "ABCD"), ("", "Robot"), ("größe", "GrE"), ("2nd arm", "Robot2ndArm"),
+    ("my-robot v2", "MyRobotV2"), ("aBC_d", "ABCD"), ("", "Robot"), ("größe", "Grosse"), ("2nd arm", "Robot2ndArm"),
+    ("Häuser", "Hauser"), ("Éléphant", "Elephant"), ("g1_29dof", "G1_29dof"), ("arm 1.2", "Arm1_2"), ("x_1 y", "X1Y"),
     ("con", "RobotCon"), ("modelica", "RobotModelica"), ("links", "RobotLinks"), ("LPT9", "RobotLPT9"),
 ])  # fmt: skip
 def test_any_text_becomes_the_name_of_a_class(text: str, name: str) -> None:

@@ -9,7 +9,7 @@ from support.commands import Execute
 from support.files import unchanged
 from support.urdfs import joint, link, robot
 
-COUNTED = ["arm: 1 finding as before; --verbose shows it"]
+COUNTED = ["arm: still 1 finding (axis-not-unit); --verbose shows it"]
 NOTES = Path(".urdfsync/notes/arm.json")
 
 

@@ -82,7 +82,7 @@ def test_a_mesh_that_is_too_large_for_the_package_is_shown_and_one_that_is_damag
     )
     file = report(f'<robot name="ball"><link name="base">{"".join(shapes)}</link></robot>')
     page = read(file)
-    assert "the file has more than 1,000,000 triangles; left out" in page.words
+    assert "triangles, more than 1,000,000; left out" in page.words
     assert re.search(r"damaged\S*\.stl can't be shown: \w+", page.words)
     (faces,) = faces_of(file).values()
     assert 200_000 < faces <= 500_000

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from urdfsync.diagnostics import SourceError
 from urdfsync.files import shown
 from urdfsync.simulation.models import Input
-from urdfsync.simulation.motion import MOST_ROWS, read_motion, second_derivatives
+from urdfsync.simulation.motion import MOST_ROWS, Motion, find_overshoots, read_motion, second_derivatives
 
 INPUTS = [Input("elbow_phi", "rad"), Input("slide_s", "m"), Input("speeds[2]", "rad/s"), Input("wrist_tau", "N.m")]
 HEADER = "time,elbow_phi,slide_s,speeds[2],wrist_tau"
@@ -42,13 +42,20 @@ def test_columns_are_found_by_name_and_units_are_converted(tmp_path: Path) -> No
     }
 
 
+def test_a_european_table_of_inputs_has_semicolons_and_decimal_commas(tmp_path: Path) -> None:
+    text = f"{HEADER.replace(',', ';')}\n0;0;0;0;0\n0,5;-1,25;1E-3;0,1;2\n"
+    assert [values[1] for values in read(tmp_path, text).values()] == [0.5, -1.25, 0.001, 0.1, 2]
+
+
 @pytest.mark.parametrize(
     ("text", "line", "words"),
     [
         ("", 0, "the file has no motion"),
         (f"{HEADER}\n0,0,0,0,0\n", 0, "the file has no motion"),
         ("elbow_phi,time\n0,0\n1,0\n", 1, "the first column is `elbow_phi`, not `time`"),
-        ("time;elbow_phi\n0;0\n1;0\n", 1, "separate columns by commas"),
+        ("time elbow_phi\n0 0\n1 0\n", 1, "name `time` first, then the inputs"),
+        ("time;elbow_phi\n0;0\n1;0\n", 1, "columns are missing: slide_s, speeds[2], wrist_tau"),
+        (f"{HEADER.replace(',', ';')}\n0;0;0;0;0\n0,5;1.5;0;0;0\n", 3, "`0,5` has a comma, but `1.5` in line 3"),
         ("time,elbow_phi\n0,0\n1,0\n", 1, "columns are missing: slide_s, speeds[2], wrist_tau"),
         (f"{HEADER},elbo_phi\n0,0,0,0,0,0\n1,0,0,0,0,0\n", 1, "no input `elbo_phi`; did you mean `elbow_phi`?"),
         (f"{HEADER},elbow_phi\n0,0,0,0,0,0\n1,0,0,0,0,0\n", 1, "`elbow_phi` is there twice"),
@@ -113,3 +120,15 @@ def test_the_spline_through_a_cubic_is_that_cubic(steps: list[float], factors: l
 def test_few_points_make_a_line_and_a_parabola() -> None:
     assert second_derivatives([0.0, 2.0], [1.0, 5.0]) == [0.0, 0.0]
     assert second_derivatives([0.0, 1.0, 3.0], [0.0, 1.0, 9.0]) == pytest.approx([2.0, 2.0, 2.0])
+
+
+def test_a_spline_that_leaves_its_rows_is_told_with_its_number() -> None:
+    """Rows at uneven times: the joint shall turn to 90° and stay, and the spline goes far beyond."""
+    turn = (0.0, 0.0, math.pi / 2, math.pi / 2)
+    uneven = Motion((0.0, 2.0, 2.2, 4.0), ((INPUTS[0], turn), (INPUTS[3], turn)))
+    (found,) = find_overshoots(uneven, Path("m.csv"))
+    assert found.message == "`elbow_phi` reaches -5.963 rad (-341.7°) at 0.8498 s, and the rows around have 0 and 0"
+    times = tuple(number / 8 for number in range(17))
+    sine = tuple(math.sin(2 * math.pi * time) for time in times)
+    assert not list(find_overshoots(Motion(times, ((INPUTS[0], sine),)), Path("m.csv")))
+    assert not list(find_overshoots(Motion((0.0, 1.0), ((INPUTS[0], turn[1:3]),)), Path("m.csv")))

@@ -79,7 +79,7 @@ def _sparse(path: Path) -> None:
 
 
 VERTICES = b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"
-LIMITS, DAMAGED, TRIANGLES = "reading the file takes more than", "damaged", "more than 1,000,000 triangles"
+LIMITS, DAMAGED, TRIANGLES = "reading the file takes more than", "damaged", "triangles, more than 1,000,000"
 
 HOSTILE: dict[str, tuple[str | bytes | Callable[[Path], str | bytes | None], str]] = {
     "expression.off": ("OFF" + "#" * 60 + "\n", DAMAGED),

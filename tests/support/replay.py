@@ -92,7 +92,11 @@ class Project:
     def stamps(self) -> Stamps:
         """Inode and time of change of each file, except the lock and the notes of this machine."""
         found = ((path.relative_to(self.root).as_posix(), path.stat()) for path in _files(self.root))
-        found = ((name, stat) for name, stat in found if not name.startswith((".urdfsync/lock", ".urdfsync/notes/", ".urdfsync/deps/")))
+        found = (
+            (name, stat)
+            for name, stat in found
+            if not name.startswith((".urdfsync/lock", ".urdfsync/notes/", ".urdfsync/deps/"))
+        )
         return {name: (stat.st_ino, stat.st_mtime_ns) for name, stat in found}
 
     def clone(self, root: Path) -> Project:
@@ -126,7 +130,11 @@ class Fresh:
 def contents(folder: Path) -> dict[str, bytes]:
     """Content of each file below a folder, except the notes of this machine."""
     files = {path.relative_to(folder).as_posix(): path.read_bytes() for path in _files(folder)}
-    return {path: content for path, content in files.items() if ".urdfsync/notes/" not in path and ".urdfsync/deps/" not in path}
+    return {
+        path: content
+        for path, content in files.items()
+        if ".urdfsync/notes/" not in path and ".urdfsync/deps/" not in path
+    }
 
 
 def _put_meshes(root: Path, content: bytes) -> None:

@@ -41,6 +41,27 @@ def test_a_changed_row_renews_one_record(project: Path, execute: Execute) -> Non
     assert "effort = 4.3)" in ELBOW.read_text()
 
 
+def test_a_european_catalogue_gives_the_same_numbers(project: Path, execute: Execute) -> None:
+    SERVOS.write_text(re.sub(r"(?<=\d)\.(?=\d)", ",", SERVOS.read_text().replace(",", ";")))
+    assert "arm: in step" in execute("build").out
+
+
+def test_both_readings_know_the_torque_of_american_data_sheets(project: Path, execute: Execute) -> None:
+    edit(SERVOS, "[N.cm]", "[oz-in]")
+    execute("build")
+    assert "effort = 2.89" in ELBOW.read_text()
+    assert "differs" not in execute("check", "arm", code=None).words
+
+
+def test_a_number_that_no_joint_takes_is_named(project: Path, execute: Execute) -> None:
+    edit(SERVOS, "pitch [turn/m],note", "pitch [turn/m],mass [g]")
+    for words, mass in (("two stages of spur gears", "60"), ("the same with a longer train", ""), ("a spindle", "")):
+        edit(SERVOS, words, mass)
+    edit(SERVOS, " of 2 mm a turn", "")
+    told = f"{SERVOS}:2: note: no joint takes these columns of the catalogue: `mass`; name a column in `motor_columns`"
+    assert told in execute("build", "arm").words
+
+
 def test_a_row_that_no_joint_has_changes_no_robot(project: Path, execute: Execute) -> None:
     SERVOS.write_text(f"{SERVOS.read_text()}S99,900,20,500,1,5,0.1,,,,\n")
     assert "arm: in step" in execute("build", "arm").out

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -39,12 +40,13 @@ def project(folder: Path, execute: Execute) -> Path:
     return folder
 
 
-def test_init_writes_templates_for_the_columns(project: Path) -> None:
-    record = Path("templates/motors/record.mo.jinja").read_text()
-    assert "parameter Real torque(unit = << units.torque | string >>) = << row.torque | real >>;" in record
-    assert "<% if row.maker is defined %>" in record
-    assert 'parameter String maker = "Robotis";' in Path("modelica/Motors/Records/MX_64.mo").read_text()
+def test_the_templates_of_init_follow_the_columns(project: Path, execute: Execute) -> None:
+    record = Path("modelica/Motors/Records/MX_64.mo")
+    assert 'parameter String maker = "Robotis"' in record.read_text()
     assert "maker" not in Path("modelica/Motors/Records/XM_430.mo").read_text()
+    Path("motors.csv").write_text("name,torque [N.cm],mass [g],maker\nMX-64,600,126,Robotis\nXM 430,410,82,\n")
+    assert "2 files written" in execute("build").out
+    assert 'parameter Real mass(final unit = "kg") = 0.126' in record.read_text()
 
 
 def test_init_keeps_templates_that_are_there(project: Path, execute: Execute) -> None:
@@ -64,7 +66,7 @@ def test_a_number_of_records_is_a_parameter(project: Path, execute: Execute) -> 
 def test_another_unit_renews_records(project: Path, execute: Execute) -> None:
     edit(Path("motors.csv"), "torque [N.cm]", "torque [kg]")
     assert "column torque: N.m → kg" in execute("build").out
-    assert 'torque(unit = "kg") = 600;' in Path("modelica/Motors/Records/MX_64.mo").read_text()
+    assert 'torque(final unit = "kg") = 600' in Path("modelica/Motors/Records/MX_64.mo").read_text()
 
 
 def test_a_number_that_a_model_follows_is_structure(project: Path, execute: Execute) -> None:
@@ -104,10 +106,10 @@ def test_edits_follow_rows_with_zeros_and_ones(folder: Path, execute: Execute, r
 
 
 def test_two_sides_conflict(project: Path, execute: Execute) -> None:
-    edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6;", "= 6.5;")
+    edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6\n", "= 6.5\n")
     edit(Path("motors.csv"), "600", "700")
     assert "1 conflict" in execute("build", code=Exit.CONFLICT).out
-    assert "= 6.5;" in Path("modelica/Motors/Records/MX_64.mo").read_text()
+    assert "= 6.5\n" in Path("modelica/Motors/Records/MX_64.mo").read_text()
 
 
 def name_connections() -> None:
@@ -151,9 +153,8 @@ def test_a_template_with_an_absent_column_is_told(project: Path, execute: Execut
 
 def test_an_emptied_cell_that_a_template_needs_is_an_error(project: Path, execute: Execute) -> None:
     edit(Path("motors.csv"), "MX-64,600", "MX-64,")
-    Path("templates/motors/model.mo.jinja").write_text(MODEL.replace("row.torque > 5", "true"))
     found = execute("build", code=Exit.ERROR).words
-    assert "record.mo.jinja:6: error: the template can't be rendered for `Records/MX_64.mo`" in found
+    assert "model.mo.jinja:7: error: the template can't be rendered for `Models/MX_64.mo`" in found
     assert "`torque` has no value here: test it by `is defined`" in found
 
 
@@ -170,7 +171,7 @@ def test_a_column_may_have_a_word_of_modelica_as_name(folder: Path, execute: Exe
     Path("motors.csv").write_text("name,model\nm1,XL\n")
     execute("init", "--domain", "table", "motors.csv")
     execute("build")
-    assert 'parameter String model_ = "XL";' in Path("modelica/Motors/Records/M1.mo").read_text()
+    assert 'parameter String model_ = "XL"' in Path("modelica/Motors/Records/M1.mo").read_text()
 
 
 def test_templates_are_needed_for_each_kind(project: Path, execute: Execute) -> None:
@@ -196,7 +197,7 @@ def test_a_package_without_a_system_is_checked_model_by_model(
 
 
 def test_a_check_names_each_edited_file(project: Path, execute: Execute) -> None:
-    edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6;", "= 7;")
+    edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6\n", "= 7\n")
     edit(Path("modelica/Motors/Records/XM_430.mo"), "end XM_430;", "  // a comment alone\nend XM_430;")
     found = execute("check", code=None)
     assert "Records/MX_64.mo (edited): its effect is not compared" in found.words
@@ -216,3 +217,25 @@ def test_the_page_shows_elements_and_connections(project: Path, execute: Execute
     assert meshes == {}
     assert "page: " in execute("report", "-o", "motors.html").out
     assert '<section id="robot" aria-label="Table">' in Path("motors.html").read_text()
+
+
+def test_the_package_has_the_order_of_the_rows(folder: Path, execute: Execute) -> None:
+    Path("p.csv").write_text("name,mass [kg]\nzebra,1\nant,2\nmole,3\n")
+    Path("p.connections.csv").write_text("from,to\nzebra,ant\nant,mole\n")
+    execute("init", "--domain", "table", "p.csv")
+    execute("build")
+    order, system = Path("modelica/P/Records/package.order"), Path("modelica/P/P.mo")
+    assert order.read_text().split() == ["Zebra", "Ant", "Mole"]
+    assert re.findall(r"Models\.(\w+)", system.read_text()) == ["Zebra", "Ant", "Mole"]
+    edit(Path("p.csv"), "ant,2", "ant,5")
+    assert "1 parameter change since" in execute("diff", code=1).out, "the order is no change"
+    edit(Path("p.csv"), "ant,5", "bear,4\nant,2")
+    execute("build")
+    assert order.read_text().split() == ["Zebra", "Bear", "Ant", "Mole"]
+    edit(Path("p.csv"), "zebra,1\nbear,4\n", "bear,4\nzebra,1\n")
+    Path("old.csv").write_text("name,mass [kg]\nzebra,1\nbear,4\nant,2\nmole,3\n")
+    for command in (["diff"], ["diff", "p", "--against", "old.csv"]):
+        assert "update     modelica/P/P.mo" in execute(*command, code=1).out
+    execute("build")
+    assert re.findall(r"Models\.(\w+)", system.read_text()) == ["Bear", "Zebra", "Ant", "Mole"]
+    assert "in step" in execute("build", "--check").out

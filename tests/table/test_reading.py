@@ -191,6 +191,56 @@ def test_connections_name_elements(links: str, words: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("content", "mass"),
+    [
+        ("name;mass [kg];note\na;1,5;2,5 mm\n", 1.5),
+        ("name;mass, net [kg];note\na;-1,5E-3;x,y\n", -0.0015),
+        ('"name";"mass [kg]";"note"\n"a";"0,125";"x"\n', 0.125),
+        ("name\tmass [kg]\tnote\na\t12,5\tx\n", 12.5),
+        ("name;mass [kg];note\na;1.5;x\n", 1.5),
+        ("name;mass [kg];note\na;1,234;x\nb;0,5;x\n", 1.234),
+        ("name;mass [kg];note\na;1.234;x\nb;0.5;x\n", 1.234),
+        ("name;mass [kg];note\na;1234;x\n", 1234),
+        ('name,"mass; net [kg]",note\na,1.234,x\n', 1.234),
+    ],
+)
+def test_numbers_of_european_and_english_files(content: str, mass: float) -> None:
+    found = table(content)
+    assert next(iter(found.elements["a"].values())) == mass
+    assert found.columns["note"] == "text"
+
+
+@pytest.mark.parametrize(
+    ("content", "finding"),
+    [
+        ("a;1.234,5\n", "2: error: `1.234,5` has more than one mark; write no marks of thousands"),
+        ("a;1,234,567\n", "2: error: `1,234,567` has more than one mark; write no marks of thousands"),
+        ("a;1,234\n", "2: error: `1,234` may mean 1.234 or 1234; write 1,2340 or 1234"),
+        ("a;12\nb;1.234\n", "3: error: `1.234` may mean 1.234 or 1234; write 1.2340 or 1234"),
+        ("a;1.5\nb;0,5\n", "3: error: `0,5` has a comma, but `1.5` in line 2 has a point; write one decimal mark"),
+        ("a;1 234,5\n", "2: error: column `mass`: `1 234,5` is no number"),
+        ("a;1'234\n", "2: error: column `mass`: `1'234` is no number"),
+    ],
+)
+def test_a_number_is_never_read_by_another_mark(content: str, finding: str) -> None:
+    (found,) = reading(f"name;mass [kg]\n{content}").diagnostics
+    assert str(found).startswith(f"parts.csv:{finding}")
+
+
+def test_numbers_without_a_unit_are_told_with_commas_too() -> None:
+    (found,) = reading("name;mass\na;1,5\n").diagnostics
+    assert "column `mass` has numbers but no unit" in found.message
+
+
+def test_an_equal_connection_is_told_with_the_line_of_the_other() -> None:
+    links = "from,to,length [m]\na,a,1\na,a,2\na,a,1\n"
+    found = reading((HEADER + "a,1\n").encode() + MARK + links.encode())
+    (finding,) = found.diagnostics
+    assert str(finding).startswith("parts.csv:8: warning: the connection `a a` stands in line 6, too; delete one")
+    assert len(found.snapshot.connections) == 3
+
+
+@pytest.mark.parametrize(
     ("options", "option"), [({"key": "id"}, "key"), ({"kind": "Mass"}, "kind"), ({"columns": {"m": "kg"}}, "columns")]
 )
 def test_options_name_columns(options: dict[str, Any], option: str) -> None:

@@ -38,6 +38,10 @@ from urdfsync.table.units import find_unit, is_same_kind
         ("1/degC", "2", 2, "1/K"),
         ("1/s", "2", 2, "1/s"),
         ("hPa", "2", 200, "Pa"),
+        ("oz.in", "100", 0.7061551814226044, "kg.m2/s2"),
+        ("oz-in", "100", 0.7061551814226044, "kg.m2/s2"),
+        ("ozf.in", "100", 0.7061551814226044, "kg.m2/s2"),
+        ("ozf-in", "100", 0.7061551814226044, "kg.m2/s2"),
     ],
 )
 def test_numbers_are_converted(unit: str, number: str, value: float, si: str) -> None:
@@ -52,7 +56,7 @@ def test_no_unit(unit: str) -> None:
         find_unit(unit)
 
 
-@pytest.mark.parametrize("unit", ["PS", "mil", "G", "U/min", "dB", "dBm", "Np", "oz.in", "Pm"])
+@pytest.mark.parametrize("unit", ["PS", "mil", "G", "U/min", "dB", "dBm", "Np", "oz.m", "oz.in2", "Pm"])
 def test_units_that_mean_something_else_than_a_table_are_refused(unit: str) -> None:
     with pytest.raises(ValueError, match="is not known here"):
         find_unit(unit)

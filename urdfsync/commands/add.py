@@ -32,7 +32,8 @@ def add(commands: arguments.Commands) -> None:
         help="add a robot to urdfsync.toml",
         description="Add a table to urdfsync.toml for each source, with guesses and their reasons. Existing tables "
         "stay unchanged.",
-        epilog="examples: urdfsync add cad/gripper.urdf\n          urdfsync add ur.urdf.xacro ur_type:=ur10e",
+        epilog="examples: urdfsync add cad/gripper.urdf\n"
+        "          urdfsync add ur.urdf.xacro name:=ur10e ur_type:=ur10e",
     )
     sources = "the sources of the new robots; of xacro with arguments NAME:=VALUE"
     parser.add_argument("sources", nargs="+", metavar="SOURCE", help=sources)
@@ -46,7 +47,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         Guess(robot.name, str(robot.source), robot.arguments or {}, robot.target.package) for robot in loaded.robots
     ]
     named = arguments.split_sources(args.sources, args.parser)
-    guesses, warnings = guess_robots(domain, loaded.root, named, known)
+    guesses, warnings = guess_robots(args.command, domain, loaded.root, named, known)
     for guess, one in itertools.product(guesses, known):
         if Path(one.source).resolve() == (loaded.root / guess.source).resolve() and one.arguments == guess.arguments:
             message = f"{guess.source} is the source of `{one.robot}` already"

@@ -160,7 +160,7 @@ def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, Ro
     """Return the configuration and the one robot that the arguments name; warn of settings without effect."""
     loaded = load(args.config)
     robots = select_robots(args, loaded, console)
-    return loaded, loaded.select_one([robot.name for robot in robots], args.command)
+    return loaded, loaded.select_one([robot.name for robot in robots], args.command, getattr(args, "model", ""))
 
 
 def call(

@@ -7,6 +7,7 @@ import contextlib
 import json
 import os
 import re
+import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -24,7 +25,7 @@ from urdfsync.domain import Domain
 from urdfsync.engine import source as source_files
 from urdfsync.engine.result import Exit
 from urdfsync.files import Tree, put, shown
-from urdfsync.modelica.names import class_name
+from urdfsync.modelica.names import class_name, in_ascii
 from urdfsync.output.console import Console, line
 
 _HEADER = f"""\
@@ -34,6 +35,8 @@ _HEADER = f"""\
 """
 _LONGEST = 80
 """The greatest number of characters of a guessed name: robots and packages become names of files."""
+_GENERIC = frozenset("cad description main model models robot robots src urdf xacro".split())
+"""Names of sources and folders, in lower case, that name no robot."""
 
 
 NamedSource: TypeAlias = tuple[Path, Mapping[str, str]]
@@ -83,7 +86,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     _refuse_existing(file)
     domain = registry.domain(args.domain)
     named = arguments.split_sources(args.sources, args.parser)
-    guesses, warnings = guess_robots(domain, file.parent, named)
+    guesses, warnings = guess_robots("init", domain, file.parent, named)
     is_clone = merge_driver.can_install(file.parent)
     question = "Let git merge these models by their elements, in this clone?"
     is_asked = is_clone and not args.merge_driver and arguments.can_ask(console)
@@ -105,7 +108,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def guess_robots(
-    domain: Domain, root: Path, named: Sequence[NamedSource], known: Sequence[Guess] = ()
+    command: str, domain: Domain, root: Path, named: Sequence[NamedSource], known: Sequence[Guess] = ()
 ) -> tuple[list[Guess], list[Diagnostic]]:
     """Guess a robot for each of the `named` sources, or for all sources below `root`; also return warnings.
 
@@ -127,7 +130,7 @@ def guess_robots(
             guess, noted = _guess(domain, source, given, root, [*known, *guesses])
         except SourceError as error:
             if named:
-                raise
+                raise SourceError(*(_with_argument(one, command, source, given) for one in error.diagnostics)) from None
             errors += error.diagnostics
             first = next(one for one in error.diagnostics if one.severity is Severity.ERROR)
             hint = f"correct the source and add it, or run `urdfsync init {shown(source)}`"
@@ -139,6 +142,16 @@ def guess_robots(
     if not guesses:
         raise SourceError(*errors)
     return guesses, warnings
+
+
+def _with_argument(finding: Diagnostic, command: str, source: Path, given: Mapping[str, str]) -> Diagnostic:
+    """Return the finding; for unset arguments of xacro, its hint is the command with these arguments."""
+    if finding.code != "no-argument":
+        return finding
+    name = _names(next(iter(given.values()), "") or source.name.partition(".")[0])[0]
+    unset = {one: name if one == "name" else "VALUE" for one in re.findall(r"`([^`]+)`", finding.message)}
+    words = [str(source), *(f"{key}:={value}" for key, value in {**given, **unset}.items())]
+    return msgspec.structs.replace(finding, hint=f"run `urdfsync {command} {shlex.join(words)}`")
 
 
 def _search(folder: Path, suffix: str) -> Iterator[Path]:
@@ -164,7 +177,8 @@ def _guess(
         text = source_files.read_file_source(domain, source, others, config.ros_package_path())
     snapshot, reading = source_files.read_permissively(domain, text)
     values = text.expansion.arguments if text.expansion else {}
-    own_name = str(getattr(snapshot, "name", "")) if text.expansion else ""
+    is_generic = source.name.partition(".")[0].lower() in _GENERIC
+    own_name = str(getattr(snapshot, "name", "")) if text.expansion or is_generic else ""
     fleet = [one.arguments for one in known if (root / one.source).resolve() == source.resolve()]
     robot, package = _free_names(source, given, own_name, fleet, known)
     proposals = tuple(advice.propose(snapshot, reading.diagnostics)) if advice else ()
@@ -182,16 +196,17 @@ def _free_names(
     """Return names for a robot and its package that no `known` robot has.
 
     The argument `name` decides. Otherwise the robot's own name is tried first. Next comes this name with the arguments
-    that differ within the `fleet` of its source, then the file's name. Raises ConfigError if the argument `name` is
-    taken.
+    that differ within the `fleet` of its source, then the file's name. Names such as `model` come last, after the
+    folder's name. Raises ConfigError if the argument `name` is taken.
     """
     taken = {name.casefold() for one in known for name in (one.robot, one.package)}
     differing = "_".join(value for key, value in given.items() if any(other.get(key) != value for other in fleet))
     if own_name.lower() not in differing.lower():
         differing = f"{own_name}_{differing}"
-    texts = (
-        [given["name"]] if given.get("name") else [own_name, differing if fleet else "", source.name.partition(".")[0]]
-    )
+    texts = [own_name, differing if fleet else "", source.name.partition(".")[0]]
+    folders = [folder.name for folder in source.resolve().parents if folder.name.lower() not in _GENERIC]
+    texts = [text for text in texts if text and text.lower() not in _GENERIC] or [*folders[:1], *texts]
+    texts = [given["name"]] if given.get("name") else texts
     names = [_names(text[:_LONGEST]) for text in texts if text]
     free = next((pair for pair in names if taken.isdisjoint(map(str.casefold, pair))), None)
     if free is None and given.get("name"):
@@ -208,7 +223,7 @@ def _free_names(
 
 def _names(text: str) -> tuple[str, str]:
     """Return names of a robot and of its package, which are made from any text."""
-    name = re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
+    name = re.sub(r"[^a-z0-9]+", "_", in_ascii(text).lower()).strip("_")
     return name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(text)
 
 

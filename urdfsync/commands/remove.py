@@ -68,7 +68,7 @@ def _show(console: Console, result: Result, words: str) -> None:
         return
     console.findings(result.diagnostics)
     decided = [action for action in result.actions.decided if action.writes or action.reason in ORPHANS]
-    rows = [(result.shown(action.path), str(action.reason), _reason(action)) for action in decided]
+    rows = [(result.shown(action.path), action.word, _reason(action)) for action in decided]
     files = Table("Files", ("File", "", "Why"), rows, file_line, _FILES, "file")
     section = Section(result.robot, "; ".join([words, *result.counts(ORPHANS)]), Mark.FINE, tables=[files])
     console.tell(text(section, verbose=console.verbose))

@@ -70,7 +70,7 @@ def prepare_page(
     from urdfsync.pages.page import check_page, page
 
     configuration = load(args.config)
-    robot = configuration.select_one(args.robots, args.command)
+    robot = configuration.select_one(args.robots, args.command, getattr(args, "model", ""))
     check_page(file, input_files(configuration, robot, motion))
 
     def write(**results: Any) -> PageDocument:

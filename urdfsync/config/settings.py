@@ -95,6 +95,11 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
         """The folder of the generated package."""
         return self.output.joinpath(*self.target.package.split("."))
 
+    def has_class(self, name: str) -> bool:
+        """Whether a full name, or a name below the package, belongs to the package."""
+        place = self.folder.joinpath(*name.split("."))
+        return name.startswith(f"{self.target.package}.") or place.with_suffix(".mo").is_file()
+
     def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         """Leave out ignored warnings and notes; errors stay."""
         return tuple(
@@ -149,11 +154,21 @@ class Config(msgspec.Struct, frozen=True):
             chosen.update(meant)
         return tuple(robot for robot in self.robots if not names or robot.name in chosen)
 
-    def select_one(self, robots: Sequence[str], command: str) -> RobotConfig:
-        """Return the named robot, or the only one. Raises ConfigError for several robots: `command` takes one."""
+    def select_one(self, robots: Sequence[str], command: str, model: str = "") -> RobotConfig:
+        """Return the named robot, the robot whose package has the `model`, or the only robot.
+
+        Raises ConfigError for several robots: `command` takes one.
+        """
         chosen = self.select(robots)
+        owners = [robot for robot in chosen if model and robot.has_class(model)]
+        if len(owners) == 1:
+            return owners[0]
         if len(chosen) > 1:
             names = ", ".join(robot.name for robot in chosen)
             message = f"{len(chosen)} robots match; `urdfsync {command}` takes one at a time"
-            raise ConfigError.of("robots", message, hint=f"name one: {names}")
+            hint = f"name one: {names}"
+            if model:
+                message = f"`{model}` is in none of the packages of {names}, so it does not tell the robot"
+                hint = f"name the robot that the model uses: `urdfsync {command} {chosen[0].name} --model {model}`"
+            raise ConfigError.of("robots", message, hint=hint)
         return chosen[0]

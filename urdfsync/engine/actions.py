@@ -172,6 +172,11 @@ class Action(msgspec.Struct, frozen=True):
         return self.reason.status
 
     @property
+    def word(self) -> str:
+        """The word for people; an orphan has the word of its status, and `text` says why it stays."""
+        return "waiting" if self.is_waiting else str(Reason.ORPHAN if self.reason in ORPHANS else self.reason)
+
+    @property
     def replaces(self) -> str:
         """Return a clause if the action replaces a text that git merged from two versions; empty otherwise."""
         return "replaces git's merge of two branches" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""

@@ -35,6 +35,7 @@ from urdfsync.engine.package_names import (
     new_names,
     renamed_names,
 )
+from urdfsync.engine.unused import tell_unused
 from urdfsync.files import shown
 from urdfsync.state.notes import Use
 from urdfsync.state.store import Store
@@ -79,6 +80,9 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
         for path, finding in effects.find_doubtful(last, generation.now, changes.renames):
             line = generation.lines.get(path, 0)
             findings.append(msgspec.structs.replace(finding, file=shown(inputs.robot.source), line=line))
+    unshown = changes.unshown if changes else ()
+    file, lines = shown(inputs.robot.source), generation.lines
+    findings += tell_unused(inputs.domain, decision.differences.unused, unshown, file, lines)
     if decision.is_complete:
         findings += _changed_connectors(inputs, generation, changes)
     return list(map(inputs.source.locate, findings))

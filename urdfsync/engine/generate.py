@@ -53,6 +53,11 @@ class Package:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
 
+    @property
+    def owners(self) -> Mapping[str, str]:
+        """The owner of each text file, by path."""
+        return {path: artifact.owner for path, artifact in self.artifacts.items()}
+
     @functools.cached_property
     def paths_by_hash(self) -> Mapping[str, str]:
         """The path of each text, by its hash."""
@@ -106,7 +111,7 @@ def generate(domain: Domain, version: Version, target: Target, options: Any, tem
     """Return the package of a model. Raises OutputError for forbidden paths."""
     snapshot, imports = version.snapshot, version.imports or {}
     # the key is JSON: 0.0 == -0.0, but their texts differ
-    key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options), order="sorted")
+    key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options))
     artifacts = _recent.pop(key, None)
     if artifacts is None:
         artifacts = tuple(domain.artifacts(snapshot, imports, target, options))

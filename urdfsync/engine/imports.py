@@ -214,7 +214,7 @@ class _Importer(msgspec.Struct):
             entry = msgspec.structs.replace(entry, target=target, target_hash=target_hash, facts=own_facts)
             self.result.add(key, entry, file.copy if file.hash == target_hash else None)
         message = f"{trouble.message}; the imported copy is kept"
-        return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
+        return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message)
 
 
 class Mentions(Protocol):

@@ -135,11 +135,17 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def package(self) -> Package | None:
         """The package from the recorded model with the present templates; None if it can't be generated."""
+        return None if self.version is None else self.package_like(self.version.snapshot)
+
+    def package_like(self, now: Snapshot) -> Package | None:
+        """Return the package from the recorded model, in the order of another model; None as for `package`."""
         if self.version is None:
             return None
         options = self.options or self._robot.options
         try:
-            return generate(self._domain, self.version, self.target, options, self._templates)
+            snapshot = self._domain.arranged(self.version.snapshot, now)
+            version = msgspec.structs.replace(self.version, snapshot=snapshot)
+            return generate(self._domain, version, self.target, options, self._templates)
         except NO_MODEL:
             return None
 

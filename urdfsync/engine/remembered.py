@@ -6,6 +6,7 @@ Builds, dry runs, `status`, `diff`, the hooks and the daemon ask `recall` before
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any
 
 import msgspec
@@ -23,6 +24,7 @@ from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import digest, shown
+from urdfsync.spelling import counted
 from urdfsync.state.transaction import DRAFT, PLANNED
 
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED, Reason.UNKNOWN})
@@ -103,7 +105,8 @@ def remember(config: Config, robot: RobotConfig, key: str, reads: Reads, result:
         tuple(result.actions), result.diagnostics, result.is_broken, result.changes, _lines(robot) if stated else ""
     )
     facts, folder = FactList.of(reads), str(config.root / STATE_FOLDER)
-    words = [result.summary, _quick_commands(result), *map(finding_key, robot.without_ignored(result.diagnostics))]
+    findings = robot.without_ignored(result.diagnostics)
+    words = [result.summary, _quick_commands(result), still(findings) or noop.NONE, *map(finding_key, findings)]
     Record(key, facts, words, msgspec.msgpack.encode(stored)).save(folder, f"{robot.name}{noop.ROBOT}")
 
 
@@ -131,8 +134,14 @@ def _quick_commands(result: Result) -> str:
     """Return the commands that say no more than the summary, and how many findings there are; `-` for none."""
     findings = (each.severity is Severity.ERROR or each.file.endswith(".mo") for each in result.diagnostics)
     if not result.in_step or any(findings) or any(action.reason not in _SILENT for action in result.actions):
-        return "-"
+        return noop.NONE
     return "build" if any(action.status is not FileStatus.IN_STEP for action in result.actions) else "build status"
+
+
+def still(findings: Sequence[Diagnostic]) -> str:
+    """Return a sentence about findings that were told before; empty without any."""
+    codes, them = ", ".join(dict.fromkeys(finding.code for finding in findings)), "it" if len(findings) == 1 else "them"
+    return f"still {counted(len(findings), 'finding')} ({codes}); --verbose shows {them}" if findings else ""
 
 
 def finding_key(finding: Diagnostic) -> str:

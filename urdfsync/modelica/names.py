@@ -65,10 +65,21 @@ def is_class_name(name: str) -> bool:
     return free and is_identifier(name) and name[:1].isupper()
 
 
+def in_ascii(text: str) -> str:
+    """Return a text with ASCII letters for all letters: `Häuser` becomes `Hauser`."""
+    if text.isascii():
+        return text
+    from anyascii import anyascii  # a late import saves most builds 30 ms
+
+    return anyascii(text)
+
+
 def class_name(text: str) -> str:
-    """Make a class name from any text: `my-robot v2` becomes `MyRobotV2`."""
-    words = re.findall(r"[A-Za-z0-9]+", text)
-    name = "".join(word[0].upper() + word[1:] for word in words)
+    """Make a class name from any text: `my-robot v2` becomes `MyRobotV2`, and `g1_29dof` becomes `G1_29dof`."""
+    name = ""
+    for word in re.findall(r"[A-Za-z0-9]+", in_ascii(text)):
+        mark = "_" if name[-1:].isdigit() and word[0].isdigit() else ""
+        name += mark + word[0].upper() + word[1:]
     return name if is_class_name(name) else f"Robot{name}"
 
 

@@ -146,7 +146,7 @@ def change_parts(
 def file_table(result: Result, actions: Sequence[Action], **options: Any) -> Table:
     """Return a table of the actions, edited files first; `options` are those of `Table`."""
     actions = sorted(actions, key=lambda action: (action.reason not in EDITED, action.path.rpartition("/")))
-    words = ["waiting" if action.is_waiting else str(action.reason) for action in actions]
+    words = [action.word for action in actions]
     reasons = [reason(action, result.effective_changes) for action in actions]
     rows = list(zip([result.shown(action.path) for action in actions], words, reasons, strict=True))
     options = {"line": file_line, "most": len(rows), **options}

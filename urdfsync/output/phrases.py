@@ -60,7 +60,9 @@ def _cause(action: Action, changes: Changes | None) -> str:
 
 
 def generator_change(changes: Changes) -> str:
-    """Say that templates, options or urdfsync changed; if only options changed, name them."""
+    """Say that templates, options or urdfsync changed; if only options or the package's name changed, say which."""
+    if changes.package:
+        return f"the package's name changed: {changes.package}"
     if not changes.options:
         return "a template, an option or urdfsync itself changed"
     names = " and ".join(f"`{name}`" for name in changes.options)

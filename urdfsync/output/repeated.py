@@ -10,10 +10,9 @@ from collections.abc import Sequence
 from urdfsync.config import STATE_FOLDER
 from urdfsync.dependencies import record
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.engine.remembered import finding_key
+from urdfsync.engine.remembered import finding_key, still
 from urdfsync.engine.result import Result
 from urdfsync.output.console import Console, line
-from urdfsync.spelling import counted
 
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:
@@ -32,8 +31,7 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
         or key not in before
     ]
     console.findings(new)
-    if (rest := len(diagnostics) - len(new)) and not console.quiet:
-        words = f"{result.robot}: {counted(rest, 'finding')} as before; --verbose shows {'it' if rest == 1 else 'them'}"
-        console.print([line((words, "dim"))], error=True)
+    if (words := still([finding for finding in diagnostics if finding not in new])) and not console.quiet:
+        console.print([line((f"{result.robot}: {words}", "dim"))], error=True)
     if before != set(keys) and not (result.dry or result.failed or console.quiet):
         record.note_findings(folder, result.robot, keys)

@@ -5,19 +5,21 @@ Positions and speeds follow a cubic spline, which can be differentiated; other i
 
 from __future__ import annotations
 
+import bisect
 import csv
 import io
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
 import msgspec
 
 from urdfsync.dependencies.facts import read_unrecorded
-from urdfsync.diagnostics import SourceError
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.files import shown
+from urdfsync.numerals import MarkError, Row, find_separator, with_points
 from urdfsync.simulation.models import Input
 from urdfsync.spelling import nearest
 
@@ -34,6 +36,10 @@ _UNITS = {
 }
 """The possible units of a column, with their factors, by the unit of the input."""
 _SMOOTH = ("rad", "m", "rad/s", "m/s")
+_OVERSHOOT = 0.05
+"""The share of the range of an input by which its spline may leave two rows; a sine with 8 rows a turn takes 0.04."""
+_STRAIGHT = 2
+"""Up to this number of rows, the spline is a straight line."""
 _HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s*")
 
 
@@ -65,7 +71,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
     return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
 
 
-def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
+def _read_rows(file: Path) -> Sequence[Row]:
     """Return the rows that are not empty, with their line numbers: a header, and at least two more rows."""
     try:
         text = read_unrecorded(file).decode("utf-8-sig")  # does not wait for a pipe, or read an endless device
@@ -74,7 +80,8 @@ def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
         _refuse(file, "the file is not in UTF-8", line, "save it as UTF-8")
-    reader, rows = csv.reader(io.StringIO(text, newline=""), strict=True), list[tuple[int, list[str]]]()
+    separator, rows = find_separator(text), list[Row]()
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
@@ -86,12 +93,38 @@ def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
         _refuse(file, f"the file is no CSV: {error}", reader.line_num)
     if len(rows) < 3:
         _refuse(file, "the file has no motion", hint="write a header, `time` and the inputs, and two rows or more")
-    return rows
+    try:
+        return rows if separator == "," else [rows[0], *with_points(rows[1:], range(len(rows[0][1])))]
+    except MarkError as error:
+        _refuse(file, error.message, error.line, error.hint)
 
 
 def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
     """Return a motion with all inputs at 0 until `stop`."""
     return Motion((0.0, stop), tuple((signal, (0.0, 0.0)) for signal in inputs))
+
+
+def find_overshoots(motion: Motion, file: Path) -> Iterator[Diagnostic]:
+    """Yield a warning for each input whose spline leaves the values of its rows by more than rows of a sine would."""
+    from scipy.interpolate import CubicSpline  # see `second_derivatives`
+
+    for signal, values in motion.values if len(motion.times) > _STRAIGHT else ():
+        if signal.unit not in _SMOOTH:
+            continue
+        curve, size = CubicSpline(motion.times, values), max(values) - min(values)
+        turns = [float(time) for time in curve.derivative().roots(extrapolate=False) if math.isfinite(time)]
+        worst, at, row = 0.0, 0.0, 0
+        for time in turns:
+            after = min(max(bisect.bisect(motion.times, time), 1), len(values) - 1)
+            low, high = sorted(values[after - 1 : after + 1])
+            excess = max(float(curve(time)) - high, low - float(curve(time)))
+            worst, at, row = max((worst, at, row), (excess, time, after))
+        if worst > _OVERSHOOT * size:
+            unit = f"{signal.unit} ({math.degrees(curve(at)):.4g}°)" if signal.unit == "rad" else signal.unit
+            ends = " and ".join(f"{value:.4g}" for value in values[row - 1 : row + 1])
+            message = f"`{signal.name}` reaches {curve(at):.4g} {unit} at {at:.4g} s, and the rows around have {ends}"
+            hint = "add rows there, since a cubic spline joins the rows"
+            yield Diagnostic(Severity.WARNING, "overshoot", message, shown(file), hint=hint)
 
 
 def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
@@ -115,7 +148,7 @@ def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Inpu
         match = _HEADER.fullmatch(cell)
         name, unit = (match["name"], match["unit"]) if match else (cell, None)
         if not factors and name != "time":
-            _refuse(file, f"the first column is `{name}`, not `time`", line, "separate columns by commas, `time` first")
+            _refuse(file, f"the first column is `{name}`, not `time`", line, "name `time` first, then the inputs")
         if name not in units:
             near = nearest(name, units)
             others = f"the inputs are {', '.join(list(units)[1:])}"

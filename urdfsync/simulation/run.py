@@ -21,7 +21,7 @@ from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.simulation import joints
 from urdfsync.simulation.models import Model
-from urdfsync.simulation.motion import ModelicaMotion, at_rest, in_modelica, read_motion
+from urdfsync.simulation.motion import ModelicaMotion, at_rest, find_overshoots, in_modelica, read_motion
 from urdfsync.simulation.package import Prepared, extension, prepare, run_task
 from urdfsync.simulation.results import STOP, TOLERANCE, JointResult, PassedLimit, SimulateOptions, SimulateResult
 from urdfsync.simulation.values import modifiers
@@ -49,6 +49,7 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
     diagnostics = [
         *prepared.warnings,
         *_end(model, options, simulation),
+        *(find_overshoots(read_motion(options.motion, model.inputs()), options.motion) if options.motion else ()),
         *(_warning(joint, passed) for joint in results for passed in joint.passed),
     ]
     if not results and any(layouts):

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from types import ModuleType
 from typing import Any
 
+import msgspec
+
 from urdfsync.domain import Artifact, Domain, ElementKey, Features, Import, Order, Reading, Role, Target
 from urdfsync.table.model import FROM, TO, Options, Table, Value, shown_unit
 from urdfsync.table.names import column_name, component_name, type_name
@@ -47,6 +49,28 @@ class _Connections:
         return join(content, other, file)
 
 
+class _Columns:
+    """The columns of a table, which templates need not use; see `Parts`."""
+
+    def without_each(self, snapshot: Table, options: Options) -> Mapping[str, Table]:
+        """Return the columns with filled cells; the columns that name elements are used anyway."""
+        found, naming = dict[str, Table](), (options.kind, FROM, TO)
+        for noun, (types, rows) in _SHEETS.items():
+            columns, cells = getattr(snapshot, types), getattr(snapshot, rows)
+            for column in {name: None for row in cells.values() for name in row if name not in naming}:
+                without = {key: _without(row, column) for key, row in cells.items()}
+                parts = {types: _without(columns, column), rows: without}
+                found[f"{noun} {column}"] = msgspec.structs.replace(snapshot, **parts)
+        return found
+
+    def part_of(self, path: Sequence[str]) -> str:
+        """Return the column of a change."""
+        is_column = path[0].startswith(tuple(f"{noun} " for noun in _SHEETS))
+        if is_column or len(path) < 2:
+            return path[0] if is_column else ""
+        return f"{'column' if path[0].startswith('element ') else 'connection column'} {path[1]}"
+
+
 class TableDomain(Domain):
     """Turns tables of elements into Modelica packages."""
 
@@ -55,13 +79,15 @@ class TableDomain(Domain):
     model = Table
     options = Options
     beside = named_file = _Connections()
+    parts = _Columns()
     advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:
-        """Return templates for the columns of a table. The user edits these templates."""
+        """Return templates for a table. The user edits these templates."""
+        from urdfsync.config import templates_folder
         from urdfsync.table.starter import templates
 
-        return templates(snapshot)
+        return templates(snapshot, templates_folder(self))
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
         """Return the libraries in the configuration."""
@@ -126,13 +152,29 @@ class TableDomain(Domain):
             features["connection", key] = Features(contents, existing)
         return features
 
+    def arranged(self, old: Table, new: Table) -> Table:
+        """Return an old table with its rows in the order of the new one."""
+
+        def in_order(rows: dict[str, Any], others: Mapping[str, Any]) -> dict[str, Any]:
+            places = {key: place for place, key in enumerate(others)}
+            return dict(sorted(rows.items(), key=lambda row: places.get(row[0], len(places))))
+
+        elements, links = in_order(old.elements, new.elements), in_order(old.connections, new.connections)
+        return msgspec.structs.replace(old, elements=elements, connections=links)
+
     def unit(self, snapshot: Table, path: Sequence[str]) -> str:
         """Return the unit of a value at a path such as `elements`, `motor`, `mass`."""
         columns = {"elements": snapshot.columns, "connections": snapshot.connection_columns}.get(path[0], {})
         return shown_unit(columns.get(path[-1], "1"))
 
 
+_SHEETS = {"column": ("columns", "elements"), "connection column": ("connection_columns", "connections")}
+"""The fields of a table with the types and the rows of its columns."""
 _FOLDERS = (("Records", Role.RECORD, "record"), ("Models", Role.MODEL, "model"))
+
+
+def _without(cells: Mapping[str, Value], column: str) -> dict[str, Value]:
+    return {name: cell for name, cell in cells.items() if name != column}
 
 
 def _package(folder: str, data: Mapping[str, Any]) -> Artifact:

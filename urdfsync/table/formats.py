@@ -8,12 +8,13 @@ import json
 import tomllib
 import warnings
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.extras import install_command
+from urdfsync.numerals import MarkError, find_separator, with_points
 from urdfsync.table.model import NOTHING, Sheet
 
 CONNECTIONS = "connections"
@@ -48,10 +49,9 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
 
 
 def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
-    """Read a CSV. The header decides between commas, semicolons and tabs."""
+    """Read a CSV."""
     text = _decode(content, file, first)
-    header = text.split("\n", 1)[0]
-    separator = max(",;\t", key=header.count)
+    separator = find_separator(text)
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     rows, line = list[tuple[int, Sequence[object]]](), 1
     try:
@@ -61,7 +61,17 @@ def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
             line = reader.line_num + 1
     except csv.Error as error:
         raise SourceError.of("table-file", f"this is no CSV: {error}", file, first + line, hint="correct it") from None
-    return (Sheet([str(cell) for cell in rows[0][1]], rows[1:]) if rows else NOTHING), NOTHING
+    if not rows:
+        return NOTHING, NOTHING
+    return Sheet([str(cell) for cell in rows[0][1]], rows[1:], may_have_commas=separator != ","), NOTHING
+
+
+def with_decimal_points(sheet: Sheet, columns: Collection[int], file: str) -> Sheet:
+    """Return a sheet whose numbers in these columns have decimal points. Raises SourceError if the mark is unknown."""
+    try:
+        return sheet._replace(rows=with_points(sheet.rows, columns)) if sheet.may_have_commas else sheet
+    except MarkError as error:
+        raise SourceError.of("decimal-mark", error.message, file, error.line, hint=error.hint) from None
 
 
 def _read_data(content: bytes, file: str) -> tuple[Sheet, Sheet]:

@@ -24,6 +24,8 @@ class Sheet(NamedTuple):
     rows: Sequence[tuple[int, Sequence[object]]]
     notes: Sequence[str] = ()
     """Names of parts of the source that the sheet lacks."""
+    may_have_commas: bool = False
+    """Whether numbers may have decimal commas, since no comma separates cells; see `numerals`."""
 
 
 NOTHING = Sheet((), ())
@@ -54,7 +56,7 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Table(msgspec.Struct, frozen=True):
-    """All rows of a source, sorted by their keys."""
+    """All rows of a source, in its order. The order is not recorded, and no difference (see `Domain.arranged`)."""
 
     columns: dict[str, str]
     """The columns of elements: the SI unit of numbers in Modelica's spelling, or `text`, `integer`, `boolean`."""

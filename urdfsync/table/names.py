@@ -6,7 +6,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
-from urdfsync.modelica.names import DEVICES, FUNCTIONS, GENERATED_CLASSES, KEYWORDS, RESERVED_CLASSES
+from urdfsync.modelica.names import DEVICES, FUNCTIONS, GENERATED_CLASSES, KEYWORDS, RESERVED_CLASSES, in_ascii
 
 _RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES | GENERATED_CLASSES
 _LONGEST = 100
@@ -14,11 +14,7 @@ _LONGEST = 100
 
 def component_name(key: str, noun: str = "element") -> str:
     """Return the identifier of a component: the letters and digits of its key, with a small first letter."""
-    if not key.isascii():
-        from anyascii import anyascii  # a late import saves most tables 30 ms
-
-        key = anyascii(key)
-    stem = re.sub(r"[^A-Za-z0-9]+", "_", key).strip("_")
+    stem = re.sub(r"[^A-Za-z0-9]+", "_", in_ascii(key)).strip("_")
     if not stem[:1].isalpha():
         stem = f"{noun}_{stem}".rstrip("_")
     return stem[0].lower() + stem[1:]

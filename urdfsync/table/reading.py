@@ -20,6 +20,8 @@ from urdfsync.table.units import Unit, find_unit, is_same_kind
 _HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*", re.DOTALL)
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
 _KIND = re.compile(r"[A-Za-z0-9_-]+")
+_TEXTS = "text", "boolean"
+"""The types of columns without numbers."""
 _TRUTH = {"true": True, "false": False}
 
 
@@ -56,6 +58,10 @@ class _Reader:
         key = self._options.key or (name_and_unit(elements.header[0])[0] if elements.header else "")
         columns = self._columns(elements, {key, self._options.kind} - {""})
         links = self._columns(connections, {FROM, TO})
+        elements, connections = (
+            formats.with_decimal_points(sheet, [n for n, c in enumerate(found) if c.type not in _TEXTS], self._file)
+            for sheet, found in ((elements, columns), (connections, links))
+        )
         known = {column.name for column in (*columns, *links)}
         for option, name in [
             ("key", key),
@@ -84,7 +90,7 @@ class _Reader:
         types, of_links = (
             {c.name: c.type if isinstance(c.type, str) else c.type.si for c in each} for each in (columns, links)
         )
-        return Table(types, dict(sorted(rows.items())), of_links, dict(sorted(joined.items())))
+        return Table(types, rows, of_links, joined)
 
     def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
         """Return the columns; the columns in `texts` have texts."""
@@ -124,6 +130,8 @@ class _Reader:
             self._error(error.diagnostics[0].code, error.diagnostics[0].message, 1, error.diagnostics[0].hint)
             return "text"
         cells = [cells[number] for _, cells in sheet.rows if number < len(cells) and cells[number] not in (None, "")]
+        if sheet.may_have_commas:
+            cells = [cell.replace(",", ".") if isinstance(cell, str) else cell for cell in cells]
         if cells and all(_is_number(cell) for cell in cells):
             hint = f"write `{name} [kg]` with the unit, `{name} [1]` without a unit, or `{name} [text]`"
             self._error("no-unit", f"column `{name}` has numbers but no unit", 1, hint)
@@ -150,6 +158,7 @@ class _Reader:
         self, sheet: Sheet, columns: Sequence[_Column], elements: Mapping[str, object]
     ) -> dict[str, dict[str, Value]]:
         rows = dict[str, dict[str, Value]]()
+        first_lines = dict[object, int]()
         for line, row in self._values(sheet, columns):
             ends = [str(row.get(end) or "") for end in (FROM, TO)]
             for name in ends:
@@ -157,6 +166,14 @@ class _Reader:
                     near = nearest(name, elements)
                     hint = f"did you mean `{near}`?" if near else "add the element, or correct the connection"
                     self._error("no-element", f"there is no element `{name}`", line, hint)
+            cells = tuple(sorted(row.items()))
+            if cells in first_lines:
+                message = f"the connection `{' '.join(ends)}` stands in line {first_lines[cells]}, too"
+                hint = "delete one, or number equal connections in a column of their own"
+                self.findings.append(
+                    Diagnostic(Severity.WARNING, "equal-connections", message, self._file, line, hint=hint)
+                )
+            first_lines.setdefault(cells, line)
             key, number = " ".join(ends), 2
             while key in rows:
                 key, number = f"{' '.join(ends)} {number}", number + 1

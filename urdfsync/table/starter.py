@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from urdfsync.config.advice import Proposal
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Target
 from urdfsync.table.model import Table
-from urdfsync.table.names import column_name
 
 
 def propose(snapshot: Table, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:  # noqa: ARG001 - see `Advice`
@@ -24,50 +24,13 @@ def option_for(name: str, snapshot: Table, target: Target, options: Any) -> str:
     return ""
 
 
-def templates(snapshot: Table) -> Mapping[str, str]:
-    """Return templates for the columns of a table, by path. The user edits these templates."""
-    declarations = [line for column in snapshot.columns for line in _declare(snapshot, column)]
-    record = "\n".join([_RECORD, *declarations, "", "end << class >>;", ""])
-    files = {"record.mo.jinja": record, "model.mo.jinja": _MODEL}
+def templates(snapshot: Table, shipped: Path) -> Mapping[str, str]:
+    """Return templates for a table, by path; `shipped` is the domain's folder. The user edits these templates."""
+    # the shipped template loops over the columns: a column of a later export needs no edit
+    files = {name: (shipped / name).read_text(encoding="utf-8") for name in ("record.mo.jinja", "model.mo.jinja")}
     return files | ({"system.mo.jinja": _SYSTEM} if snapshot.connections else {})
 
 
-def _declare(snapshot: Table, column: str) -> list[str]:
-    """Return the lines that declare a column; a condition leaves out elements with an empty cell."""
-    name, kind = column_name(column), snapshot.columns[column]
-    cells = [row[column] for row in snapshot.elements.values() if column in row]
-    if not cells:
-        return []
-    of_column = f".{column}" if column.isidentifier() else f"[{column!r}]"
-    cell, head, value = f"row{of_column}", f"Real {name}(unit = << units{of_column} | string >>)", "{} | real"
-    head, value = _DECLARATIONS.get(kind, (head, value))
-    declaration = f"  parameter {head.format(name)} = << {value.format(cell)} >>;"
-    if len(cells) == len(snapshot.elements):
-        return ["", declaration]
-    return [f"<% if {cell} is defined %>", "", declaration, "<% endif %>"]
-
-
-_DECLARATIONS = {
-    "text": ("String {}", "{} | string"),
-    "integer": ("Integer {}", "{}"),
-    "boolean": ("Boolean {}", "{} | lower"),
-}
-"""Types without a unit, with declaration and value."""
-_RECORD = """\
-within << within >>;
-
-record << class >> << ("Numbers of " ~ name) | string >>
-  extends Modelica.Icons.Record;"""
-_MODEL = """\
-within << within >>;
-
-model << class >> << name | string >>
-
-  parameter Records.<< class >> parameters
-    "Numbers of the element";
-
-end << class >>;
-"""
 _SYSTEM = """\
 within << within >>;
 

@@ -68,8 +68,11 @@ def is_same_kind(text: str, other: str) -> bool:
 
 
 def _with_dots(text: str) -> str:
-    """Return a unit with `N.m` instead of `Nm` and the like: pint reads `Nm` as a textile unit."""
-    return re.sub(r"\b([mk]?N)([cm]?m)\b", r"\1.\2", text)
+    """Return a unit with `N.m` instead of `Nm` and the like, and with `ozf.in` instead of `oz-in`.
+
+    pint reads `Nm` as a textile unit, and an ounce as a mass; the torque of servos is in ounces of force.
+    """
+    return re.sub(r"\bozf?[.-]in\b", "ozf.in", re.sub(r"\b([mk]?N)([cm]?m)\b", r"\1.\2", text))
 
 
 def _load_registry(text: str) -> Any:

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from urdfsync.domain import ElementKey
-from urdfsync.modelica.names import DEVICES, FUNCTIONS, KEYWORDS, RESERVED_CLASSES
+from urdfsync.modelica.names import DEVICES, FUNCTIONS, KEYWORDS, RESERVED_CLASSES, in_ascii
 
 GENERATED = frozenset(
     "animation bodyinertias bodymasses bodymoments checklimits connectionmatrix drawnshapes driveinertias firstjoints "
@@ -77,13 +77,7 @@ def spell(name: str, kind: str) -> str:
 
 
 def _hashed(name: str, kind: str, mark: str = "", digits: int = _DIGITS) -> str:
-    if not name.isascii():
-        from anyascii import anyascii  # a late import saves most builds 30 ms
-
-        ascii_name = anyascii(name)
-    else:
-        ascii_name = name
-    stem = _UNFIT.sub("_", ascii_name).strip("_")
+    stem = _UNFIT.sub("_", in_ascii(name)).strip("_")
     if not stem[:1].isalpha():
         stem = f"{kind}_{stem}".rstrip("_")
     ending = f"{mark}_{hashlib.sha256(f'{kind} {name}'.encode('utf-8', 'surrogatepass')).hexdigest()[:digits]}"

@@ -34,6 +34,7 @@ from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import Exit, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
+from urdfsync.engine.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
 from urdfsync.modelica.names import class_name
@@ -76,7 +77,9 @@ class Comparison(msgspec.Struct, frozen=True):
     def in_step(self) -> bool:
         """Return whether both versions give the same package, and the package on disk is in step."""
         changes = self.result.changes or Changes()
-        return self.result.in_step and changes.change_class in (ChangeClass.NONE, ChangeClass.UNMODELLED)
+        has_files = self.against is not None and bool(self.result.actions)  # rows of a table may change places only
+        silent = (ChangeClass.NONE, ChangeClass.UNMODELLED)
+        return self.result.in_step and changes.change_class in silent and not has_files
 
     @property
     def summary(self) -> str:
@@ -244,12 +247,19 @@ def _with_version(
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
     differences = changes.compare(old, new, domain, robot.options, matching)
     versions = (old, imported_before.contents), (new, imported.contents)
-    if not differences.changes:
+    encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]
+    is_reordered = old.snapshot == new.snapshot and encoded[0] != encoded[1]
+    if not differences.changes and not is_reordered:
         return Comparison(result, shown(robot.source), against, versions=versions)
     templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
     packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
     if domain.describe is None:
         differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
+    unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
+    owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
+    differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
+    told_unused = tell_unused(domain, unused, differences.unshown, shown(robot.source), {})
+    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored((*new_findings, *told_unused)))
     changed = packages[1].changed_since(packages[0])
     older, newer = (_files_of(*pair, changed) for pair in zip(packages, (old, new), strict=True))
     actions = []
@@ -259,7 +269,8 @@ def _with_version(
         kind = Reason.CREATE if path not in older else Reason.DELETE if path not in newer else Reason.UPDATE
         place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
         actions.append(Action(place, kind, role, owner))
-    result = msgspec.structs.replace(result, actions=Actions(actions), changes=differences)
+    news = differences if differences.changes else None
+    result = msgspec.structs.replace(result, actions=Actions(actions), changes=news)
     effects = _effects(domain, old, new, differences, robot)
     return Comparison(result, shown(robot.source), against, effects=effects, versions=versions)
 

@@ -118,6 +118,16 @@ def test_unreadable_mesh_is_one_diagnostic(uri: str, content: bytes, scale: Vect
     assert diagnostic.hint == "export the mesh again, best as STL or OBJ"
 
 
+def test_a_mesh_with_too_many_triangles_is_wanted_coarser() -> None:
+    facet = bytes(50)
+    content = bytes(80) + (1_000_001).to_bytes(4, "little") + facet * 1_000_001
+    with pytest.raises(SourceError) as caught:
+        _convert("package://arm/box.stl", content)
+    (found,) = caught.value.diagnostics
+    assert found.message.endswith("can't be read: the file has 1,000,001 triangles, more than 1,000,000")
+    assert found.hint == "export the mesh with fewer triangles"
+
+
 def test_the_command_itself_loads_no_library_for_meshes() -> None:
     program = (
         "import sys; from pathlib import Path; from urdfsync.domain import Dependency;"

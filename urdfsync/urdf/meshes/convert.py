@@ -40,8 +40,8 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
         (whole, facts), *parts = _process.read(request, content, others)
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
-        hint = "export the mesh again, best as STL or OBJ"
-        raise SourceError(Diagnostic(Severity.ERROR, "unreadable-mesh", message, str(file), hint=hint)) from error
+        finding = Diagnostic(Severity.ERROR, "unreadable-mesh", message, str(file), hint=error.hint)
+        raise SourceError(finding) from error
     is_split = colors == lookup.PARTS and parts
     more = tuple(Conversion(part, its_facts) for part, its_facts in parts)
     return Conversion(content if lookup.as_is(mesh) and not is_split else whole, facts, more)

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from urdfsync.urdf.meshes.process import Facts, MeshError
+from urdfsync.urdf.meshes.process import COARSER, Facts, MeshError
 from urdfsync.urdf.robot import Vector
 
 Array: TypeAlias = npt.NDArray[np.float64]
@@ -57,7 +57,7 @@ def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles
     if not triangles:
         raise MeshError("the file has no triangles")
     if triangles > most:
-        raise MeshError(f"the file has more than {MAX_TRIANGLES:,} triangles")
+        raise MeshError(f"the file has {triangles:,} triangles, more than {MAX_TRIANGLES:,}", COARSER)
     for part in parts:
         if len(part.faces) and (part.faces.min() < 0 or part.faces.max() >= len(part.points)):
             raise MeshError("a face has an index that no vertex has")

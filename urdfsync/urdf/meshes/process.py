@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
+import signal
 import subprocess
 import threading
 from collections.abc import Mapping, Sequence
@@ -24,7 +25,8 @@ MEMORY = 450_000_000
 """The greatest number of bytes that the process may allocate, on Linux, in addition to 50 MB for libraries."""
 WALL_SECONDS = 60.0
 """Wall time for one mesh, on all systems: a busy machine may need so long for this CPU time."""
-_LIMITS = f"reading the file takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the reading process"
+COARSER = "export the mesh with fewer triangles"
+"""The hint for a mesh beyond a limit."""
 _LONGEST = 300
 """The greatest number of characters of an error message from a library."""
 _MAX_LINE = 10_000_000
@@ -40,6 +42,10 @@ _STL_FACET = 50
 
 class MeshError(Exception):
     """An unusable mesh; the text completes the message `the mesh … can't be read: …`."""
+
+    def __init__(self, message: str, hint: str = "export the mesh again, best as STL or OBJ") -> None:
+        super().__init__(message)
+        self.hint = hint
 
 
 class Request(msgspec.Struct, frozen=True):
@@ -69,6 +75,7 @@ class Answer(msgspec.Struct, frozen=True):
     facts: tuple[Facts, ...] = ()
     problem: str = ""
     """The reason why the file can't be used; empty for a usable file."""
+    hint: str = ""
     is_last: bool = False
     """Whether the process is too large to give the next mesh its full memory."""
 
@@ -110,16 +117,27 @@ class MeshProcess:
                 if answer.is_last:
                     self.end()
             except (OSError, ValueError) as error:  # the process has ended, or the answer is invalid
-                self.end()
-                raise MeshError(_LIMITS) from error
+                raise self._failure(process, request) from error
             except BaseException:  # after an interruption, the pipe may hold half an answer
                 self.end()
                 raise
             finally:
                 timer.cancel()
         if answer.problem:
-            raise MeshError("".join(char if char.isprintable() else " " for char in cut(answer.problem, _LONGEST)))
+            text = "".join(char if char.isprintable() else " " for char in cut(answer.problem, _LONGEST))
+            raise MeshError(text, answer.hint)
         return list(zip(files, answer.facts, strict=True))
+
+    def _failure(self, process: subprocess.Popen[bytes], request: Request) -> MeshError:
+        """End the process; return the limit that it passed."""
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(1)  # it may end a moment after its pipes
+        code = -(process.returncode or 0)
+        self.end()
+        limit = {signal.SIGKILL: WALL_SECONDS, getattr(signal, "SIGPROF", None): request.seconds}.get(code)
+        if limit is None:
+            return MeshError("the process that reads the file fails")
+        return MeshError(f"reading the file takes more than {limit:g} s", COARSER)
 
     def end(self) -> None:
         """End the process, if it runs."""

@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.processes import limits, reserve_stdout
 from urdfsync.urdf.meshes.lookup import COLORLESS, COLORS, TEXTURED
-from urdfsync.urdf.meshes.process import FOR_PICTURE, MEMORY, Answer, MeshError, Request, is_binary_stl
+from urdfsync.urdf.meshes.process import COARSER, FOR_PICTURE, MEMORY, Answer, MeshError, Request, is_binary_stl
 
 if sys.platform != "win32":
     import resource
@@ -73,7 +73,10 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
                 is_textured = any(other and not name.lower().endswith(".mtl") for name, other in others.items())
                 all_facts[0] |= {request.colors: [*parts], TEXTURED: is_textured, COLORLESS: missing}
     except MeshError as error:
-        return Answer(problem=str(error)), []
+        return Answer(problem=str(error), hint=error.hint), []
+    except MemoryError:
+        size = MEMORY * (FOR_PICTURE if request.most else 1) // 1_000_000
+        return Answer(problem=f"reading the file takes more than {size} MB of memory", hint=COARSER, is_last=True), []
     return Answer(tuple(map(len, files)), tuple(all_facts), is_last=_allocated() > _GROWN), files
 
 

@@ -15,7 +15,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import msgspec
 
-from urdfsync.diagnostics import SourceError
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.spelling import nearest
 from urdfsync.urdf.options import MotorNumber, Options
 from urdfsync.urdf.parse.fields import Reader
@@ -67,11 +67,12 @@ def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str
     """Yield the element of each joint, and its line in the catalogue."""
     from xml.sax.saxutils import quoteattr  # a late import saves most robots 9 ms
 
-    from urdfsync.table.formats import read_sheets  # likewise
+    from urdfsync.table.formats import read_sheets, with_decimal_points  # likewise
     from urdfsync.table.reading import name_and_unit
 
     sheet, _ = read_sheets(content, file)
     header = [name_and_unit(cell) for cell in sheet.header]
+    sheet = with_decimal_points(sheet, [n for n, (_, unit) in enumerate(header) if unit not in ("", "text")], file)
     names, columns = [name for name, _ in header], dict[str, Sequence[str]]()
     for number in _PLACES:
         named = options.motor_columns.get(number, number)
@@ -96,7 +97,9 @@ def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str
         found = {"joint": joint, "motor": name}
         for key, alternatives in columns.items():
             if column := next(filter(filled.__contains__, alternatives), ""):
-                found[key] = filled[column]
+                found[key] = filled.pop(column)
+        unused = [column for column, unit in header if column in filled and unit not in ("", "text")]
+        found |= {"unused": ", ".join(unused)} if unused else {}
         if name in rows:
             words = (f"{key}={quoteattr(''.join(filter(str.isprintable, text)))}" for key, text in found.items())
             yield f"<{_ROW} {' '.join(words)}/>", line
@@ -119,6 +122,11 @@ def read_rows(reader: Reader, root: Element) -> Mapping[str, Row]:
         except SourceError as error:
             reader.diagnostics += [msgspec.structs.replace(fault, line=line) for fault in error.diagnostics]
             break
+    if unused := dict.fromkeys(name for row in rows for name in row.get("unused", "").split(", ") if name):
+        message = f"no joint takes these columns of the catalogue: {', '.join(f'`{name}`' for name in unused)}"
+        hint = "name a column in `motor_columns` if it is a number of a drive"
+        line = reader.element_lines[next(row for row in rows if row.get("unused"))]
+        reader.diagnostics.append(Diagnostic(Severity.NOTE, "unused", message, "", line, hint=hint))
     return found
 
 

@@ -33,6 +33,7 @@ def _read(text: str) -> float:
     except ImportError:
         return float(number)  # without pint, the first reading refuses all units but SI units
     torque = re.sub(r"\b([mk]?N)([cm]?m)\b", r"\1.\2", unit.replace("integer", "1"))
+    torque = re.sub(r"\boz(?:f|)[-.]in\b", "ozf*in", torque)
     product = re.sub(r"(?<=[^\W\d])\.", "*", torque)
     one: Any = pint.Quantity(re.sub(r"(?<=[A-Za-z])(-?\d)", r"**\1", product))
     return float(number) * float(one.to_base_units().magnitude)

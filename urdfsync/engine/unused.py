@@ -1,0 +1,104 @@
+"""Finds parts and changes of a model that no text of the package shows: templates need not use all of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from typing import Any, Protocol
+
+import msgspec
+
+from urdfsync.changes import Change, Changes
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.domain import ChangeClass, ChangeKind, Domain, Snapshot, Target, Version
+from urdfsync.engine.generate import Package
+from urdfsync.files import Templates
+
+CODE = "unused"
+IMPORTS = "imports"
+"""Stands for the owners of imported files."""
+
+
+class Parts(Protocol):
+    """The parts of a model that templates need not use, such as `column mass`; a domain's attribute `parts`."""
+
+    def without_each(self, snapshot: Snapshot, options: Any) -> Mapping[str, Snapshot]:
+        """Return for each part the model without it."""
+        ...
+
+    def part_of(self, path: Sequence[str]) -> str:
+        """Return the part that a change belongs to, by the change's path; empty if it belongs to none."""
+        ...
+
+
+def find_unused(
+    domain: Domain, version: Version, target: Target, options: Any, templates: Templates, package: Package
+) -> frozenset[str]:
+    """Return the parts of a model without which its package would have the same texts."""
+    parts: Parts | None = domain.parts
+    others = {
+        part: Package(domain.artifacts(snapshot, version.imports or {}, target, options), templates, target.package)
+        for part, snapshot in (parts.without_each(version.snapshot, options) if parts else {}).items()
+    }
+    return frozenset(part for part, other in others.items() if not _differs(package, other))
+
+
+def _differs(package: Package, other: Package) -> bool:
+    try:
+        return any(True for _ in _changed_paths(package, other))
+    except ConfigError:  # a template needs the part
+        return True
+
+
+def _changed_paths(package: Package, other: Package) -> Iterator[str]:
+    """Yield the paths of files that differ in two packages, or that only one of them has."""
+    yield from package.artifacts.keys() ^ other.artifacts.keys()
+    for path in sorted(package.changed_since(other) & other.artifacts.keys()):
+        if package.hash(path) != other.hash(path):
+            yield path
+
+
+def changed_owners(package: Package, last: Package) -> set[str]:
+    """Return the owners of text files that differ in two packages, or that only one of them has."""
+    return {{**last.owners, **package.owners}[path] for path in _changed_paths(package, last)}
+
+
+def with_unshown(
+    news: Changes, domain: Domain, unused: Collection[str], owners: Collection[str], changed: AbstractSet[str]
+) -> Changes:
+    """Return the changes, of which those that no file shows count as unmodelled.
+
+    `owners` own files, `changed` own files that differ; `unused` are parts of the model. A differing file shows each
+    change of its owner. A file whose owner has no change, such as the robot model, may show any change. So may any file
+    show a change of an element without a file.
+    """
+    elements = set(news.by_element())
+    is_whole = any(owner not in elements or " " not in owner for owner in changed - {IMPORTS})
+
+    def is_shown(change: Change) -> bool:
+        if domain.parts and domain.parts.part_of(change.path) in unused:
+            return False
+        return is_whole or change.element in changed or (bool(changed) and change.element not in owners)
+
+    silent = (ChangeClass.NONE, ChangeClass.UNMODELLED)
+    unshown = [change for change in news.changes if change.change_class not in silent and not is_shown(change)]
+    changes = [
+        msgspec.structs.replace(change, change_class=ChangeClass.UNMODELLED) if change in unshown else change
+        for change in news.changes
+    ]
+    return msgspec.structs.replace(news, changes=tuple(changes), unshown=tuple(unshown))
+
+
+def tell_unused(
+    domain: Domain, unused: Iterable[str], unshown: Iterable[Change], file: str, lines: Mapping[str, int]
+) -> Iterator[Diagnostic]:
+    """Yield a warning for each part that no template uses, and for each change of other parts that no text shows."""
+    places = {f"no template uses {part}": part for part in sorted(unused)}
+    rest = (change for change in unshown if not (domain.parts and domain.parts.part_of(change.path) in unused))
+    verbs = {ChangeKind.ADDED: "is new", ChangeKind.REMOVED: "is gone"}
+    places |= {
+        f"{change} {verbs.get(change.kind, 'changed')}, but no template uses it": change.element for change in rest
+    }
+    hint = f'use it in a template, or set `ignore = ["{CODE}"]`'
+    for message, place in places.items():
+        yield Diagnostic(Severity.WARNING, CODE, message, file, lines.get(place, 0), hint=hint)
