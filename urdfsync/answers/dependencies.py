@@ -22,6 +22,7 @@ from urdfsync.answers.facts import (
     NAMES,
     STAT,
     STAT_TYPE,
+    UNMERGED,
     VARIABLE,
     Entry,
     check_path,
@@ -33,6 +34,7 @@ from urdfsync.answers.facts import (
     names_in,
     read_unrecorded,
     stat_of,
+    unmerged_paths,
 )
 
 
@@ -175,6 +177,12 @@ def note_content(check: str, path: str | os.PathLike[str], content: bytes) -> No
     dependencies, entry = _current.get(), (check, os.fspath(path))
     if dependencies is not None and entry in dependencies.hashes:
         dependencies.add_hash(entry, hash_content(content))
+
+
+def find_unmerged(index: str | os.PathLike[str]) -> set[str]:
+    """Return the files in git's index that git could not merge."""
+    _look(UNMERGED, index)
+    return unmerged_paths(index)
 
 
 def read_stat(path: str | os.PathLike[str]) -> tuple[int, ...]:

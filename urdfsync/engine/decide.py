@@ -122,7 +122,8 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
         record = last.file(key, role, on_disk, generated)
         is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
         is_text = role is not Role.IMPORT and not inputs.files.is_chosen(key)
-        if is_edited and is_text and united.lay_over(inputs, key):
+        is_left = is_text and (is_edited or key in inputs.unmerged)
+        if is_left and united.lay_over(inputs, key, is_edited=is_edited):
             on_disk = inputs.files.on_disk(key, role)
             record = last.file(key, role, on_disk, generated)
         files[key] = File(role, owner, record, on_disk, generated)
@@ -146,7 +147,7 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
 def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt]) -> Action:
     """Correct an action by contents and options: the rules see only hashes."""
     contradictions = inputs.files.left_by_git.get(action.path)
-    if contradictions and action.reason is Reason.KEEP:
+    if contradictions and action.reason in (Reason.KEEP, Reason.UNCHANGED, Reason.UPDATE):
         return msgspec.structs.replace(action, reason=Reason.MARKERS)
     if contradictions == ():
         action = msgspec.structs.replace(action, is_left_by_git=True)
@@ -198,7 +199,7 @@ def _conflict(
         is_own = action.owner == doubt.element
         rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
     elif contradictions := files.left_by_git.get(key):
-        rejected = united.describe(contradictions)
+        rejected = united.describe(contradictions, mine)
     if rejected:
         texts = base, mine, generated, None
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)

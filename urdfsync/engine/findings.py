@@ -71,6 +71,9 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
+    for key in sorted(inputs.unmerged):
+        message, hint = "git has not merged this file", "if its text is right now, `git add` it"
+        findings.append(Diagnostic(Severity.WARNING, "unmerged", message, shown(inputs.files.path(key)), hint=hint))
     findings += _left_behind(inputs, decision.actions)
     findings += [inputs.damage] if inputs.damage else []
     effects: Effects | None = inputs.domain.effects

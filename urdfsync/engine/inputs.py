@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import NamedTuple
@@ -23,6 +24,7 @@ from urdfsync.engine.program import program_hash
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
 from urdfsync.files import Templates, shown
+from urdfsync.git.unmerged import find_unmerged
 from urdfsync.state.record import FileRecord, Generator, Record
 from urdfsync.state.store import Store
 
@@ -85,6 +87,16 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     def has_moved(self) -> bool:
         """Whether the package has another folder than in the last build."""
         return self.folder != self.last.folder
+
+    @cached_property
+    def unmerged(self) -> frozenset[str]:
+        """The keys of the files that git could not merge: of the package, the source and the configuration."""
+        if not (places := find_unmerged(self.config.root)):
+            return frozenset()
+        below = os.path.join(os.path.realpath(self.robot.folder), "")  # noqa: PTH118 - git's paths are strings
+        inside = (place.removeprefix(below) for place in places if place.startswith(below))
+        others = (path for path in (self.robot.source, self.config.file) if os.path.realpath(path) in places)
+        return frozenset((*map(self.folder.key, inside), *map(self.files.key, others)))
 
     @cached_property
     def users_files(self) -> UsersFiles:

@@ -134,6 +134,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         renews=bool(state),
         stale=inputs.source.stale,
         is_broken=any(misfit.is_broken for misfit in decision.misfits),
+        is_unmerged=bool(inputs.unmerged),
         drawing=drawing,
         changes=news if news and (news.changes or news.generator) else None,
         conflict_texts=versions.conflicts,
