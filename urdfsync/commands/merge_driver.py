@@ -31,7 +31,7 @@ try {python} -P -m urdfsync
 git merge-file -q --marker-size=%L -L %X -L base -L %Y %A %O %B"""
 """The driver, which git gives to a shell at the top of the clone.
 
-A program that is missing, or ends without a merge, must not leave our version without markers: then git merges by lines.
+A program that is missing or fails must not leave our version without markers: then git merges by lines.
 Without -P, Python would import a folder `urdfsync` of the clone, and a relative path may lead into the clone.
 """
 

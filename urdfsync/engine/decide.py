@@ -153,10 +153,10 @@ def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[st
         action = msgspec.structs.replace(action, is_left_by_git=True)
     if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
-    mine = action.mine
-    if action.reason is Reason.DELETE and mine is not None and mine not in package.paths_by_hash:
-        is_generated = inputs.last.has_generated(action.path, mine, action.role)
-        return action if is_generated else msgspec.structs.replace(action, reason=Reason.ORPHAN)
+    if action.reason is Reason.DELETE and action.mine is not None and action.role is not Role.IMPORT:
+        # a record alone proves nothing: its author, or git's union of two records, may name any file of the user's
+        is_written = action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)
+        return action if is_written else msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
     return action

@@ -101,7 +101,7 @@ def _agrees(inputs: Inputs, owners: Collection[str]) -> bool:
         if artifact.owner in owners and artifact.role is Role.RECORD:
             on_disk = inputs.files.hash(last.folder.key(path), Role.RECORD)
             recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
-            if last.record.open and on_disk in last.notes.written:
+            if last.record.open and on_disk and last.has_written(on_disk):
                 continue  # an incomplete build has written this file since
             if on_disk in recorded and package.hash(path) != on_disk:
                 return False

@@ -46,8 +46,6 @@ class Settled(msgspec.Struct):
     bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
     texts: dict[str, str] = msgspec.field(default_factory=dict)
     """Texts of the bases in `bases`, by hash."""
-    generated: set[str] = msgspec.field(default_factory=set)
-    """Hashes of generated texts that `--undo` brings back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
     """Texts before the choices."""
     names: Mapping[str, str] = {}

@@ -303,11 +303,12 @@ def _base_changes(
     """Yield the changes of the stored bases.
 
     A missing or damaged text is written again if the present package has it. The next complete build that writes
-    anything deletes texts that are not `needed`.
+    anything keeps only the hashes of texts that are not `needed`.
     """
     store, last, settled = inputs.store, inputs.last, inputs.settled
     stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
-    absent = record.hashes - {sha256 for texts in stored.values() for sha256 in texts or ()}
+    known = (item for texts in stored.values() for item in (texts or {}).items())
+    absent = record.hashes - {sha256 for sha256, text in known if text is not None}
     missing = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
     if absent:
         made = package.paths_by_hash  # found by hash, since a text may have another path now
@@ -317,9 +318,10 @@ def _base_changes(
     is_united = last.record.is_united and is_writing
     is_whole = inputs.options.full or inputs.former_name or inputs.damage or is_united
     for digit, texts in stored.items():
-        after = {sha256: text for sha256, text in (texts or {}).items() if not cleans or sha256 in (needed or ())}
+        is_kept = frozenset(texts or ()) if not cleans else frozenset(needed or ())
+        after = {sha256: text if sha256 in is_kept else None for sha256, text in (texts or {}).items()}
         after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
-        if is_whole or texts is None or after.keys() != texts.keys():
+        if is_whole or after != texts:
             yield from store.save(store.base_file(inputs.robot.name, digit), bases.dumps(after))
 
 
@@ -432,7 +434,8 @@ def _replaced(
         if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
             continue
         text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
-        if text is None or text_digest(text) in last.notes.written:
+        recorded = last.files.get(action.origin or key, FileRecord()).hashes
+        if text is None or text_digest(text) in last.notes.written.intersection(recorded):
             continue
         former = Former(text, *_bases_given_back(inputs, package, action, text))
         if is_moving:

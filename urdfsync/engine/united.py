@@ -75,8 +75,7 @@ def _find_meaning(inputs: Inputs, key: str, *, is_edited: bool) -> str | tuple[s
     if not (has_markers or is_unmerged or last.files.get(key, NEVER_WRITTEN).is_ambiguous):
         return None
     if is_unmerged and not has_markers and (left := _find_left_side(file, _plain(text))):
-        sides, other = left
-        return text if _are_generated(last, [other]) else _merge_edits(last, key, sides)
+        return text if _are_generated(last, [left[1]]) else _merge_edits(last, key, left[0])
     if not (has_markers or is_edited):
         return None
     sides = find_sides(file, text)

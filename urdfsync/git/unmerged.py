@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from urdfsync import git
@@ -16,7 +15,7 @@ def find_unmerged(folder: Path) -> set[str]:
     paths = dependencies.find_unmerged(find_git_folder(top) / "index")
     if paths:
         dependencies.mark_incomplete()  # their versions are in git's objects
-    return {os.path.join(top, path) for path in paths}
+    return {f"{top}/{path}" for path in paths}
 
 
 def find_git_folder(top: str) -> Path:
