@@ -6,7 +6,7 @@ import functools
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
@@ -87,6 +87,10 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
     after = PackageAfter(inputs, package, actions, merged)
     actions, merged = united.write_meanings(files, keep_needed(after, origins), merged)
+    own = _find_own(inputs, actions)
+    followed = _follow(PackageAfter(inputs, package, (*actions, *own), merged, is_open=True), differences.former)
+    actions = tuple(action for action in followed.actions if action.reason is not Reason.UNKNOWN)
+    merged, conflicts = {**merged, **followed.merged}, {**conflicts, **followed.conflicts}
 
     order_actions, orders, shared = _decide_orders(inputs, package, differences, actions)
     _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
@@ -95,11 +99,12 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     if has_conflicts and not differences.has_exchanges:  # if names were exchanged, each build would move edits again
         numbers = _renumbered(PackageAfter(inputs, package, actions, merged), differences.changes, conflicts)
     known = {action.path for action in (*actions, *order_actions)}
-    unknown = [Action(key, Reason.UNKNOWN, Role.MODEL) for key in _find_unknown(inputs, known)]
+    unknown = [action for action in own if action.path not in known]
     all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, origins, inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
     misfits = _find_misfits(PackageAfter(inputs, package, all_actions, {**orders, **merged}))
+    misfits = [misfit for misfit in misfits if misfit.key not in followed.conflicts or misfit.use is None]
     names = inputs.settled.names or names
     texts = {**orders, **merged}
     return Decision(differences, all_actions, texts, conflicts, tuple(shared), tuple(misfits), names)
@@ -107,10 +112,59 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
     """Yield the Modelica files in the package that are neither generated nor recorded."""
-    others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one != inputs.robot)
+    others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one.name != inputs.robot.name)
     for key in sorted(inputs.files.classes(inputs.folder) - set(known)):
         if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
             yield key
+
+
+def _find_own(inputs: Inputs, actions: Iterable[Action]) -> list[Action]:
+    """Return an action for each of the user's own files in the package, which changes nothing."""
+    known, files = {action.path for action in actions}, inputs.files
+    return [
+        Action(key, Reason.UNKNOWN, Role.MODEL, mine=files.hash(key, Role.MODEL) if files.can_read(key) else None)
+        for key in _find_unknown(inputs, known)
+    ]
+
+
+class _Followed(NamedTuple):
+    """Files of the user's after they followed renames that their bases do not show."""
+
+    actions: Sequence[Action]
+    merged: Mapping[str, str] = {}
+    conflicts: Mapping[str, Conflict] = {}
+
+
+def _follow(after: PackageAfter, renamed: Mapping[str, str]) -> _Followed:
+    """Let the user's files follow renames, as he allows merges; else they conflict, and the new text is proposed."""
+    inputs, last = after.inputs, after.inputs.last
+    users = {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
+    keys = {
+        action.path
+        for action in after.actions
+        if action.reason in users and action.path.endswith(".mo") and action.mine not in (None, *last.record.confirmed)
+        if action.path in after.merged or not inputs.files.is_chosen(action.path)
+    }
+    if not renamed or not keys or not after.mentions(keys, renamed):
+        return _Followed(after.actions)
+    from urdfsync.engine.followers import find_followers  # imports the parser
+    from urdfsync.merge import Merge
+
+    is_merging, texts = inputs.robot.on_conflict == "merge", find_followers(after, keys, renamed)
+    actions, merged, conflicts = list[Action](), dict[str, str](), dict[str, Conflict]()
+    for action in after.actions:
+        key = action.path
+        if key in texts and (is_merging or action.reason in (Reason.MERGE, Reason.MOVE)):
+            merged[key] = texts[key][1]
+            action = msgspec.structs.replace(action, reason=Reason.MOVE if action.origin else Reason.MERGE)
+        elif key in texts:
+            mine, new = texts[key]
+            path = inputs.folder.path(key)
+            generated = after.package.content(path).decode() if action.generated else mine
+            conflicts[key] = Conflict(key, generated, mine, generated, Merge(new, new, ()))
+            action = msgspec.structs.replace(action, reason=Reason.RENAMED)
+        actions.append(action)
+    return _Followed(actions, merged, conflicts)
 
 
 def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
@@ -206,7 +260,7 @@ def _conflict(
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
     if not names and bases:  # `--undo` came after the build that brought new names
-        names = names_of(inputs, generation, last.notes.renamed, frozenset(words_in(bases[0])))
+        names = names_of(inputs, generation, last.record.former, frozenset(words_in(bases[0])))
         before = last.package if last.record.generator == inputs.generator else None
         if before is None or path not in before.artifacts or before.hash(path) == action.base:
             now = known_names(generation.package)  # the base may have the new names already

@@ -59,9 +59,7 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
     """Return all findings of a build, except the findings of `tell_uses`."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
     if decision.misfits:
-        renamed = inputs.last.notes.renamed  # the renames of this machine's last build
-        renamed = {**renamed, **decision.differences.identifiers}
-        findings += _diagnose(inputs, generation.now.snapshot, decision, renamed)
+        findings += _diagnose(inputs, generation.now.snapshot, decision, decision.differences.former)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]

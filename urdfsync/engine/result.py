@@ -201,7 +201,7 @@ class Result(msgspec.Struct, frozen=True):
         """Return a phrase with the number of files for each reason outside of `silent`, and one for waiting files."""
         reasons = Counter(action.reason for action in self.actions.decided if not action.is_waiting)
         reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
-        for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED):
+        for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED, Reason.RENAMED):
             reasons[Reason.CONFLICT] += reasons.pop(conflict, 0)
         phrases = []
         for reason in Reason:  # in the order of their definition
@@ -236,15 +236,13 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
     """Return the exit code of the worst result: error, then lock, then conflict, then out of step.
 
-    Packages out of step count only with `check`, or if they are broken.
+    A broken package counts as a conflict. Packages out of step count only with `check`.
     """
     results = list(results)
     if any((result.failed and not result.locked) or result.checked is Checked.WRONG for result in results):
         return Exit.ERROR
     if any(result.locked for result in results):
         return Exit.LOCKED
-    if any(result.conflicts or (result.is_broken and not result.dry) for result in results):
+    if any(result.conflicts or result.is_broken for result in results):
         return Exit.CONFLICT
-    if any(result.is_broken for result in results):
-        return Exit.OUT_OF_STEP
     return Exit.IN_STEP if not check or all(result.in_step for result in results) else Exit.OUT_OF_STEP

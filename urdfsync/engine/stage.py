@@ -20,6 +20,7 @@ from urdfsync.domain import ChangeClass, ElementKey, Import, Role, Snapshot, Tar
 from urdfsync.engine.actions import Action, Actions, Reason, sides_hash
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
+from urdfsync.engine.differences import Differences
 from urdfsync.engine.edit_origins import EDITED
 from urdfsync.engine.findings import find_all, find_uses, tell_uses
 from urdfsync.engine.generate import Package
@@ -106,11 +107,8 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
             kept = needed if decision.is_complete else None
             state += _base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)
             state += recorded  # the last one
-        renamed = differences.identifiers if differences.renames or differences.respelled else {}
-        is_later = is_writing and not inputs.options.choices  # a choice like `--undo` may bring old names back
         notes = msgspec.structs.replace(
             _notes(inputs, generation, record),
-            renamed=renamed if is_later or (renamed and is_writing) else old.renamed,
             proposals=old.proposals if inputs.options.dry else versions.noted,
             edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
             uses=uses,
@@ -224,7 +222,8 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
             confirmed=old.confirmed | {text_digest(text) for text in contents},
         )
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
-    edited, is_chosen = (one for one in decision.actions if one.reason in EDITED and one.mine), inputs.files.is_chosen
+    users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
+    edited = (one for one in decision.actions if one.reason in users and one.mine)
     is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
     new = Record(
         package=inputs.robot.target.package,
@@ -233,6 +232,7 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
         renamed=_brought(inputs, differences.renames),
+        former=_former(inputs, generation, differences),
         confirmed=frozenset(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
@@ -243,6 +243,13 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
     # a change without effect on the package, such as an unmodelled part of the source, is not worth a commit
     silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
+
+
+def _former(inputs: Inputs, generation: Generation, differences: Differences) -> Mapping[str, str]:
+    """Return the present identifiers of elements by former identifiers that name no element now."""
+    names = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
+    present = {inputs.robot.target.name, *(identifier for kind in names.values() for identifier in kind.values())}
+    return {old: new for old, new in differences.former.items() if new in present and old not in present}
 
 
 def _brought(inputs: Inputs, renames: Mapping[ElementKey, str]) -> Mapping[str, str]:

@@ -2,8 +2,8 @@
 
 The files are `.urdfsync/bases/<robot>/0` to `f`, which are committed. The name of a text's file is the first digit of
 the text's hash. All sixteen files always exist, so that git sees no renames. A line has the hash, and the text as a
-JSON string; for a former text, the line has `null`. So each clone knows every text that urdfsync wrote. Git unites the lines of two branches (`merge=union`). A damaged line is skipped: its hash and its text
-differ.
+JSON string; a former text's line has `null`. So each clone knows every text that urdfsync wrote. Git unites the lines
+of two branches (`merge=union`). A damaged line is skipped: its hash and its text differ.
 """
 
 from __future__ import annotations
