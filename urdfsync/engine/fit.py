@@ -214,8 +214,9 @@ class _Package(PackageAfter):
     @cached_property
     def _used(self) -> set[str | Path]:
         """The user's own files whose classes his edits of generated files use, directly or through others."""
-        inside = {path: self[path] for path, file in self._files.items() if file.is_users}
-        own: dict[str | Path, bytes] = {**inside, **self.around}
+        own = dict[str | Path, bytes]()
+        own.update((path, self[path]) for path, file in self._files.items() if file.is_users)
+        own.update(self.around.items())
         edited = (self[path] for path, file in self._files.items() if file.is_edited and file.is_expected)
         words, used = set().union(*map(code_words, edited)), set[str | Path]()
         while new := {path for path in own.keys() - used if class_of(str(path)) in words}:
