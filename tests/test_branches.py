@@ -103,6 +103,7 @@ def test_what_git_made_of_two_builds_is_nobodys_edit(
     result = run()
     assert not result.conflicts
     assert models() == fresh_models(tmp_path / "fresh")
+    repository.git("add", "-A")
     assert run().in_step
 
 
@@ -134,6 +135,7 @@ def test_what_a_rebase_stops_at_is_nobodys_edit(
     assert "<<<<<<<" in Path(MODEL).read_text()
     assert not run().conflicts
     assert models() == fresh_models(tmp_path / "fresh")
+    repository.git("add", "-A")
     assert run().in_step
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -178,5 +179,75 @@ def test_signs_that_git_would_replace_stay(
 ) -> None:
     monkeypatch.setattr(sys, "executable", "/my python/100%Python")
     execute("merge-driver", "--install")
-    command = clone.git("config", "merge.urdfsync.driver")
-    assert command.startswith("'/my python/100%%Python' -P -m urdfsync merge-driver --path=%P ")
+    assert "\ntry '/my python/100%%Python' -P -m urdfsync\n" in clone.git("config", "merge.urdfsync.driver")
+
+
+# The environment has moved since
+
+
+@pytest.fixture
+def moved(
+    clone: Repository, execute: Execute, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> Repository:
+    """The clone; the recorded Python is gone, and no other program is on PATH."""
+    with monkeypatch.context() as change:
+        change.setattr(sys, "executable", "/moved/bin/python")
+        execute("merge-driver", "--install")
+    folder = tmp_path_factory.mktemp("bin")
+    for name in ("git", "sh", "grep"):
+        (folder / name).symlink_to(shutil.which(name) or name)
+    monkeypatch.setenv("PATH", str(folder))
+    return clone
+
+
+def write_program(text: str) -> None:
+    """Put a program of the name `urdfsync` on PATH."""
+    file = Path(os.environ["PATH"], "urdfsync")
+    file.write_text(f"#!/bin/sh\n{text}\n")
+    file.chmod(0o755)
+
+
+@NEEDS_GIT
+def test_the_driver_is_found_by_its_name(moved: Repository) -> None:
+    write_program(f'exec "{sys.executable}" -P -m urdfsync "$@"')
+    moved.git("merge", "-q", "export")
+    assert sorted((moved.folder / "Arm.mo").read_text().splitlines()) == sorted(BOTH.splitlines())
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize(
+    "program", [None, "exit 1", "exit 127", "kill -9 $$"], ids=["missing", "broken", "gone", "killed"]
+)
+def test_without_a_driver_git_merges_by_lines(moved: Repository, program: str | None) -> None:
+    """A program that can't merge leaves both sides between git's markers, never one side alone."""
+    if program:
+        write_program(program)
+    (moved.folder / "Arm.mo").write_text(MINE.replace("11.5", "99"))
+    moved.commit()
+    with pytest.raises(subprocess.CalledProcessError):
+        moved.git("merge", "export")
+    text = (moved.folder / "Arm.mo").read_text()
+    assert text.count("<<<<<<<") == 1
+    assert "m = 99" in text
+    assert "m = 12.1" in text
+    assert moved.git("diff", "--name-only", "--diff-filter=U") == "Arm.mo\n"
+
+
+@NEEDS_GIT
+def test_without_a_driver_changes_that_fit_still_merge(moved: Repository) -> None:
+    (moved.folder / "Arm.mo").write_text(BASE.replace("connect(frame_a", "connect(frame_b"))
+    moved.commit()
+    moved.git("merge", "-q", "export")
+    assert (moved.folder / "Arm.mo").read_text() == OTHER.replace("connect(frame_a", "connect(frame_b")
+
+
+@NEEDS_GIT
+def test_no_program_of_the_clone_is_the_driver(moved: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
+    """PATH may have the working folder."""
+    monkeypatch.setenv("PATH", f".:{os.environ['PATH']}")
+    (moved.folder / "urdfsync").write_text("#!/bin/sh\ntouch pwned\n")
+    (moved.folder / "urdfsync").chmod(0o755)
+    moved.commit()
+    with pytest.raises(subprocess.CalledProcessError):
+        moved.git("merge", "export")
+    assert not (moved.folder / "pwned").exists()

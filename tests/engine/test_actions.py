@@ -27,7 +27,7 @@ def test_the_users_text_stays_in_what_is_theirs_or_disputed() -> None:
     kept = {reason for reason in Reason if act(reason).keeps_text}
     assert kept == {Reason.KEEP, Reason.INCLUDED, *ORPHANS, *CONFLICTS, Reason.FORGET, Reason.UNKNOWN}
     assert {Reason.ORPHAN, Reason.NEEDED} == ORPHANS
-    assert {Reason.CONFLICT, Reason.MARKERS, Reason.UNOWNED, Reason.ASKED} == CONFLICTS
+    assert {Reason.CONFLICT, Reason.MARKERS, Reason.UNOWNED, Reason.ASKED, Reason.RENAMED} == CONFLICTS
 
 
 def test_what_waits_says_for_what() -> None:

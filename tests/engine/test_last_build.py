@@ -69,10 +69,11 @@ def test_a_strangers_manifest_deletes_nothing_of_the_users(
     assert contents(hostile / "modelica/Mine") == OWN
 
 
-def test_a_text_that_is_recorded_and_stored_but_never_generated_stays(execute: Execute, hostile: Path) -> None:
+def test_a_text_that_a_stranger_has_recorded_and_stored_is_put_aside(execute: Execute, hostile: Path) -> None:
+    """Each clone believes the committed state, so that all decide the same; what one did not write, it never loses."""
     store(hostile, OWN["Pump.mo"].decode())
-    execute("build", code=None)
-    assert contents(hostile / "modelica/Mine") == OWN
+    assert "[put-aside]" in execute("build", code=None).err
+    assert OWN["Pump.mo"] in contents(hostile / ".urdfsync/aside").values()
 
 
 def test_a_package_moves_together_with_new_templates(execute: Execute, project: Path) -> None:

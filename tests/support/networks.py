@@ -127,8 +127,8 @@ def said(result: Result) -> list[str]:
     return [str(found).replace("\\", "/") for found in result.diagnostics]
 
 
-def stored(folder: Path = BASES) -> dict[str, str]:
-    """All texts in the bases of a robot, by their hashes."""
+def stored(folder: Path = BASES) -> dict[str, str | None]:
+    """All texts in the bases of a robot, by their hashes; None for a former text."""
     return {sha256: text for file in folder.iterdir() for sha256, text in bases.loads(file.read_bytes()).items()}
 
 

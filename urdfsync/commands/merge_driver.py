@@ -20,7 +20,20 @@ _MARKER_SIZE = 7
 """The default length of markers."""
 _ATTRIBUTE = b"*.mo merge=urdfsync\n"
 """The line that names the driver's files."""
-_PLACEHOLDERS = "--path=%P --marker-size=%L --ours=%X --theirs=%Y %O %A %B"
+_DRIVER = """\
+try() {{
+  case $(command -v "$1") in /* | ?:*) ;; *) return ;; esac
+  "$@" merge-driver --path=%P --marker-size=%L --ours=%X --theirs=%Y %O %A %B && exit
+  grep -q "^<<<<<<<" %A && exit 1
+}}
+try urdfsync
+try {python} -P -m urdfsync
+git merge-file -q --marker-size=%L -L %X -L base -L %Y %A %O %B"""
+"""The driver, which git gives to a shell at the top of the clone.
+
+A program that is missing or fails must not leave our version without markers: then git merges by lines.
+Without -P, Python would import a folder `urdfsync` of the clone, and a relative path may lead into the clone.
+"""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -88,13 +101,12 @@ def install(folder: Path, console: Console) -> None:
 
     Raises UrdfsyncError if writing fails.
     """
-    # git starts the command at the top of the clone: without -P, Python would import a folder `urdfsync` from there
-    command = f"{shlex.quote(sys.executable)} -P -m urdfsync merge-driver".replace("%", "%%")
+    driver = _DRIVER.format(python=shlex.quote(sys.executable).replace("%", "%%"))
     inside, file = ("-C", str(folder)), folder / ".gitattributes"
     try:
         top = git.run(*inside, "rev-parse", "--show-toplevel").removesuffix("\n")
         git.run(*inside, "config", "--local", "merge.urdfsync.name", "Modelica by elements")
-        git.run(*inside, "config", "--local", "merge.urdfsync.driver", f"{command} {_PLACEHOLDERS}")
+        git.run(*inside, "config", "--local", "merge.urdfsync.driver", driver)
         is_named = _is_named(folder)
     except git.GitError as error:
         raise UrdfsyncError.of("git", str(error), hint="run it in a clone") from None

@@ -33,6 +33,8 @@ NAMES, MODELICA = "names", "modelica"
 LISTINGS = (NAMES, MODELICA)
 VARIABLE = "variable"
 """The fact of an environment variable: its value."""
+UNMERGED = "unmerged"
+"""The fact of git's index: its unmerged files. Other changes of the index change no result."""
 Entry = tuple[str, str]
 """A kind of fact, and the path or the variable's name."""
 NOTHING = (0,)
@@ -46,6 +48,8 @@ def facts_of(kind: str, path: str | os.PathLike[str]) -> Facts:
     if kind == VARIABLE:
         value = os.environ.get(os.fspath(path))
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
+    if kind == UNMERGED:
+        return checksum(unmerged_paths(path))
     with os.scandir(path) as entries:
         return names_in(kind, entries)
 
@@ -116,6 +120,38 @@ def names_in(kind: str, entries: Iterable[os.DirEntry[str]]) -> Facts:
         if kind == NAMES
         or (not entry.name.startswith(".") and (entry.name.endswith(".mo") or entry.is_dir(follow_symlinks=False)))
     )
+
+
+def unmerged_paths(index: str | os.PathLike[str]) -> set[str]:
+    """Return the files in an index that git could not merge, from the top of the repository (`man gitformat-index`).
+
+    There are none without an index, or if it is damaged: then git refuses each command.
+    """
+    try:
+        content = read_unrecorded(index)
+    except OSError:
+        return set()
+    number = int.from_bytes
+    version, found, place, name = number(content[4:8]), set(), 12, b""
+    for _ in range(number(content[8:12])):
+        flags = number(content[place + 60 : place + 62])  # behind the stat values and the hash of the content
+        start = place + (64 if flags & 0x4000 else 62)
+        end = content.find(b"\0", start)
+        if end < 0:
+            break
+        if version == 4:  # after a number of seven bits a byte: so many bytes of the name before are dropped
+            dropped = content[start] & 127
+            while content[start] & 128:
+                start += 1
+                dropped = (dropped + 1 << 7) | content[start] & 127
+            start += 1
+            end = content.find(b"\0", start)
+            name, place = name[: len(name) - dropped] + content[start:end], end + 1
+        else:
+            name, place = content[start:end], end + 8 - (end - place) % 8
+        if flags & 0x3000:  # the stage
+            found.add(os.fsdecode(name))
+    return found
 
 
 def checksum(names: Iterable[str]) -> Facts:

@@ -18,6 +18,7 @@ from urdfsync.dependencies.facts import (
     MODELICA,
     NAMES,
     PATH,
+    UNMERGED,
     VARIABLE,
     Entry,
     Facts,
@@ -29,6 +30,7 @@ from urdfsync.dependencies.facts import (
     look,
     names_in,
     read_unrecorded,
+    unmerged_paths,
 )
 from urdfsync.dependencies.facts import file_type as type_in
 from urdfsync.dependencies.facts import is_file as has_file
@@ -162,6 +164,12 @@ def note_content(path: str | os.PathLike[str], content: bytes) -> None:
     reads, entry = _current.get(), (PATH, os.fspath(path))
     if reads is not None and entry in reads.hashes:
         reads.add_hash(entry, hash_content(content))
+
+
+def find_unmerged(index: str | os.PathLike[str]) -> set[str]:
+    """Return the files in git's index that git could not merge."""
+    _look(UNMERGED, index)
+    return unmerged_paths(index)
 
 
 def read_stat(path: str | os.PathLike[str]) -> Facts:

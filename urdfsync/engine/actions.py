@@ -107,6 +107,7 @@ class Reason(enum.StrEnum):
     MARKERS = "markers", Kind.CONFLICT, FileStatus.CONFLICT, "git could not merge the edits of two branches"
     UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "this file exists, and urdfsync did not write it"
     ASKED = "asked", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and it may belong to another part now"
+    RENAMED = "renamed", Kind.CONFLICT, FileStatus.CONFLICT, "it uses a name that has changed"
     UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "urdfsync neither generates this file nor has a record of it"
     UNCHANGED = "unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
     MOVED_AWAY = "moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"

@@ -6,7 +6,7 @@ import functools
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
@@ -87,6 +87,10 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
     after = PackageAfter(inputs, package, actions, merged)
     actions, merged = united.write_meanings(files, keep_needed(after, origins), merged)
+    own = _find_own(inputs, actions)
+    followed = _follow(PackageAfter(inputs, package, (*actions, *own), merged, is_open=True), differences.former)
+    actions = tuple(action for action in followed.actions if action.reason is not Reason.UNKNOWN)
+    merged, conflicts = {**merged, **followed.merged}, {**conflicts, **followed.conflicts}
 
     order_actions, orders, shared = _decide_orders(inputs, package, differences, actions)
     _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
@@ -95,11 +99,12 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     if has_conflicts and not differences.has_exchanges:  # if names were exchanged, each build would move edits again
         numbers = _renumbered(PackageAfter(inputs, package, actions, merged), differences.changes, conflicts)
     known = {action.path for action in (*actions, *order_actions)}
-    unknown = [Action(key, Reason.UNKNOWN, Role.MODEL) for key in _find_unknown(inputs, known)]
+    unknown = [action for action in own if action.path not in known]
     all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, origins, inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
     misfits = _find_misfits(PackageAfter(inputs, package, all_actions, {**orders, **merged}))
+    misfits = [misfit for misfit in misfits if misfit.key not in followed.conflicts or misfit.use is None]
     names = inputs.settled.names or names
     texts = {**orders, **merged}
     return Decision(differences, all_actions, texts, conflicts, tuple(shared), tuple(misfits), names)
@@ -107,10 +112,59 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
     """Yield the Modelica files in the package that are neither generated nor recorded."""
-    others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one != inputs.robot)
+    others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one.name != inputs.robot.name)
     for key in sorted(inputs.files.classes(inputs.folder) - set(known)):
         if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
             yield key
+
+
+def _find_own(inputs: Inputs, actions: Iterable[Action]) -> list[Action]:
+    """Return an action for each of the user's own files in the package, which changes nothing."""
+    known, files = {action.path for action in actions}, inputs.files
+    return [
+        Action(key, Reason.UNKNOWN, Role.MODEL, mine=files.hash(key, Role.MODEL) if files.can_read(key) else None)
+        for key in _find_unknown(inputs, known)
+    ]
+
+
+class _Followed(NamedTuple):
+    """Files of the user's after they followed renames that their bases do not show."""
+
+    actions: Sequence[Action]
+    merged: Mapping[str, str] = {}
+    conflicts: Mapping[str, Conflict] = {}
+
+
+def _follow(after: PackageAfter, renamed: Mapping[str, str]) -> _Followed:
+    """Let the user's files follow renames, as he allows merges; else they conflict, and the new text is proposed."""
+    inputs, last = after.inputs, after.inputs.last
+    users = {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
+    keys = {
+        action.path
+        for action in after.actions
+        if action.reason in users and action.path.endswith(".mo") and action.mine not in (None, *last.record.confirmed)
+        if action.path in after.merged or not inputs.files.is_chosen(action.path)
+    }
+    if not renamed or not keys or not after.mentions(keys, renamed):
+        return _Followed(after.actions)
+    from urdfsync.engine.followers import find_followers  # imports the parser
+    from urdfsync.merge import Merge
+
+    is_merging, texts = inputs.robot.on_conflict == "merge", find_followers(after, keys, renamed)
+    actions, merged, conflicts = list[Action](), dict[str, str](), dict[str, Conflict]()
+    for action in after.actions:
+        key = action.path
+        if key in texts and (is_merging or action.reason in (Reason.MERGE, Reason.MOVE)):
+            merged[key] = texts[key][1]
+            action = msgspec.structs.replace(action, reason=Reason.MOVE if action.origin else Reason.MERGE)
+        elif key in texts:
+            mine, new = texts[key]
+            path = inputs.folder.path(key)
+            generated = after.package.content(path).decode() if action.generated else mine
+            conflicts[key] = Conflict(key, generated, mine, generated, Merge(new, new, ()))
+            action = msgspec.structs.replace(action, reason=Reason.RENAMED)
+        actions.append(action)
+    return _Followed(actions, merged, conflicts)
 
 
 def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
@@ -122,7 +176,8 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
         record = last.file(key, role, on_disk, generated)
         is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
         is_text = role is not Role.IMPORT and not inputs.files.is_chosen(key)
-        if is_edited and is_text and united.lay_over(inputs, key):
+        is_left = is_text and (is_edited or key in inputs.unmerged)
+        if is_left and united.lay_over(inputs, key, is_edited=is_edited):
             on_disk = inputs.files.on_disk(key, role)
             record = last.file(key, role, on_disk, generated)
         files[key] = File(role, owner, record, on_disk, generated)
@@ -146,16 +201,16 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
 def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt]) -> Action:
     """Correct an action by contents and options: the rules see only hashes."""
     contradictions = inputs.files.left_by_git.get(action.path)
-    if contradictions and action.reason is Reason.KEEP:
+    if contradictions and action.reason in (Reason.KEEP, Reason.UNCHANGED, Reason.UPDATE):
         return msgspec.structs.replace(action, reason=Reason.MARKERS)
     if contradictions == ():
         action = msgspec.structs.replace(action, is_left_by_git=True)
     if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
-    mine = action.mine
-    if action.reason is Reason.DELETE and mine is not None and mine not in package.paths_by_hash:
-        is_generated = inputs.last.has_generated(action.path, mine, action.role)
-        return action if is_generated else msgspec.structs.replace(action, reason=Reason.ORPHAN)
+    if action.reason is Reason.DELETE and action.mine is not None and action.role is not Role.IMPORT:
+        # a record alone proves nothing: its author, or git's union of two records, may name any file of the user's
+        is_written = action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)
+        return action if is_written else msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
     return action
@@ -198,14 +253,14 @@ def _conflict(
         is_own = action.owner == doubt.element
         rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
     elif contradictions := files.left_by_git.get(key):
-        rejected = united.describe(contradictions)
+        rejected = united.describe(contradictions, mine)
     if rejected:
         texts = base, mine, generated, None
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
     if not names and bases:  # `--undo` came after the build that brought new names
-        names = names_of(inputs, generation, last.notes.renamed, frozenset(words_in(bases[0])))
+        names = names_of(inputs, generation, last.record.former, frozenset(words_in(bases[0])))
         before = last.package if last.record.generator == inputs.generator else None
         if before is None or path not in before.artifacts or before.hash(path) == action.base:
             now = known_names(generation.package)  # the base may have the new names already

@@ -37,6 +37,8 @@ class Differences(msgspec.Struct, frozen=True):
     """The old key of each text file that moves with its element or with the package, by its new key."""
     identifiers: Mapping[str, str]
     """New identifiers by old identifiers of the last complete build."""
+    former: Mapping[str, str]
+    """New identifiers by all former identifiers, also of builds before the last complete one."""
     other_elements: Mapping[str, str]
     """For each name that another element has now: the new name of the element that had this name before."""
     has_exchanges: bool
@@ -73,10 +75,11 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         others = {name: f"{name}{GONE}" for _, name in displaced(renames)}
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
-    differences = Differences(matching, news, respelled, {}, {}, others, has_exchanges, unused)
+    differences = Differences(matching, news, respelled, {}, {}, last.record.former, others, has_exchanges, unused)
     if differences.is_structural:
         identifiers = _find_identifiers(inputs, now, differences)
-        differences = msgspec.structs.replace(differences, identifiers=identifiers)
+        former = {old: identifiers.get(new, new) for old, new in last.record.former.items()} | identifiers
+        differences = msgspec.structs.replace(differences, identifiers=identifiers, former=former)
     if differences.is_structural or inputs.has_moved:
         differences = msgspec.structs.replace(differences, moves=_find_moves(inputs, package, differences))
     return differences
@@ -108,7 +111,7 @@ def _agrees(inputs: Inputs, owners: Collection[str]) -> bool:
         if artifact.owner in owners and artifact.role is Role.RECORD:
             on_disk = inputs.files.hash(last.folder.key(path), Role.RECORD)
             recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
-            if last.record.open and on_disk in last.notes.written:
+            if last.record.open and on_disk and last.has_written(on_disk):
                 continue  # an incomplete build has written this file since
             if on_disk in recorded and package.hash(path) != on_disk:
                 return False

@@ -60,9 +60,7 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
     """Return all findings of a build, except the findings of `tell_uses`."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
     if decision.misfits:
-        renamed = inputs.last.notes.renamed  # the renames of this machine's last build
-        renamed = {**renamed, **decision.differences.identifiers}
-        findings += _diagnose(inputs, generation.now.snapshot, decision, renamed)
+        findings += _diagnose(inputs, generation.now.snapshot, decision, decision.differences.former)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
@@ -72,6 +70,9 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
+    for key in sorted(inputs.unmerged):
+        message, hint = "git has not merged this file", "if its text is right now, `git add` it"
+        findings.append(Diagnostic(Severity.WARNING, "unmerged", message, shown(inputs.files.path(key)), hint=hint))
     findings += _left_behind(inputs, decision.actions)
     findings += [inputs.damage] if inputs.damage else []
     effects: Effects | None = inputs.domain.effects

@@ -17,7 +17,7 @@ import msgspec
 from urdfsync.config import find_own_library
 from urdfsync.dependencies.reads import is_file
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.engine.package_after import PackageAfter, as_file
+from urdfsync.engine.package_after import PackageAfter, as_file, code_words
 from urdfsync.engine.package_names import class_of, declared_names
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Node
@@ -211,6 +211,19 @@ class _Package(PackageAfter):
             is_broken = file.is_expected or (other is not None and other.is_expected)
             yield Misfit(self.inputs.files.path(file.key), finding, file.key, is_broken)
 
+    @cached_property
+    def _used(self) -> set[str | Path]:
+        """The user's own files whose classes his edits of generated files use, directly or through others."""
+        own = dict[str | Path, bytes]()
+        own.update((path, self[path]) for path, file in self._files.items() if file.is_users)
+        own.update(self.around.items())
+        edited = (self[path] for path, file in self._files.items() if file.is_edited and file.is_expected)
+        words, used = set().union(*map(code_words, edited)), set[str | Path]()
+        while new := {path for path in own.keys() - used if class_of(str(path)) in words}:
+            used |= new
+            words |= set().union(*(code_words(own[path]) for path in new))
+        return used
+
     def _declared(self, path: str) -> dict[str, int] | None:
         """Return the lines of a `package.mo`'s declarations, by name; None for a missing or faulty file."""
         stored = self._reading(self[path]).stored if path in self else None
@@ -276,7 +289,7 @@ class _Package(PackageAfter):
         findings += self._look_at_head(path, node, scopes, paths) if node else ()
         for use, finding in _faults(reading, findings, [node] if node else [], scopes, lost):
             if not file.is_generated:
-                is_broken = file.is_expected and finding.severity is Severity.ERROR
+                is_broken = (file.is_expected or path in self._used) and finding.severity is Severity.ERROR
                 yield Misfit(place, finding, file.key, is_broken, use)
             elif use and (owner := scopes.node(use.owner.split("."))) and Path(owner.file) in self.users:
                 message = f"it has no `{use.part}`, which {shown(place)}:{use.line} mentions"
@@ -293,7 +306,7 @@ class _Package(PackageAfter):
             findings = check_class_file(reading.text, PurePosixPath(file.name), name, reading.stored)[1]
         nodes = [node for node in scopes.users() if node.file == str(file)]
         for use, finding in _faults(reading, findings, nodes, scopes):
-            yield Misfit(file, finding, use=use)
+            yield Misfit(file, finding, "", file in self._used and finding.severity is Severity.ERROR, use)
 
 
 def _faults(

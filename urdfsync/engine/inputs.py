@@ -22,6 +22,7 @@ from urdfsync.engine.parents import Parents
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
 from urdfsync.files import Templates, digest, shown
+from urdfsync.git.unmerged import find_unmerged
 from urdfsync.state.record import FileRecord, Generator, Record
 from urdfsync.state.store import Store
 
@@ -43,8 +44,6 @@ class Settled(msgspec.Struct):
     bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
     texts: dict[str, str] = msgspec.field(default_factory=dict)
     """Texts of the bases in `bases`, by hash."""
-    generated: set[str] = msgspec.field(default_factory=set)
-    """Hashes of generated texts that `--undo` brings back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
     """Texts before the choices."""
     names: Mapping[str, str] = {}
@@ -84,6 +83,16 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     def has_moved(self) -> bool:
         """Whether the package has another folder than in the last build."""
         return self.folder != self.last.folder
+
+    @cached_property
+    def unmerged(self) -> frozenset[str]:
+        """The keys of the files that git could not merge: of the package, the source and the configuration."""
+        if not (places := find_unmerged(self.config.root)):
+            return frozenset()
+        below = os.path.join(os.path.realpath(self.robot.folder), "")  # noqa: PTH118 - git's paths are strings
+        inside = (place.removeprefix(below) for place in places if place.startswith(below))
+        others = (path for path in (self.robot.source, self.config.file) if os.path.realpath(path) in places)
+        return frozenset((*map(self.folder.key, inside), *map(self.files.key, others)))
 
     @cached_property
     def users_files(self) -> UsersFiles:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Mapping
 from functools import cached_property
@@ -12,9 +11,9 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, ElementKey, Features, Lookup, Role, Snapshot, Target, Version
+from urdfsync.domain import Domain, ElementKey, Features, Role, Snapshot, Target, Version
 from urdfsync.engine.generate import Package, generate
-from urdfsync.engine.imports import MOST_PARTS, RecordedFile, places_of
+from urdfsync.engine.imports import RecordedFile
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
 from urdfsync.files import Templates, digest
@@ -69,19 +68,22 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
         """Return the record of a file on disk.
 
-        A text among the bases, or from this machine, is urdfsync's own even if the record differs. Then an overtaken
-        build wrote the text, git restored it, or the state is lost.
+        A text that urdfsync once wrote is urdfsync's own even if the record differs: an overtaken build wrote the text,
+        or git restored it. A text that the user confirmed, such as by `--undo`, is his.
         """
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
             return record
-        is_own = on_disk in self.notes.written or self.base(on_disk) is not None
-        return FileRecord((on_disk,)) if is_own and not self.is_chosen(key, on_disk) else record
+        is_own = self.has_written(on_disk) and not self.is_chosen(key, on_disk)
+        return FileRecord((on_disk,)) if is_own else record
+
+    def has_written(self, sha256: str) -> bool:
+        """Whether a build once wrote the text with this hash, or a choice restores it as generated."""
+        return sha256 in self.texts or self._store.has_written(self.name, sha256)
 
     def is_chosen(self, key: str, on_disk: OnDisk) -> bool:
-        """Return whether a user's choice on this machine, such as `--undo`, made a file and its base."""
-        aside = self.aside.get(self.folder.path(key))
-        return self._files.is_chosen(key) or (aside is not None and aside.after == on_disk)
+        """Return whether a user's choice, such as `--undo`, made a file and its base."""
+        return self._files.is_chosen(key) or on_disk in self.record.confirmed
 
     @cached_property
     def options(self) -> Any:
@@ -168,23 +170,6 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
                         respelled[path] = paths[key], sha256
         return respelled
 
-    def has_generated(self, key: str, sha256: str, role: Role) -> bool:
-        """Return whether a build wrote the file on disk, judged by this machine's notes or the recorded model.
-
-        The recorded hash proves nothing: a stranger may have written the record.
-        """
-        path = self.folder.path(key)
-        if sha256 in self.notes.written:
-            return True
-        try:
-            if role is Role.IMPORT:
-                return any(file.hash == sha256 for key, file in self.imports.items() if self._targets.get(key) == path)
-            if path in self.respelled:
-                return self.respelled[path][1] == sha256
-            return self.package is not None and path in self.package.artifacts and self.package.hash(path) == sha256
-        except NO_MODEL:
-            return False
-
     def base(self, sha256: str | None) -> str | None:
         """Return the stored generated text with this hash; None if there is none."""
         return self.texts.get(sha256) or self._store.base(self.name, sha256) if sha256 else None
@@ -192,15 +177,6 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def bases(self, record: FileRecord) -> dict[str, str]:
         """Return the stored texts of a file's bases, by hash."""
         return {sha256: text for sha256 in record.hashes if (text := self.base(sha256)) is not None}
-
-    @cached_property
-    def _targets(self) -> Mapping[str, str]:
-        """The paths of imported files in the recorded model, by their keys."""
-        if self.version is None:
-            return {}
-        options, lookup = self.options or self._robot.options, Lookup(self._robot.source, ())
-        dependencies = self._domain.dependencies(self.version.snapshot, lookup, options, {})
-        return dict(place for each in dependencies for place in itertools.islice(places_of(each), MOST_PARTS))
 
     @cached_property
     def aside(self) -> Mapping[str, Aside]:

@@ -19,7 +19,7 @@ from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.generate import Package
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import encode, text_hash
-from urdfsync.engine.package_names import class_of
+from urdfsync.engine.package_names import class_of, identifier_of
 from urdfsync.modelica.files import code_of, text_of
 
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
@@ -98,7 +98,8 @@ class PackageAfter(Mapping[str, bytes]):
                 found[inputs.folder.path(key)] = file._replace(is_generated=True)
         for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
             is_expected = as_file(key) in classes
-            found[inputs.folder.path(key)] = _File(key, is_edited=True, is_users=True, is_expected=is_expected)
+            text = merged.get(key)
+            found[inputs.folder.path(key)] = _File(key, text, is_edited=True, is_users=True, is_expected=is_expected)
         return found
 
     @cached_property
@@ -135,6 +136,12 @@ class PackageAfter(Mapping[str, bytes]):
         """Contents of all files that the user wrote or edited, by their absolute paths."""
         edited = {path: file for path, file in self._files.items() if file.is_edited}
         return {**{self.inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
+
+    def mentions(self, keys: Collection[str], identifiers: Collection[str]) -> bool:
+        """Return whether one of the user's files with these keys has a word that begins with an identifier."""
+        key, users = self.inputs.files.key, self.users.items()
+        words = set().union(*(code_words(content) for path, content in users if key(path) in keys))
+        return any(identifier_of(word, identifiers) for word in words)
 
     @cached_property
     def differing(self) -> dict[str, tuple[str, str]]:
@@ -190,7 +197,7 @@ def keep_needed(after: PackageAfter, origins: Collection[str]) -> tuple[Action, 
     )
 
 
-def _code_words(content: bytes) -> set[str]:
+def code_words(content: bytes) -> set[str]:
     """Return all names and keywords in a text, without strings, comments, its own classes and its `within` clause.
 
     Its own classes are left out: an edited file may have the old name of its class. The `within` clause is left out: a
@@ -208,13 +215,13 @@ def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[
     A kept file needs all files that it mentions; these need the files that they mention, and so on.
     """
     inputs, before, actions = after.inputs, after.inputs.last.package, after.actions
-    words = {inputs.files.key(file): _code_words(content) for file, content in after.users.items()}
+    words = {inputs.files.key(file): code_words(content) for file, content in after.users.items()}
     all_words = set().union(*words.values())
     # names of older generated texts in files that the user kept
     kept_words = set[str]()
     for key in {action.path for action in actions if action.reason is Reason.KEEP} & words.keys():
         if before is not None and (path := inputs.last.folder.path(key)) in before.artifacts:
-            kept_words |= words[key] & _code_words(before.content(path))
+            kept_words |= words[key] & code_words(before.content(path))
     pending = {action.path: action.role for action in actions if action.reason is Reason.DELETE}
     needed = set[str]()
     for path, role in pending.items():
@@ -225,7 +232,7 @@ def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[
     all_needed = set(needed)
     while needed:
         texts = [*map(inputs.files.any_text, needed)]
-        mentioned = set().union(*(_code_words(encode(text)) for text in texts))
+        mentioned = set().union(*(code_words(encode(text)) for text in texts))
         needed = {
             path
             for path in pending.keys() - all_needed

@@ -127,6 +127,8 @@ class Result(msgspec.Struct, frozen=True):
     """Changed inputs of the source, if the build used the source's old text."""
     is_broken: bool = False
     """Whether an edited file does not fit the package, or has syntax errors."""
+    is_unmerged: bool = False
+    """Whether git's index has several versions of one of the robot's files."""
     drawing: Path | None = None
     changes: Changes | None = None
     """Changes of the model since the last complete build; None if there are none, or if they are unknown."""
@@ -151,7 +153,7 @@ class Result(msgspec.Struct, frozen=True):
 
         All commands, hooks and JSON documents use this value.
         """
-        return self.are_files_in_step and not self.is_broken
+        return self.are_files_in_step and not self.is_broken and not self.is_unmerged
 
     @property
     def are_files_in_step(self) -> bool:
@@ -184,6 +186,8 @@ class Result(msgspec.Struct, frozen=True):
             fine = (Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED)
             total = sum(action.reason in fine for action in self.actions)
             parts.insert(0, f"in step, {counted(total, 'file')}")
+        if self.is_unmerged:
+            parts.insert(0, "unmerged in git")
         if self.is_broken:
             parts.insert(0, "broken: a file that you edited does not fit the package")
         checked = [check_result(self.checked, self.diagnostics)] if self.checked else []
@@ -197,7 +201,7 @@ class Result(msgspec.Struct, frozen=True):
         """Return a phrase with the number of files for each reason outside of `silent`, and one for waiting files."""
         reasons = Counter(action.reason for action in self.actions.decided if not action.is_waiting)
         reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
-        for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED):
+        for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED, Reason.RENAMED):
             reasons[Reason.CONFLICT] += reasons.pop(conflict, 0)
         phrases = []
         for reason in Reason:  # in the order of their definition

@@ -75,7 +75,6 @@ class _Choices:
                     settled.contents[place] = encode(model)
                     settled.bases[place], texts = known_bases(model)
                     settled.texts.update(texts)
-                    settled.generated |= texts.keys()
         elif action.reason is Reason.ORPHAN and choice in (Choice.KEEP, Choice.TAKE):
             if choice is Choice.TAKE:
                 content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())
@@ -216,6 +215,5 @@ def with_choices(inputs: Inputs, settled: Settled) -> Inputs:
     record = msgspec.structs.replace(
         inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
     )
-    notes = msgspec.structs.replace(inputs.last.notes, written=inputs.last.notes.written | settled.generated)
-    last = msgspec.structs.replace(inputs.last, record=record, notes=notes, texts=settled.texts, _files=files)
+    last = msgspec.structs.replace(inputs.last, record=record, texts=settled.texts, _files=files)
     return msgspec.structs.replace(inputs, files=files, last=last, settled=settled)

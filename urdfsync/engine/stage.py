@@ -20,6 +20,7 @@ from urdfsync.domain import ChangeClass, ElementKey, Import, Role, Snapshot, Tar
 from urdfsync.engine.actions import Action, Actions, Reason, sides_hash
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
+from urdfsync.engine.differences import Differences
 from urdfsync.engine.edit_origins import EDITED
 from urdfsync.engine.findings import find_all, find_uses, tell_uses
 from urdfsync.engine.generate import Package
@@ -106,11 +107,8 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
             kept = needed if decision.is_complete else None
             state += _base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)
             state += recorded  # the last one
-        renamed = differences.identifiers if differences.renames or differences.respelled else {}
-        is_later = is_writing and not inputs.options.choices  # a choice like `--undo` may bring old names back
         notes = msgspec.structs.replace(
             _notes(inputs, generation, record),
-            renamed=renamed if is_later or (renamed and is_writing) else old.renamed,
             proposals=old.proposals if inputs.options.dry else versions.noted,
             edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
             uses=uses,
@@ -134,6 +132,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         renews=bool(state),
         stale=inputs.source.stale,
         is_broken=any(misfit.is_broken for misfit in decision.misfits),
+        is_unmerged=bool(inputs.unmerged),
         drawing=drawing,
         changes=news if news and (news.changes or news.generator) else None,
         conflict_texts=versions.conflicts,
@@ -233,7 +232,8 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
             confirmed=old.confirmed | {text_digest(text) for text in contents},
         )
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
-    edited, is_chosen = (one for one in decision.actions if one.reason in EDITED and one.mine), inputs.files.is_chosen
+    users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
+    edited = (one for one in decision.actions if one.reason in users and one.mine)
     is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
     new = Record(
         package=inputs.robot.target.package,
@@ -242,6 +242,7 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
         renamed=_brought(inputs, differences.renames),
+        former=_former(inputs, generation, differences),
         confirmed=frozenset(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
@@ -252,6 +253,13 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
     # a change without effect on the package, such as an unmodelled part of the source, is not worth a commit
     silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
+
+
+def _former(inputs: Inputs, generation: Generation, differences: Differences) -> Mapping[str, str]:
+    """Return the present identifiers of elements by former identifiers that name no element now."""
+    names = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
+    present = {inputs.robot.target.name, *(identifier for kind in names.values() for identifier in kind.values())}
+    return {old: new for old, new in differences.former.items() if new in present and old not in present}
 
 
 def _brought(inputs: Inputs, renames: Mapping[ElementKey, str]) -> Mapping[str, str]:
@@ -312,11 +320,12 @@ def _base_changes(
     """Yield the changes of the stored bases.
 
     A missing or damaged text is written again if the present package has it. The next complete build that writes
-    anything deletes texts that are not `needed`.
+    anything keeps only the hashes of texts that are not `needed`.
     """
     store, last, settled = inputs.store, inputs.last, inputs.settled
     stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
-    absent = record.hashes - {sha256 for texts in stored.values() for sha256 in texts or ()}
+    known = (item for texts in stored.values() for item in (texts or {}).items())
+    absent = record.hashes - {sha256 for sha256, text in known if text is not None}
     missing = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
     if absent:
         made = package.paths_by_hash  # found by hash, since a text may have another path now
@@ -326,9 +335,10 @@ def _base_changes(
     is_united = last.record.is_united and is_writing
     is_whole = inputs.options.full or inputs.former_name or inputs.damage or is_united
     for digit, texts in stored.items():
-        after = {sha256: text for sha256, text in (texts or {}).items() if not cleans or sha256 in (needed or ())}
+        is_kept = frozenset(texts or ()) if not cleans else frozenset(needed or ())
+        after = {sha256: text if sha256 in is_kept else None for sha256, text in (texts or {}).items()}
         after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
-        if is_whole or texts is None or after.keys() != texts.keys():
+        if is_whole or after != texts:
             yield from store.save(store.base_file(inputs.robot.name, digit), bases.dumps(after))
 
 
@@ -441,7 +451,8 @@ def _replaced(
         if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
             continue
         text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
-        if text is None or text_digest(text) in last.notes.written:
+        recorded = last.files.get(action.origin or key, FileRecord()).hashes
+        if text is None or text_digest(text) in last.notes.written.intersection(recorded):
             continue
         former = Former(text, *_bases_given_back(inputs, package, action, text))
         if is_moving:

@@ -15,6 +15,7 @@ import msgspec
 from urdfsync import git
 from urdfsync.dependencies import reads
 from urdfsync.diagnostics import SourceError, StateError
+from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.conflicts import over_bases
 from urdfsync.engine.inputs import Inputs
@@ -22,6 +23,7 @@ from urdfsync.engine.last_build import LastBuild
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash
 from urdfsync.engine.rules import NEVER_WRITTEN
 from urdfsync.git.revisions import Revision
+from urdfsync.git.unmerged import find_git_folder
 from urdfsync.modelica import markers
 from urdfsync.state import statefile
 from urdfsync.state.record import FileRecord
@@ -50,13 +52,15 @@ class Sides(NamedTuple):
     theirs: str
 
 
-def lay_over(inputs: Inputs, key: str) -> bool:
-    """Overlay a file with its meaning if the file still is git's merge of two branches.
+def lay_over(inputs: Inputs, key: str, *, is_edited: bool) -> bool:
+    """Overlay a file with its meaning if the file still is git's merge of two branches, or what git left of it.
 
     If nobody edited the versions, the meaning is our version. Otherwise it is a merge by elements without
     contradictions.
     """
-    found = _find_meaning(inputs, key)
+    found = _find_meaning(inputs, key, is_edited=is_edited)
+    if isinstance(found, str) and text_hash(found) == inputs.files.hash(key, Role.MODEL):
+        return False  # the file has its meaning already, and only `git add` is missing
     if isinstance(found, str):
         inputs.files.overlay[key] = encode(found)
     if found is not None:
@@ -64,11 +68,15 @@ def lay_over(inputs: Inputs, key: str) -> bool:
     return found is not None
 
 
-def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
+def _find_meaning(inputs: Inputs, key: str, *, is_edited: bool) -> str | tuple[str, ...] | None:
     """Return a file's meaning, or the elements about which the branches contradict each other; None for other files."""
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
-    has_markers = bool(markers.find_markers(text))
-    if not has_markers and not last.files.get(key, NEVER_WRITTEN).is_ambiguous:
+    has_markers, is_unmerged = bool(markers.find_markers(text)), key in inputs.unmerged
+    if not (has_markers or is_unmerged or last.files.get(key, NEVER_WRITTEN).is_ambiguous):
+        return None
+    if is_unmerged and not has_markers and (left := _find_left_side(file, _plain(text))):
+        return text if _are_generated(last, [left[1]]) else _merge_edits(last, key, left[0])
+    if not (has_markers or is_edited):
         return None
     sides = find_sides(file, text)
     if sides is None and has_markers:
@@ -98,10 +106,13 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ..
     return contradictions or merged
 
 
-def describe(contradictions: Sequence[str]) -> str:
-    """Return a clause that names the elements about which two branches contradict each other."""
+def describe(contradictions: Sequence[str], text: str) -> str:
+    """Return a clause that names the elements about which two branches contradict each other in a file's text."""
     elements = [element for element in dict.fromkeys(contradictions) if element]
-    return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
+    both = f"both branches changed {' and '.join(elements) or 'the same lines'}"
+    if not markers.find_markers(text):  # git's merge driver failed, or somebody took one side
+        return f"git has not merged it, since {both}: `git checkout --merge` writes both sides between markers"
+    return f"git's markers are in it, since {both}"
 
 
 def write_meanings(
@@ -137,6 +148,21 @@ def can_join(file: Path, text: str, *, is_united: bool) -> bool:
     return find_sides(file, text) is not None
 
 
+def _find_left_side(file: Path, text: str) -> tuple[Sides, str] | None:
+    """Return the versions of an unmerged file that has the text of one of them, and the text of the other.
+
+    A merge driver that fails leaves ours.
+    """
+    import pygit2
+
+    try:
+        staged = _staged(Revision(file.parent, "HEAD").repository, file, text)
+        found = next((sides for sides in staged if text in sides[1:]), None)
+    except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
+        return None  # as in `find_sides`
+    return (found, found.theirs if text == found.ours else found.ours) if found else None
+
+
 def find_sides(file: Path, text: str) -> Sides | None:
     """Return the versions of a file that git merged, in the present merge or in the last merge.
 
@@ -159,10 +185,8 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
 
     Git leaves such a file in the working tree, but the united record does not list this file.
     """
-    top = Path(git.find_top(inputs.config.root) or "")
-    folder = top / ".git"
-    if folder.is_file():  # a working tree of `git worktree`
-        folder = top / folder.read_text(errors="replace").removeprefix("gitdir: ").strip()
+    top = git.find_top(inputs.config.root) or ""
+    folder = find_git_folder(top)
     if not any((folder / name).exists() for name in (*_UNDER_WAY, "SQUASH_MSG")):
         return {}  # importing pygit2 takes 55 ms
     import pygit2
@@ -171,7 +195,7 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
     wanted = {os.path.relpath(os.path.realpath(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
     found = dict[str, FileRecord]()
     try:
-        for base, ours, theirs in Revision(top, "HEAD").repository.index.conflicts or ():
+        for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():
             left = ours or theirs
             if not (base and left and left.path in wanted) or (ours and theirs):
                 continue

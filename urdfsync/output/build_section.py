@@ -23,6 +23,7 @@ from urdfsync.spelling import same_count
 
 _BUILD = "run `urdfsync build`, and commit what it writes"
 _SETTLE = "run `urdfsync build` for both sides, and settle the conflicts with `urdfsync resolve`"
+_ADD = "`git add` the files that git has not merged, once their text is right"
 _FIT = "correct the files that do not fit"
 _SILENT = {Reason.FORGET} | CONFLICTS
 """Reasons of actions that tables leave out; conflicts are findings."""
@@ -104,6 +105,7 @@ def out_of_step(result: Result) -> Diagnostic | None:
     if result.in_step:
         return None
     hint = _SETTLE if result.conflicts else _BUILD if not result.are_files_in_step else _FIT
+    hint = hint if result.is_broken or not result.are_files_in_step else _ADD
     message = f"the package {result.package} is out of step: {result.summary}"
     return Diagnostic(Severity.WARNING, "out-of-step", message, shown(result.folder / "package.mo"), hint=hint)
 

@@ -39,7 +39,7 @@ def reason(action: Action, changes: Changes | None) -> str:
 
 def _cause(action: Action, changes: Changes | None) -> str:
     if action.choice and not action.is_conflict:
-        is_orphan = action.generated is None and action.choice is not Choice.UNDO
+        is_orphan = action.generated is None and action.choice in (Choice.KEEP, Choice.TAKE)
         kept = "yours from now on" if action.choice is Choice.KEEP else "deleted; --undo brings it back"
         return kept if is_orphan else _CHOSEN[action.choice]
     if action.reason not in _NAMED or changes is None:

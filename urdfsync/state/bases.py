@@ -1,14 +1,15 @@
-"""Reads and writes the bases of one robot: the last generated text of each file, by the text's hash.
+"""Reads and writes the bases of one robot: the last generated text of each file, and the hashes of all former ones.
 
 The files are `.urdfsync/bases/<robot>/0` to `f`, which are committed. The name of a text's file is the first digit of
 the text's hash. All sixteen files always exist, so that git sees no renames. A line has the hash, and the text as a
-JSON string. Git unites the lines of two branches (`merge=union`). A damaged line is skipped: its hash and its text
-differ.
+JSON string; a former text's line has `null`. So each clone knows every text that urdfsync wrote. Git unites the lines
+of two branches (`merge=union`). A damaged line is skipped: its hash and its text differ.
 """
 
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Mapping
 
 import msgspec
@@ -17,26 +18,29 @@ from urdfsync.files import digest
 
 DIGITS = "0123456789abcdef"
 
-_DECODER = msgspec.json.Decoder(str)
+_DECODER = msgspec.json.Decoder(str | None)
+_HASH = re.compile(rb"[0-9a-f]{64}")
 
 
-def dumps(texts: Mapping[str, str]) -> bytes:
-    """Return one file with these texts, by their hashes (see `text_digest`)."""
+def dumps(texts: Mapping[str, str | None]) -> bytes:
+    """Return one file with these texts, by their hashes (see `text_digest`); None for a former text."""
     encode = msgspec.json.encode
     return b"".join(b"%s %s\n" % (sha256.encode(), encode(text)) for sha256, text in sorted(texts.items()))
 
 
 @functools.lru_cache(maxsize=2 * len(DIGITS))  # cached: the daemon reads all files in each build
-def loads(content: bytes) -> Mapping[str, str]:
-    """Return the texts of one file by their hashes; damaged lines are skipped."""
-    texts = {}
+def loads(content: bytes) -> Mapping[str, str | None]:
+    """Return the texts of one file by their hashes, None for former texts; damaged lines are skipped."""
+    texts = dict[str, str | None]()
     for line in content.split(b"\n"):
         sha256, _, encoded = line.partition(b" ")
         try:
             text = _DECODER.decode(encoded)
         except ValueError:  # the line is not JSON or not UTF-8
             continue
-        if digest(text.encode()).encode() == sha256:
+        if text is None and _HASH.fullmatch(sha256):
+            texts.setdefault(sha256.decode(), None)  # git may have united it with the line of a branch with the text
+        elif text is not None and digest(text.encode()).encode() == sha256:
             texts[sha256.decode()] = text
     return texts
 

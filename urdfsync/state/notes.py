@@ -36,8 +36,6 @@ class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Hash of the source that this machine expanded."""
     written: frozenset[str] = frozenset()
     """Hashes of recorded texts and imported files that this machine generated."""
-    renamed: Mapping[str, str] = {}
-    """New identifiers by old identifiers, from the last build that wrote anything."""
     proposals: Mapping[str, tuple[str, str]] = {}
     """Two hashes for each proposed merge, by path: of the proposal and of its two sides. A person changed a proposal if
     its hash differs."""

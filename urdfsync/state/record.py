@@ -103,6 +103,9 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     element."""
     renamed: Mapping[str, str] = {}
     """The declared renames that the last complete build has applied: they are not applied again."""
+    former: Mapping[str, str] = {}
+    """The present identifier of each renamed element, by each identifier that it had before: an edit that was made
+    before a rename may come later, by a merge of git."""
     confirmed: frozenset[str] = frozenset()
     """Hashes of the user's texts for which he has confirmed the file."""
     imports: Mapping[str, tuple[Import, ...]] = {}

@@ -39,6 +39,7 @@ _FACTS: Mapping[str, Any] = {
     "model": tuple[str, str | None, Any],
     "import": tuple[str, Import],
     "declared": tuple[str, str],
+    "former": tuple[str, str],
     "confirmed": str,
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
@@ -75,6 +76,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     if record.snapshot is not None:
         yield from (("model", fact) for fact in _elements(record.snapshot))
     yield from (("declared", names) for names in record.renamed.items())
+    yield from (("former", names) for names in record.former.items())
     yield from (("confirmed", sha256) for sha256 in record.confirmed)
     yield from (("import", (key, entry)) for key, entries in record.imports.items() for entry in entries)
     if record.open:
@@ -175,6 +177,8 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         options=dict(values["option"]),
         snapshot=_snapshot(values["model"]),
         renamed=dict(values["declared"]),
+        # two branches may have renamed one element: then its new name is unknown
+        former={old: new for old, new in values["former"] if [name for name, _ in values["former"]].count(old) == 1},
         confirmed=frozenset(values["confirmed"]),
         imports=imports,
         files={key: FileRecord(tuple(values)) for key, values in sorted(hashes.items())},

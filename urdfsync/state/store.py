@@ -97,11 +97,18 @@ class Store:
         return self._notes[robot]
 
     def base(self, robot: str, sha256: str) -> str | None:
-        """Return a robot's generated text with this hash (see `text_digest`); None if the text is lost."""
+        """Return a robot's generated text with this hash (see `text_digest`); None if the text is lost or former."""
         return (self.bases(robot, sha256[0]) or {}).get(sha256)
 
-    def bases(self, robot: str, digit: str) -> Mapping[str, str] | None:
-        """Return a robot's generated texts with this first digit of the hash, by hash; None if the file is missing."""
+    def has_written(self, robot: str, sha256: str) -> bool:
+        """Whether a build of a robot, in any clone, once wrote the text with this hash."""
+        return sha256 in (self.bases(robot, sha256[0]) or {})
+
+    def bases(self, robot: str, digit: str) -> Mapping[str, str | None] | None:
+        """Return a robot's generated texts with this first digit of the hash, by hash; None if the file is missing.
+
+        A former text is None.
+        """
         content = self._bytes(self.base_file(robot, digit))
         return None if content is None else bases.loads(content)
 

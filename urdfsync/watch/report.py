@@ -236,7 +236,7 @@ class Report:
         words = []
         if event.files or event.recovered or result.effective_changes or conflicts or orphans:
             words = [*_changes(result), *result.counts({Reason.KEEP} | untold)]
-        if not (result.conflicts or result.is_broken) and (event.recovered or not was_in_step):
+        if not (result.conflicts or result.is_broken or result.is_unmerged) and (event.recovered or not was_in_step):
             words.append("in step again")
         if not words and (verbose or result.effective_changes):
             words = [result.summary]

@@ -1,0 +1,170 @@
+"""Git's unfinished merges: a file with several versions in the index is never in step, and builds merge the versions.
+
+A merge driver that fails leaves our version alone, without markers; `git checkout --ours` does the same.
+"""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.git import NEEDS_GIT, Repository
+from support.networks import edit
+from support.urdfs import joint, link, robot
+
+pytestmark = NEEDS_GIT
+
+RECORD = Path("modelica/Arm/Links/UpperParameters.mo")
+GONE = "/moved/bin/python -m urdfsync merge-driver %O %A %B"
+
+
+@pytest.fixture
+def repository(folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Repository:
+    """An arm, built and committed; the merge driver is not found."""
+    Path("arm.urdf").write_text(
+        robot(
+            link("base"),
+            link("upper", 1, rpy="0 0 0"),
+            joint("shoulder", "revolute", "base", "upper", axis="0 0 1"),
+        )
+    )
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\non_conflict = "merge"\n')
+    repository = Repository(folder, monkeypatch)
+    Path(".gitattributes").write_text("*.mo merge=urdfsync\n")
+    repository.git("config", "merge.urdfsync.driver", GONE)
+    execute("build")
+    repository.commit()
+    return repository
+
+
+def branch(repository: Repository, execute: Execute, name: str, old: str, new: str, file: Path = RECORD) -> None:
+    """Make a branch from main with one change, built."""
+    repository.git("checkout", "-q", "-b", name, "main")
+    edit(file, old, new)
+    execute("build")
+    repository.commit()
+
+
+def merge(repository: Repository, command: str = "merge theirs") -> None:
+    with pytest.raises(subprocess.CalledProcessError):
+        repository.git(*command.split())
+    assert "<<<<<<<" not in RECORD.read_text()
+
+
+@pytest.fixture
+def apart(repository: Repository, execute: Execute) -> Repository:
+    """Their branch edits the mass, and ours exports another inertia."""
+    branch(repository, execute, "theirs", "mass = 1", "mass = 4.5")
+    branch(repository, execute, "ours", 'ixx="0.021"', 'ixx="0.025"', Path("arm.urdf"))
+    return repository
+
+
+def is_merged() -> bool:
+    return all(text in RECORD.read_text() for text in ("mass = 4.5", "0.025"))
+
+
+@pytest.mark.parametrize("version", ["2", "4"])
+def test_an_unmerged_file_is_not_in_step_and_a_build_merges_it(
+    apart: Repository, execute: Execute, version: str
+) -> None:
+    apart.git("update-index", "--index-version", version)
+    merge(apart)
+    for command in ("status", "build --check"):
+        printed = execute(*command.split(), code=1)
+        assert f"{RECORD}: warning: git has not merged this file" in printed.err
+        assert "in step," not in printed.out
+    assert "unmerged in git" in execute("status", code=1).words
+    execute("diff", code=1)
+    execute("build")
+    assert is_merged()
+    before = RECORD.stat().st_mtime_ns
+    assert "in step" not in execute("build").words
+    assert RECORD.stat().st_mtime_ns == before
+    execute("build", "--check", code=1)
+    apart.git("add", "-A")
+    execute("build", "--check")
+    apart.commit()
+    execute("build", "--check")
+    assert is_merged()
+
+
+@pytest.mark.parametrize("side", ["ours", "theirs"])
+def test_one_side_that_somebody_took_counts_once_it_is_added(apart: Repository, execute: Execute, side: str) -> None:
+    merge(apart)
+    apart.git("checkout", f"--{side}", "--", str(RECORD))
+    text = RECORD.read_text()
+    execute("build", "--check", code=1)
+    apart.git("add", "-A")
+    execute("build")
+    assert ("mass = 4.5" in RECORD.read_text()) is ("mass = 4.5" in text)
+
+
+@pytest.mark.parametrize("command", ["rebase theirs", "cherry-pick theirs", "stash pop", "checkout -m theirs"])
+def test_any_way_of_merging_is_seen(apart: Repository, execute: Execute, command: str) -> None:
+    """A stash leaves no MERGE_HEAD."""
+    if "theirs" in command and "checkout" not in command:
+        merge(apart, command)
+    else:
+        apart.git("checkout", "-q", "theirs" if "stash" in command else "ours")
+        edit(RECORD, "mass = 4.5" if "stash" in command else "mass = 1", "mass = 7")
+        if "stash" in command:
+            apart.git("stash", "-q")
+            apart.git("checkout", "-q", "ours")
+            subprocess.run(["git", "stash", "pop"], capture_output=True)
+        else:
+            subprocess.run(["git", *command.split()], capture_output=True)
+    assert RECORD.as_posix() in apart.git("ls-files", "--unmerged")
+    execute("build", "--check", code=None)
+    assert "git has not merged this file" in execute("status", code=None).err
+
+
+def test_edits_that_contradict_are_for_people(repository: Repository, execute: Execute) -> None:
+    branch(repository, execute, "theirs", "mass = 1", "mass = 4.5")
+    branch(repository, execute, "ours", "mass = 1", "mass = 5.4")
+    merge(repository)
+    text = RECORD.read_text()
+    assert "both branches changed" in execute("build", code=3).words
+    assert "git checkout --merge" in execute("build", "--check", code=3).words
+    assert RECORD.read_text() == text
+    edit(RECORD, "5.4", "4.9")
+    execute("build")
+    execute("build", "--check", code=1)
+    repository.git("add", "-A")
+    execute("build", "--check")
+    assert "mass = 4.9" in RECORD.read_text()
+
+
+def test_an_unmerged_source_is_not_in_step(repository: Repository, execute: Execute) -> None:
+    for name, mass in (("theirs", "2"), ("ours", "3")):
+        branch(repository, execute, name, '<mass value="1"/>', f'<mass value="{mass}"/>', Path("arm.urdf"))
+    with pytest.raises(subprocess.CalledProcessError):
+        repository.git("merge", "theirs")
+    repository.git("checkout", "--ours", "--", "arm.urdf", "modelica")
+    execute("build")
+    assert "arm.urdf: warning: git has not merged" in execute("build", "--check", "--verbose", code=1).err
+    repository.git("add", "-A")
+    execute("build", "--check")
+
+
+def test_a_file_elsewhere_does_not_count(repository: Repository, execute: Execute) -> None:
+    for name in ("theirs", "ours"):
+        repository.git("checkout", "-q", "-b", name, "main")
+        Path("notes.txt").write_text(name)
+        repository.commit()
+    with pytest.raises(subprocess.CalledProcessError):
+        repository.git("merge", "theirs")
+    execute("build", "--check")
+
+
+def test_a_saved_answer_ends_with_the_merge(apart: Repository, execute: Execute) -> None:
+    """The text of our side stays, so that no file that a build reads changes but the index."""
+    for _ in range(2):
+        execute("status")
+    index = apart.git("hash-object", "-w", str(RECORD)).strip()
+    lines = "".join(f"100644 {index} {stage}\t{RECORD}\n" for stage in (1, 2, 3))
+    subprocess.run(
+        ["git", "update-index", "--index-info"], input=f"0 {'0' * 40}\t{RECORD}\n{lines}".encode(), check=True
+    )
+    execute("status", code=1)
