@@ -34,6 +34,10 @@ from urdfsync.answers.facts import (
     read_unrecorded,
     stat_of,
 )
+from urdfsync.answers.places import is_clone, place
+
+PARENTS = "urdfsync-parents"
+"""A file in the `.git` of the hook's clone: the parents of its commit."""
 
 
 class Dependencies:
@@ -113,6 +117,18 @@ def mark_incomplete() -> None:
         dependencies.complete = False
 
 
+def depend_on_commits(top: str | os.PathLike[str] | None) -> None:
+    """Record that commits of the repository at `top` are read.
+
+    They may change the result without changing a file, so the list is incomplete. In the hook's clone, a file has the
+    parents of its commit.
+    """
+    if top and is_clone():
+        depend_on(os.path.join(top, ".git", PARENTS))
+    else:
+        mark_incomplete()
+
+
 def include(other: Dependencies) -> None:
     """Add another list, such as that of another process."""
     if (dependencies := _current.get()) is not None:
@@ -184,17 +200,25 @@ def read_stat(path: str | os.PathLike[str]) -> tuple[int, ...]:
 
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     """Return the names in a folder, in no order. Raises OSError."""
-    return [entry.name for entry in _scan(NAMES, folder)]
+    return [entry.name for entry in scan_folder(folder)]
+
+
+def scan_folder(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
+    """Return the entries of a folder, as `scan_modelica`; record all names. Raises OSError."""
+    return _scan(NAMES, folder)
 
 
 def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
-    """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError."""
+    """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError.
+
+    Use the names of the entries: their paths may lead into a clone.
+    """
     return _scan(MODELICA, folder)
 
 
 def _scan(check: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
     try:
-        with os.scandir(folder) as entries:
+        with os.scandir(place(folder)) as entries:
             found = list(entries)
     except OSError as error:
         _record(check, folder, failed(error))
@@ -230,7 +254,7 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
             kind = file_type(path)
             if kind == stat.S_IFREG:
                 yield path
-            elif kind == stat.S_IFDIR and os.path.islink(path):
+            elif kind == stat.S_IFDIR and os.path.islink(place(path, follow=False)):
                 file_type(path, follow=False)
             elif kind == stat.S_IFDIR:
                 waiting.append(path)

@@ -1,6 +1,7 @@
 """Facts that show a change of a path: stat values, file types, names in a folder, an environment variable.
 
-The up-to-date check looks at each path of its list through this module, so it imports nothing.
+The up-to-date check looks at each path of its list through this module, so it imports hardly anything. The hook lets it
+look at a clone (see `places`).
 """
 
 from __future__ import annotations
@@ -8,6 +9,8 @@ from __future__ import annotations
 import errno
 import os
 import stat
+
+from urdfsync.answers.places import place
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of the check
 if TYPE_CHECKING:
@@ -74,13 +77,15 @@ def facts_of(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
         value = os.environ.get(os.fspath(path))
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
     if check in LISTINGS:
-        with os.scandir(path) as entries:
+        with os.scandir(place(path)) as entries:
             return names_in(check, entries)
+    follow = check in (STAT, STAT_TYPE)
     try:
-        status = os.stat(path, follow_symlinks=check in (STAT, STAT_TYPE))
+        status = os.stat(place(path, follow=follow), follow_symlinks=follow)
     except OSError as error:
         if error.errno in _ABSENT:
             return NOTHING
+        error.filename = os.fspath(path)
         raise
     return stat_of(status) if check in CONTENTS else (stat.S_IFMT(status.st_mode),)
 
@@ -116,8 +121,7 @@ def hash_content(content: bytes) -> str:
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
     """Read a file without recording it, after `read_stat` or for no answer; otherwise like `read_file`."""
-    # opening a pipe would wait for a writer
-    with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
+    with open(path, "rb", buffering=0, opener=_open) as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "it is not a regular file", os.fspath(path))
@@ -127,3 +131,12 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
             return file.read()
         # a file of the system may have size 0 and never end
         return file.read(MAX_FILE) or b""
+
+
+def _open(path: str, flags: int) -> int:
+    """Open a file; opening a pipe waits for no writer. Raises OSError."""
+    try:
+        return os.open(place(path), flags | _NONBLOCK)
+    except OSError as error:
+        error.filename = path
+        raise

@@ -14,6 +14,7 @@ import msgspec
 
 from urdfsync import git
 from urdfsync.answers import dependencies
+from urdfsync.answers.places import named, place, real
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.conflicts import over_bases
@@ -144,7 +145,7 @@ def find_sides(file: Path, text: str) -> Sides | None:
     """
     import pygit2
 
-    dependencies.mark_incomplete()  # a commit may change this result without changing a file
+    dependencies.depend_on_commits(git.find_top(file.parent))
     text = _plain(text)
     try:
         repository = Revision(file.parent, "HEAD").repository
@@ -160,15 +161,15 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
     Git leaves such a file in the working tree, but the united record does not list this file.
     """
     top = Path(git.find_top(inputs.config.root) or "")
-    folder = top / ".git"
+    folder = Path(place(top / ".git"))
     if folder.is_file():  # a working tree of `git worktree`
         folder = top / folder.read_text(errors="replace").removeprefix("gitdir: ").strip()
     if not any((folder / name).exists() for name in (*_UNDER_WAY, "SQUASH_MSG")):
         return {}  # importing pygit2 takes 55 ms
     import pygit2
 
-    dependencies.mark_incomplete()  # a commit may change this result without changing a file
-    wanted = {os.path.relpath(os.path.realpath(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
+    dependencies.depend_on_commits(top)
+    wanted = {os.path.relpath(real(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
     found = dict[str, FileRecord]()
     try:
         for base, ours, theirs in Revision(top, "HEAD").repository.index.conflicts or ():
@@ -187,7 +188,7 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
 
 def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:
     """Yield the versions in the index, if git reports a conflict in the file."""
-    folder = Path(os.path.realpath(file.parent)).relative_to(os.path.realpath(repository.workdir))
+    folder = Path(real(file.parent)).relative_to(named(os.path.realpath(repository.workdir)))
     path, label = (folder / file.name).as_posix(), re.search(r"(?m)^>{7,} ([^\s:]+)", text)
     for base, ours, theirs in repository.index.conflicts or ():
         entries = [entry for entry in (ours, theirs) if entry and entry.path == path]

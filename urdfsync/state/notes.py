@@ -15,6 +15,7 @@ import msgspec
 
 from urdfsync.answers.dependencies import note_content
 from urdfsync.answers.facts import MAX_FILE, STAT
+from urdfsync.answers.places import is_clone
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 
@@ -68,7 +69,11 @@ def load(state_folder: Path, robot: str) -> Notes:
         notes = msgspec.json.decode(content, type=Notes)
     except (OSError, ValueError, RecursionError):
         return Notes()
-    return notes if (notes.inode, notes.written_at) == (status.st_ino, status.st_mtime_ns) else Notes()
+    if (notes.inode, notes.written_at) != (status.st_ino, status.st_mtime_ns):
+        return Notes()
+    if is_clone():  # of this machine's work, a clone may skip conversions, but it has no history
+        return Notes(program=notes.program, texts=notes.texts, imports=notes.imports, expansion=notes.expansion)
+    return notes
 
 
 def save(state_folder: Path, robot: str, notes: Notes) -> None:
@@ -79,7 +84,7 @@ def save(state_folder: Path, robot: str, notes: Notes) -> None:
     file = place(state_folder, robot)
     temporary = file.with_name(f".{file.name}{TEMPORARY}")
     with contextlib.suppress(OSError):
-        if not state_folder.is_dir() or state_folder.is_symlink() or file.parent.is_symlink():
+        if is_clone() or not state_folder.is_dir() or state_folder.is_symlink() or file.parent.is_symlink():
             return  # a repository may have committed a link to another folder
         file_operations.make_folder(file.parent)
         file_operations.remove(temporary)  # a killed process left this file
