@@ -45,10 +45,7 @@ _VARIABLES = (
 )
 """Environment variables that change the files that a command finds, or the look of its output."""
 _MAX_CHARACTERS = 2_000_000
-"""Longer answers are not saved.
-
-The hook's answer names all files that have to be tracked: 300,000 characters for 8,000 outputs.
-"""
+"""Longer answers are not saved."""
 
 
 def _stamp(config_file: str, command: str) -> str:
