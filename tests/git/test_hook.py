@@ -57,42 +57,63 @@ def _git(*arguments: str) -> Callable[[Repository], object]:
 
 
 CHANGES: dict[str, Callable[[Repository], object]] = {
-    "a source": lambda _: Path("robots/leg.urdf").write_text("<robot/>"),
-    "an output": lambda _: Path(MODEL).unlink(),
+    "another source": _stage("robots/leg.urdf"),
     "an output that is tracked no more": _git("rm", "-q", "--cached", MODEL),
     "a source that is tracked no more": _git("rm", "-q", "--cached", "robots/leg.urdf"),
     "a mesh that is tracked no more": _git("rm", "-q", "--cached", "robots/leg_meshes/base.stl"),
-    "a mesh that is there no more": lambda _: Path("robots/leg_meshes/base.stl").unlink(),
     "a state that is tracked no more": _git("rm", "-q", "-r", "--cached", ".urdfsync/robots"),
     "another output": _stage(MODEL),
-    "a file in the package that differs": lambda _: Path("modelica/Leg/notes.txt").write_text("other"),
     "another configuration": _stage("robots/urdfsync.toml"),
-    "a source that git was told not to look at": _git("update-index", "--skip-worktree", "robots/leg.urdf"),
+    "another clone": lambda repository: write_into_clone(repository, "robots/leg.urdf"),
+    "a mesh less in the clone": lambda repository: (clone(repository) / "robots/leg_meshes/base.stl").unlink(),
+    "an export that was killed": lambda repository: (clone(repository).parent / "exported").unlink(),
+    "half an export": lambda repository: (clone(repository).parent / "exported").write_text("1\0\0"),
 }
 
 
+def clone(repository: Repository) -> Path:
+    """The hook's clone."""
+    return repository.folder / ".git/urdfsync/clone"
+
+
+def write_into_clone(repository: Repository, path: str) -> None:
+    """Write another text to a file of the clone, as nobody does."""
+    (clone(repository) / path).write_text("<robot/>")
+
+
 @pytest.mark.parametrize("name", CHANGES)
-def test_whatever_is_new_is_checked(repository: Repository, name: str) -> None:
-    _stage("modelica/Leg/notes.txt")(repository)
-    assert is_answered()
+def test_whatever_is_new_in_the_index_is_checked(repository: Repository, name: str) -> None:
     CHANGES[name](repository)
     assert not is_answered()
 
 
-def _delete_the_configuration(repository: Repository) -> None:
-    repository.git("rm", "-q", "-r", "urdfsync.toml", ".urdfsync/robots")
-
-
 @pytest.mark.parametrize(
     "change",
-    [_stage("notes.txt"), lambda _: Path("notes.txt").write_text("other"), _delete_the_configuration],
-    ids=["staged", "unstaged", "no configuration"],
+    [
+        lambda: Path("notes.txt").write_text("other"),
+        lambda: Path("robots/leg.urdf").write_text("<robot/>"),
+        lambda: Path(MODEL).unlink(),
+        lambda: Path("robots/COLCON_IGNORE").touch(),
+        lambda: shutil.rmtree("modelica"),
+    ],
 )
-def test_a_commit_of_something_else_passes_by_the_answer(
-    repository: Repository, monkeypatch: pytest.MonkeyPatch, change: Callable[[Repository], None]
+def test_what_is_not_staged_does_not_count(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch, change: Callable[[], object]
 ) -> None:
-    change(repository)
+    change()
     monkeypatch.setenv("GIT_LITERAL_PATHSPECS", "1")
+    assert is_answered()
+
+
+def test_after_another_file_was_staged_the_answer_still_holds(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Git rewrites only this file in the clone, and no robot is planned."""
+    _stage("notes.txt")(repository)
+    assert not is_answered()
+    with monkeypatch.context() as patch:
+        patch.setattr("urdfsync.commands.hook.build", lambda *_: pytest.fail("a robot is planned"))
+        assert cli.main(["hook", "check"]) == 0
     assert is_answered()
 
 
@@ -101,9 +122,13 @@ def test_the_index_of_a_partial_commit_is_the_one_that_counts(
 ) -> None:
     monkeypatch.setenv("GIT_INDEX_FILE", ".git/other")
     repository.git("read-tree", "HEAD")
+    assert cli.main(["hook", "check"]) == 0
     assert is_answered()
     repository.git("rm", "-q", "--cached", MODEL)
     assert not is_answered()
+    assert cli.main(["hook", "check"]) == 1
+    monkeypatch.delenv("GIT_INDEX_FILE")
+    assert cli.main(["hook", "check"]) == 0
 
 
 def test_the_answer_belongs_to_the_folder_and_the_environment(
