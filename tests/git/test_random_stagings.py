@@ -22,7 +22,7 @@ from urdfsync import cli
 
 pytestmark = NEEDS_GIT
 
-SEEDS = range(1, 5)
+SEEDS = range(1, 3)
 """The cases of each run; `URDFSYNC_CASES` gives as many fresh ones."""
 RECORD, MODEL, STATE = (
     "modelica/Arm/Links/BaseParameters.mo",
