@@ -492,7 +492,7 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     anyway, _ = imported("-c", "import runpy")
     names = imported("-m", "urdfsync", *BUILD)
     assert names[1] == f"{IN_STEP}\n"
-    ours = {"urdfsync.answers", *(f"urdfsync.answers.{name}" for name in ("uptodate", "facts", "streams"))}
+    ours = {"urdfsync.answers", *(f"urdfsync.answers.{name}" for name in ("uptodate", "facts", "places", "streams"))}
     light = {"__future__", "atexit", "errno", "gc", "runpy", "time"}
     assert names[0] - anyway - ours <= {"urdfsync", *light}
     Path(URDF).touch()
