@@ -519,7 +519,7 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     anyway, _ = imported("-c", "import runpy")
     names = imported("-m", "urdfsync", *BUILD)
     assert names[1] == f"{IN_STEP}\n"
-    ours = {f"urdfsync.dependencies.{name}" for name in ("facts", "localfile", "program", "record")}
+    ours = {f"urdfsync.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "record")}
     ours |= {"urdfsync", "urdfsync.noop", "urdfsync.dependencies", "urdfsync.output", "urdfsync.output.streams"}
     light = {"__future__", "atexit", "errno", "gc", "runpy", "time"}
     assert names[0] - anyway <= ours | light

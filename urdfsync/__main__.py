@@ -17,6 +17,11 @@ def main() -> int:
         from urdfsync import noop  # imported here, so that Ctrl-C during the import leaves no traceback
 
         try:
+            if sys.argv[1:2] == ["hook"]:
+                from urdfsync.git import hook  # imported here, so that other commands save 6 ms
+
+                if hook.is_answered(sys.argv[1:]):
+                    return 0
             if sys.argv[1:2] == ["completion"]:
                 from urdfsync.shells import completion  # imported here, so that other commands save 6 ms
 

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 CONFIGURATION = "urdfsync.toml"
 NONE = "-"
 """Stands for no words in a record."""
+IN_STEP = "hook"
+"""Says in a robot's record that the robot is in step, which is all that a hook wants to know."""
 ROBOT = ".robot"
 """The ending of the names of robots' records."""
 _STATE = ".urdfsync"
@@ -83,34 +85,47 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str]] | None:
         return None
     if file is None:
         return None
-    folder, name = os.path.join(os.path.dirname(file), _STATE), _name(file)
     seen: dict[Entry, Facts] = {}
-    known = record.load(folder, name)
-    if known is None or known.key != record.surroundings() or record.find_change(folder, name, known, seen):
-        return None
-    keys = dict(zip(known.words[::2], known.words[1::2], strict=True))
-    if not keys.keys() >= set(request.robots):
+    keys = _robots(file, seen)
+    if keys is None or not keys.keys() >= set(request.robots):
         return None  # sources and folders name robots, too
     chosen = [robot for robot in keys if not request.robots or robot in request.robots]
-    lines = []
+    lines, folder = [], _state_folder(file)
     for robot in chosen:
-        if (line := _line(folder, robot, keys[robot], request.command, seen)) is None:
+        words = _words(folder, robot, keys[robot], request.command, seen)
+        if words is None or not record.findings_told(folder, robot).issuperset(words[3:]):
             return None
-        lines.append(line)
+        lines.append((robot, words[0], words[2].removeprefix(NONE)))
     return lines or None
 
 
-def _line(folder: str, robot: str, key: str, command: str, seen: dict[Entry, Facts]) -> tuple[str, str, str] | None:
+def is_in_step(config_file: str) -> bool:
+    """Return whether all robots of a configuration are in step; False if that has to be found out."""
+    seen: dict[Entry, Facts] = {}
+    keys, folder = _robots(config_file, seen), _state_folder(config_file)
+    return bool(keys) and all(_words(folder, robot, key, IN_STEP, seen) for robot, key in (keys or {}).items())
+
+
+def _robots(config_file: str, seen: dict[Entry, Facts]) -> dict[str, str] | None:
+    """Return the key of each robot's record by name; None if the configuration has to be read."""
+    folder, name = _state_folder(config_file), _name(config_file)
+    known = record.load(folder, name)
+    if known is None or known.key != record.surroundings() or record.find_change(folder, name, known, seen):
+        return None
+    return dict(zip(known.words[::2], known.words[1::2], strict=True))
+
+
+def _words(folder: str, robot: str, key: str, command: str, seen: dict[Entry, Facts]) -> Sequence[str] | None:
+    """Return the words of a robot's record, if it holds and has all that a command would say; else None."""
     name = f"{robot}{ROBOT}"
     known = record.load(folder, name)
-    if known is None or known.key != key or len(known.words) < 3:
+    if known is None or known.key != key or len(known.words) < 3 or command not in known.words[1].split():
         return None
-    summary, commands, sentence, *findings = known.words
-    if command not in commands.split() or record.find_change(folder, name, known, seen):
-        return None
-    if not record.findings_told(folder, robot).issuperset(findings):
-        return None
-    return robot, summary, sentence.removeprefix(NONE)
+    return None if record.find_change(folder, name, known, seen) else known.words
+
+
+def _state_folder(config_file: str) -> str:
+    return os.path.join(os.path.dirname(config_file), _STATE)
 
 
 def _name(config_file: str) -> str:
@@ -154,5 +169,4 @@ def remember(config_file: str, reads: Reads, keys: Mapping[str, str]) -> None:
     """Remember what reading a configuration without warnings has read, and the keys of its robots' records."""
     if reads.complete:
         words = [word for entry in keys.items() for word in entry]
-        folder = os.path.join(os.path.dirname(config_file), _STATE)
-        Record(record.surroundings(), FactList.of(reads), words).save(folder, _name(config_file))
+        Record(record.surroundings(), FactList.of(reads), words).save(_state_folder(config_file), _name(config_file))

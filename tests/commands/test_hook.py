@@ -1,4 +1,7 @@
-"""`urdfsync hook` as git calls it: it builds or checks in the working tree, and says what is not staged."""
+"""`urdfsync hook` as git calls it: it judges the next commit, builds in the working tree, and says what is not staged.
+
+`git/test_random_stagings.py` compares its verdicts with clones.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +12,16 @@ import os
 import shlex
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
-from support import crashes
+from support import crashes, meshes, urdfs
 from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, resistor
 
 from urdfsync import cli
-from urdfsync.commands import hook
 from urdfsync.state.lock import build_lock
 from urdfsync.state.transaction import is_interrupted
 
@@ -86,7 +88,7 @@ def add(*paths: str) -> str:
     return " ".join(["git add", *(f":/{path}" for path in paths)])
 
 
-ADD, ADD_SOURCE = add(BASE, MANIFEST, RECORD), add(BASE, MANIFEST, "ladder.json")
+ADD = add(BASE, MANIFEST, RECORD)
 OUT, NOT_STAGED = "out of step: ", "in step, but not staged: "
 
 
@@ -95,15 +97,11 @@ OUT, NOT_STAGED = "out of step: ", "in step, but not staged: "
     [
         (STALE, STAGE, "build", f"{OUT}1 file written", ADD),
         (STALE, STAGE, "check", f"{OUT}1 file to write", BUILD),
-        (STALE, f"urdfsync build && {STAGE} {RECORD}", "check", f"{NOT_STAGED}2 files", add(BASE, MANIFEST)),
-        (STALE, f"urdfsync build && {STAGE} {RECORD}", "build", f"{NOT_STAGED}2 files", add(BASE, MANIFEST)),
-        (STALE, f"urdfsync build && git add {RECORD}", "check", f"{NOT_STAGED}3 files", ADD_SOURCE),
-        (STALE, "git status", "build", f"{OUT}1 file written", add(BASE, MANIFEST, "ladder.json", RECORD)),
+        (STALE, f"urdfsync build && {STAGE}", "check", f"{NOT_STAGED}3 files", ADD),
+        (STALE, f"urdfsync build && {STAGE}", "build", f"{NOT_STAGED}3 files", ADD),
         ((), f"{DROP} {RECORD}", "check", f"{NOT_STAGED}1 file", add(RECORD)),
         ((), f"{DROP} ladder.json", "check", f"{NOT_STAGED}1 file", add("ladder.json")),
-        ((), f"{DROP} step.csv", "build", f"{NOT_STAGED}1 file", add("step.csv")),
-        ((), f"{DROP} {MANIFEST}", "check", f"{NOT_STAGED}1 file", add(MANIFEST)),
-        ((), f"{DROP} .urdfsync/.gitignore", "check", f"{NOT_STAGED}1 file", add(".urdfsync/.gitignore")),
+        ((), f"{DROP} ladder.json", "build", f"{NOT_STAGED}1 file", add("ladder.json")),
         ((), f"git rm -q {RECORD}", "check", f"{OUT}1 to restore", BUILD),
         ((), f"git rm -q {RECORD}", "build", f"{OUT}1 restored because you deleted it", add(RECORD)),
     ],
@@ -118,7 +116,8 @@ def test_what_is_not_in_step_or_not_staged_is_told_with_the_command_that_mends_i
     kind = "not-staged" if words.startswith(NOT_STAGED) else "out-of-step"
     index = Path(".git/index").read_bytes()
     with contextlib.nullcontext() if mode == "build" else unchanged(repo.folder):
-        assert said(capsys, mode) == [fault(words, command, code=kind)]
+        is_lost = mode == "check" and command == add("ladder.json")  # in a clone, this is an error of the source
+        assert said(capsys, mode, code=2 if is_lost else 1) == [fault(words, command, code=kind)]
     assert Path(".git/index").read_bytes() == index
     if command == BUILD:
         command = said(capsys, "build")[-1]
@@ -127,14 +126,16 @@ def test_what_is_not_in_step_or_not_staged_is_told_with_the_command_that_mends_i
 
 
 @pytest.mark.parametrize(
-    "change", [lambda _: resistor(120), lambda _: Path(RECORD).unlink(), lambda _: Path("ladder.json").write_text("{")]
+    "change", [lambda: resistor(120), lambda: Path(RECORD).unlink(), lambda: Path("ladder.json").write_text("{")]
 )
 def test_a_commit_that_touches_no_file_of_a_robot_passes(
-    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch, change: Callable[[Repository], None]
+    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch, change: Callable[[], None]
 ) -> None:
-    """Whatever is not staged; by hand, with nothing staged at all, every robot is judged."""
-    change(repo)
-    assert said(capsys, "check", code=2 if Path("ladder.json").read_text() == "{" else 1) != []
+    """Even if the last commit is out of step; by hand, with nothing staged at all, all robots are judged."""
+    change()
+    assert said(capsys, "check", code=0) == [], "nothing of it is staged"
+    repo.commit()
+    assert said(capsys, "check", code=None) != []
     Path("notes.txt").write_text("more")
     repo.git("add", "notes.txt")
     assert said(capsys, "check", code=0) == said(capsys, "build", code=0) == []
@@ -143,29 +144,140 @@ def test_a_commit_that_touches_no_file_of_a_robot_passes(
     assert said(capsys, "check", code=0) == []
 
 
-@pytest.mark.parametrize("path", ["ladder.json", f"{LADDER}/Ladder.mo", MANIFEST, "urdfsync.toml"])
-def test_a_file_that_is_staged_in_part_is_refused_by_name(repo: Repository, capsys: Capture, path: str) -> None:
-    for _ in range(2):
-        repo.git("add", ".")
-        Path(path).write_bytes(Path(path).read_bytes() + b"\n")
-    with unchanged(repo.folder):
-        (line,) = said(capsys, "build")
-        assert line.endswith(
-            f"robot `ladder`: partly staged: {path}; `{add(path)}`, or put the rest aside with "
-            "`git stash push --keep-index` [partly-staged]"
-        )
-    run("git stash push --keep-index")
-    assert "staged in part" not in "".join(said(capsys, "build", code=None))
+@pytest.mark.parametrize("path", ["ladder.json", RECORD, MANIFEST, "urdfsync.toml"])
+def test_of_a_file_that_is_staged_in_part_the_staged_part_counts(repo: Repository, capsys: Capture, path: str) -> None:
+    resistor(120)
+    run("urdfsync build")
+    repo.git("add", ".")
+    Path(path).write_text("not yet")
+    assert said(capsys, "check", code=0) == said(capsys, "build", code=0) == []
+    assert Path(path).read_text() == "not yet"
 
 
-def test_a_file_that_git_was_told_not_to_look_at_is_refused_by_name(repo: Repository, capsys: Capture) -> None:
+def test_a_file_that_git_was_told_not_to_look_at_is_named(repo: Repository, capsys: Capture) -> None:
     repo.git("update-index", "--assume-unchanged", RECORD)
-    repo.git("update-index", "--skip-worktree", "ladder.json")
+    repo.git("update-index", "--skip-worktree", MANIFEST)
+    assert said(capsys, "check", code=0) == [], "as the commit is"
+    resistor(120)
+    run("urdfsync build")
+    repo.git("add", ".")
     (line,) = said(capsys, "check")
-    assert f"git ignores changes of ladder.json, {RECORD}; " in line
+    assert f"git ignores changes of {MANIFEST}, {RECORD}; " in line
     repo.git("update-index", "--no-assume-unchanged", RECORD)
-    repo.git("update-index", "--no-skip-worktree", "ladder.json")
+    repo.git("update-index", "--no-skip-worktree", MANIFEST)
+    run(said(capsys, "check")[-1])
     assert said(capsys, "check", code=0) == []
+
+
+def make_links(repo: Repository) -> None:
+    """Let the source be behind a chain of links to folders; a second version of it is beside the first one."""
+    for name, ohm in (("v1", 100), ("v2", 120)):
+        Path("exports", name).mkdir(parents=True)
+        Path("exports", name, "ladder.json").write_text(
+            Path("ladder.json").read_text().replace('"ohm": 100}', f'"ohm": {ohm}}}')
+        )
+        Path("exports", name, "step.csv").write_bytes(Path("step.csv").read_bytes())
+    Path("current").symlink_to("exports/v1")
+    Path("robots").symlink_to("current")
+    edit("urdfsync.toml", '"ladder.json"', '"robots/ladder.json"')
+    run("urdfsync build --quiet")
+    repo.commit()
+
+
+def relink(path: str, target: str) -> None:
+    """Let a link have another target."""
+    Path(path).unlink()
+    Path(path).symlink_to(target)
+
+
+@pytest.mark.parametrize(("link", "target"), [("current", "exports/v2"), ("robots", "exports/v2")])
+def test_a_link_to_a_folder_is_judged_as_it_is_staged(
+    repo: Repository, capsys: Capture, link: str, target: str
+) -> None:
+    """Also one in the middle of a chain. The package of the new target is staged, and the link is not."""
+    make_links(repo)
+    relink(link, target)
+    run("urdfsync build --quiet")
+    repo.git("add", ".urdfsync", "modelica")
+    assert said(capsys, "check") == [fault(f"{NOT_STAGED}1 file", add(link), code="not-staged")]
+    repo.git("add", link)
+    assert said(capsys, "check", code=0) == []
+
+
+def make_workspace(repo: Repository) -> None:
+    """Add a robot with a mesh in a ROS package, which only a search finds."""
+    write_all({
+        "share/deep/parts/package.xml": "<package><name>parts</name></package>",
+        "share/deep/parts/a.stl": meshes.stl(),
+        "arm.urdf": urdfs.robot(
+            '<link name="base"><visual><geometry><mesh filename="package://parts/a.stl"/></geometry></visual></link>'
+        ),
+    })  # fmt: skip
+    configure('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\npackage_paths = ["share"]\n')
+    run("urdfsync build --quiet")
+    repo.commit()
+
+
+def write_all(texts: Mapping[str, str]) -> None:
+    """Write texts by path."""
+    for path, text in texts.items():
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        Path(path).write_text(text)
+
+
+@pytest.mark.parametrize("mark", ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"])
+def test_a_file_that_hides_a_package_counts_only_in_the_commit(repo: Repository, capsys: Capture, mark: str) -> None:
+    """It is deleted and not staged; then it is there and not tracked."""
+    make_workspace(repo)
+    write_all({f"share/again/{mark}": "", "share/again/parts/package.xml": "<package><name>parts</name></package>"})
+    write_all({"share/again/parts/a.stl": meshes.stl(2)})
+    repo.commit()
+    assert said(capsys, "check", code=0) == []
+    Path(f"share/again/{mark}").unlink()
+    run("urdfsync build arm --quiet")
+    repo.git("add", "modelica", ".urdfsync")
+    line = fault(f"{NOT_STAGED}1 file", add(f"share/again/{mark}"), code="not-staged", robot="arm")
+    assert said(capsys, "check") == [line]
+    repo.git("add", "-A")
+    assert said(capsys, "check", code=0) == []
+    repo.commit()
+    Path(f"share/again/{mark}").touch()
+    run("urdfsync build arm --quiet")
+    repo.git("add", "modelica", ".urdfsync")
+    assert said(capsys, "check") == [line]
+
+
+def test_a_source_in_another_repository_counts_as_clones_have_it(repo: Repository, capsys: Capture) -> None:
+    """First it is a nested repository, whose files are in no clone; then a submodule with changes of its own."""
+    repo.git("init", "-q", "sub")
+    Path("sub/ladder.json").write_bytes(Path("ladder.json").read_bytes())
+    Path("sub/step.csv").write_bytes(Path("step.csv").read_bytes())
+    run("git -C sub add . && git -C sub commit -q -m first && git clone -q --bare sub ../upstream")
+    edit("urdfsync.toml", '"ladder.json"', '"sub/ladder.json"')
+    run("urdfsync build --quiet")
+    for command in ("git add urdfsync.toml .urdfsync modelica", "git add sub"):  # git adds only its commit
+        run(command)
+        line = said(capsys, "check", code=2)[-1]
+        assert "in step, but a clone is not: 1 error" in line
+        assert "; commit the changes in sub, make it a submodule, and `git add` it [out-of-step]" in line
+    run("git rm -q -f --cached sub && rm -rf sub && git -c protocol.file.allow=always submodule add -q ../upstream sub")
+    repo.git("add", ".")
+    assert said(capsys, "check", code=0) == []
+    repo.commit()
+    edit("sub/ladder.json", *STALE)
+    run("urdfsync build --quiet")
+    repo.git("add", ".")
+    assert "commit the changes in sub" in said(capsys, "check")[-1]
+    run("git -C sub commit -q -a -m next && git add sub")
+    assert said(capsys, "check", code=0) == []
+
+
+def test_attributes_count_as_in_a_clone(repo: Repository, capsys: Capture) -> None:
+    """Git converts only new files to them in the working tree, but all files in a clone."""
+    make_workspace(repo)
+    Path(".gitattributes").write_text("share/**/*.stl text eol=crlf\n")
+    repo.git("add", ".gitattributes")
+    assert "robot `arm`: in step, but a clone is not: " in said(capsys, "check")[-1]
 
 
 @pytest.mark.parametrize("is_alone", [True, False])
@@ -191,21 +303,6 @@ def add_robot(repo: Repository) -> None:
     configure(ROBOT.format('"other.v2"', "Other").replace("ladder.json", "other.json"))
     run("urdfsync build")
     repo.commit()
-
-
-def test_what_the_daemon_writes_while_the_hook_begins_has_to_be_staged(
-    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def commit_and_daemon() -> hook.Commit:
-        commit = first_look()
-        run("urdfsync build --quiet")
-        return commit
-
-    first_look = hook.Commit
-    monkeypatch.setattr(hook, "Commit", commit_and_daemon)
-    edit("ladder.json", *STALE)
-    run(STAGE)
-    assert said(capsys, "check") == [fault(f"{NOT_STAGED}3 files", ADD, code="not-staged")]
 
 
 def test_only_the_robots_of_the_commit_are_built(repo: Repository, capsys: Capture) -> None:
@@ -247,7 +344,7 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
     for mode in ("check", "build"):
         assert f"  urdfsync resolve {RECORD} --merge --prefer mine" in "\n".join(said(capsys, mode, code=3))
     run(f"urdfsync resolve {RECORD} --keep --quiet")
-    (line,) = said(capsys, "check")
+    (line,) = said(capsys, "check", code=3)
     assert "robot `ladder`: in step, but not staged: 2 files; " in line
     run(line)
     assert said(capsys, "check", code=0) == []
@@ -268,6 +365,7 @@ def test_a_configuration_in_a_folder(
     repo.commit()
     monkeypatch.chdir(name)
     resistor(120)
+    repo.git("add", ".")
     run(said(capsys, "build")[-1])
     assert said(capsys, "check", code=0) == []
     repo.commit()
@@ -283,17 +381,17 @@ def test_a_configuration_in_a_folder(
 
 def test_a_configuration_that_is_not_tracked_is_told(repo: Repository, capsys: Capture) -> None:
     repo.git("rm", "-q", "--cached", "urdfsync.toml")
-    assert f"`{add('urdfsync.toml')}`" in said(capsys, "check")[-1]
+    assert f"`{add('urdfsync.toml')}`" in said(capsys, "check", code=2)[-1]
     repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
     assert said(capsys, "check", code=0) == [], "then there is nothing to judge"
-    assert "git add " in said(capsys, "check", "--config", "urdfsync.toml")[-1]
+    assert "git add " in said(capsys, "check", "--config", "urdfsync.toml", code=2)[-1]
     repo.git("add", ".urdfsync")
     Path("urdfsync.toml").unlink()
     assert said(capsys, "check", code=0) == [], "the robot is gone, but for its state"
     assert "no-config" in said(capsys, "check", "--config", "typo.toml", code=2)[0]
     repo.git("reset", "-q", "--hard")
     Path("urdfsync.toml").unlink()
-    assert "no-config" in said(capsys, "check", code=2)[0]
+    assert said(capsys, "check", code=0) == [], "the commit has it"
 
 
 def test_unmerged_files_are_an_error(repo: Repository, capsys: Capture) -> None:
@@ -335,11 +433,13 @@ def test_a_source_in_a_submodule_is_staged_with_its_commit(repo: Repository, cap
     repo.commit()
     assert said(capsys, "check", code=0) == []
     edit("sub/ladder.json", '"ohm": 100}', '"ohm": 120}')
-    run("git -C sub commit -q -a -m next")
+    run("git -C sub commit -q -a -m next && git add sub")
     line = said(capsys, "build")[-1]
-    assert f"`{ADD} :/sub`" in line
+    assert f"`{ADD}`" in line
     run(line)
     assert said(capsys, "check", code=0) == []
+    repo.git("reset", "-q", "sub")
+    assert f"`{add('sub')}`" in said(capsys, "check")[-1]
 
 
 def test_no_program_of_the_settings_runs(repo: Repository, capsys: Capture) -> None:
@@ -356,19 +456,18 @@ def test_no_program_of_the_settings_runs(repo: Repository, capsys: Capture) -> N
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="a build is killed in a forked process")
-def test_no_commit_passes_after_a_build_that_was_killed(repo: Repository, capsys: Capture) -> None:
-    """Not even with all of it staged: a clone would not know what the build was about to write."""
+def test_after_a_build_that_was_killed_the_commit_counts(repo: Repository, capsys: Capture) -> None:
+    """A clone does not have what the build was about to write."""
     resistor(120)
     operations = itertools.count(1)
     while not is_interrupted(repo.folder / ".urdfsync"):
         crashes.kill(repo.folder, next(operations))
     repo.git("add", ".")
-    for mode in ("check", "build"):
-        lines = said(capsys, mode, code=2)
-        told = ".urdfsync: error: the last build was interrupted; run `urdfsync build`"
-        assert any(line.startswith(told) for line in lines), lines
+    assert OUT in said(capsys, "check")[-1]
+    told = ".urdfsync: error: the last build was interrupted; run `urdfsync build`"
+    assert any(line.startswith(told) for line in said(capsys, "build", code=2))
     run("urdfsync build")
-    repo.git("add", "-A")
+    run(said(capsys, "build")[-1])
     assert said(capsys, "check", code=0) == []
 
 

@@ -1,4 +1,4 @@
-"""The index of git: what is tracked, staged and committed, from any folder and with any settings of the caller's."""
+"""The index of git: what is tracked, staged and hidden, from any folder and with any settings of the caller's."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from support.git import NEEDS_GIT, Repository, make_repository_of_files
 
 from urdfsync import git
 from urdfsync.git import GitError, Index
+from urdfsync.git import Repository as Around
 
 pytestmark = NEEDS_GIT
 
@@ -37,38 +38,12 @@ def repository(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
 
 def test_files_are_named_from_the_top_by_how_they_stand(repository: Repository) -> None:
     index, before = Index(), Path(repository.folder, ".git/index").read_bytes()
-    assert index.top == str(repository.folder)
+    assert Around().top == str(repository.folder)
     inside = {"in/ä b\n", "in/deep/file"}
     assert index.tracked == {".gitignore", "same", "staged", "edited", "gone", "hidden", "skipped", *inside}
-    assert (index.unstaged, index.hidden, index.unmerged) == ({"edited", "gone"}, {"hidden", "skipped"}, set())
+    assert (index.unstaged, index.hidden) == ({"edited", "gone"}, {"hidden", "skipped"})
     assert index.untracked == {"new", "in/new"}
-    assert index.find_committed() == {"staged"}
-    assert index.submodules == set()
     assert Path(repository.folder, ".git/index").read_bytes() == before
-
-
-@pytest.mark.parametrize(("paths", "are_staged"), [
-    (["same", "staged"], True), (["same", "edited"], False), (["gone"], False), (["hidden"], False), (["new"], False),
-    (["in/"], True), (["in/", "new"], False), (["none/"], True), ([], True),
-])  # fmt: skip
-def test_all_of_some_paths_is_staged_or_not(repository: Repository, paths: list[str], are_staged: bool) -> None:
-    assert Index().has_staged(paths) is are_staged
-    Path("deep/file").write_text("other")
-    assert Index().has_staged(paths) is (are_staged and "in/" not in paths)
-
-
-def test_the_first_commit_and_a_merge(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    repository = Repository(folder, monkeypatch)
-    Path("a").write_text("1\n")
-    repository.git("add", "a")
-    assert Index().find_committed() == {"a"}
-    repository.commit()
-    for branch in ("other", "main"):
-        repository.git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
-        Path("a").write_text(branch)
-        repository.commit()
-    subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True)
-    assert (Index().unmerged, Index().tracked) == ({"a"}, {"a"})
 
 
 def test_without_a_working_tree_and_without_git(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -76,13 +51,13 @@ def test_without_a_working_tree_and_without_git(folder: Path, monkeypatch: pytes
     with monkeypatch.context() as patch:
         patch.setenv("GIT_DIR", "bare")
         with pytest.raises(GitError, match="git failed: this operation must be run in a work tree"):
-            Index()
+            Around()
     with pytest.raises(GitError, match="git failed: not a git repository"):
-        Index()
+        Around()
     Path(".git").mkdir()
     monkeypatch.setenv("PATH", str(folder))
     with pytest.raises(GitError, match="git can't be started: "):
-        Index()
+        Around()
 
 
 @pytest.mark.parametrize("version", ["this one", "one that ignores safe.bareRepository"])
@@ -92,7 +67,6 @@ def test_a_repository_of_committed_files_is_passed_over(
     make_repository_of_files(Path.cwd())
     if version != "this one":
         monkeypatch.setattr(git, "_SETTINGS", ())
-    index = Index()
-    assert index.top == str(repository.folder)
-    assert "in/HEAD" in index.untracked
+    assert Around().top == str(repository.folder)
+    assert "in/HEAD" in Index().untracked
     assert not Path("fsmonitor").exists()

@@ -11,9 +11,12 @@ from urdfsync import api
 
 
 def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
-    """Time of change and content of every file below a folder, except what this machine notes and remembers."""
+    """Time of change and content of every file below a folder, except files of this machine: notes, records and
+    the hook's clone.
+    """
     files = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*")) if path.is_file()}
-    files = {name: path for name, path in files.items() if not name.startswith((".urdfsync/notes/", ".urdfsync/deps/"))}
+    left_out = ".urdfsync/notes/", ".urdfsync/deps/", ".git/urdfsync/"
+    files = {name: path for name, path in files.items() if not name.startswith(left_out)}
     return {name: (path.stat().st_mtime_ns, path.read_bytes()) for name, path in files.items()}
 
 

@@ -1,32 +1,35 @@
-"""`urdfsync hook`: builds or checks before a commit, as `build` and `build --check` do, then looks at git's index.
+"""`urdfsync hook`: judges the next commit as `build --check` would in a fresh clone of it.
 
-A commit passes if the working tree is in step. All files that a build of the touched robots reads or writes must be
-staged as they are on disk. Under pre-commit, the working tree equals the index but for untracked files.
+Git exports the index to a clone (see `git.clone`), and the ordinary dry run looks there. The working tree matters only
+for the hint, and for what `hook build` writes.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import shlex
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
 
 from urdfsync import config as configuration
-from urdfsync import git
+from urdfsync import git, noop
 from urdfsync.commands import arguments
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies.facts import LISTINGS, VARIABLE
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError, findings_of
-from urdfsync.engine import parents
-from urdfsync.engine.actions import ORPHANS, Reason
+from urdfsync.dependencies.facts import LISTINGS, VARIABLE, Entry
+from urdfsync.dependencies.places import Clone
+from urdfsync.dependencies.reads import Reads
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.remembered import remember_configuration
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.git import hook
+from urdfsync.git.clone import Commit, export
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
 from urdfsync.spelling import counted
@@ -35,16 +38,19 @@ _FEW = 4
 """If a hint has more files to add, it names whole folders."""
 _COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
 """The parts of the recorded state that belong into a commit."""
-_UNNEEDED = ORPHANS | {Reason.FORGET, Reason.UNKNOWN}
-"""Actions on files that other clones do not need."""
+_BUILD = "`urdfsync hook build`"
+_OF_ALL = (".gitattributes", ".gitmodules")
+"""Files by which git changes the content of other files."""
 
 
 class Fault(msgspec.Struct, frozen=True):
     """A reason why one robot keeps a commit from passing."""
 
     diagnostic: Diagnostic
-    result: Result | None = None
-    """The result of a build or a dry run; None if neither ran."""
+    result: Result
+    """The result in the clone, or of a build in the working tree."""
+    is_enough: bool = False
+    """Whether the diagnostic alone tells the user what to do."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -54,8 +60,9 @@ def add(commands: arguments.Commands) -> None:
         "hook",
         "--wait --jobs",
         help="build or check what is being committed; for hooks of git",
-        description="Build or check the robots that a commit touches, and require that all their files are staged. "
-        "All configurations that git tracks are checked, or that of --config. The index is never written.",
+        description="Check the robots that a commit touches, as `build --check` does in a fresh clone of the commit; "
+        "`build` also builds those that are out of step. All configurations that git tracks are checked, or that of "
+        "--config. The index is never written.",
         epilog="example: urdfsync hook check",
     )
     modes = "build brings packages in step, check writes nothing"
@@ -66,169 +73,212 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Check the configuration of --config, or all configurations that git tracks."""
     faults, errors = list[Fault](), list[Diagnostic]()
     try:
-        commit = Commit()
-        paths = commit.paths([args.config]) if args.config else hook.find_configurations(commit.index)
-        for path in sorted(paths) if commit.touched else ():
-            try:
-                faults += _find_faults(commit, path, arguments.request(args, console), args.mode == "build")
-            except git.GitError:
-                raise
-            except Exception as error:  # noqa: BLE001 - one configuration's error does not stop the others
-                if any(file.startswith(path.removesuffix(PurePosixPath(path).name)) for file in commit.touched):
+        with export(git.Repository(), args.wait) as commit:
+            for file in _find_configurations(commit, args.config):
+                try:
+                    faults += _find_faults(commit, file, arguments.request(args, console), args.mode == "build")
+                except git.GitError:
+                    raise
+                except Exception as error:  # noqa: BLE001 - one configuration's error does not stop the others
                     errors += findings_of(error)
     except git.GitError as error:
         raise SourceError.of("git", str(error), hint="without a repository, use `urdfsync build --check`") from None
-    results = [fault.result for fault in faults if fault.result]
-    for result in results:
-        if console.is_document or result.failed or result.conflicts or result.is_broken:
+    for fault in faults:
+        result = fault.result
+        is_telling = (result.failed or result.conflicts or result.is_broken) and not fault.is_enough
+        if console.is_document or is_telling:
             show_result(console, result)
-    code = Exit.ERROR if errors else exit_code(results) or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
-    return console.end(code, [*(fault.diagnostic for fault in faults), *errors])
+    code = exit_code([fault.result for fault in faults], check=True) or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
+    return console.end(Exit.ERROR if errors else code, [*(fault.diagnostic for fault in faults), *errors])
 
 
-class Commit:
-    """The files of a commit, by their paths from the top of the repository, as in git."""
-
-    def __init__(self) -> None:
-        """Raises GitError, and SourceError while files are unmerged."""
-        self.index = git.Index()
-        for path in sorted(self.index.unmerged):
-            message, hint = "the file is not merged yet, so there is nothing to commit", "resolve it and `git add` it"
-            raise SourceError.of("unmerged", message, path, hint=hint)
-        self.files = self.index.find_committed()
-        is_commit = self.files or "GIT_INDEX_FILE" in os.environ
-        self.touched = self.files if is_commit else self.index.tracked
-        """The files whose robots are checked; all files if there is no commit, as in `pre-commit run --all-files`."""
-        self._real_folders: dict[str, str] = {}
-
-    def path(self, file: str | Path) -> str | None:
-        """Return the path of a file, or of its submodule, from the top of the repository; None for a file outside.
-
-        Links to folders are followed, since git tracks no files behind them.
-        """
-        folder, name = os.path.split(os.path.abspath(file))  # noqa: PTH100 - strings: there are thousands of files
-        if folder not in self._real_folders:
-            self._real_folders[folder] = os.path.realpath(folder)
-        real = f"{self._real_folders[folder]}/{name}".replace(os.sep, "/")
-        path = real.removeprefix(f"{self.index.top}/")
-        if path == real:
-            return None
-        return next((module for module in self.index.submodules if path.startswith(f"{module}/")), path)
-
-    def paths(self, files: Iterable[str | Path]) -> set[str]:
-        """Return the paths of files, and of the targets of links."""
-        names = {os.fspath(file) for file in files}
-        names |= {os.path.realpath(name) for name in names if os.path.islink(name)}  # noqa: PTH114
-        return {path for name in names if (path := self.path(name)) is not None}
+def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
+    """Return the configurations to check. Raises ConfigError if one is on disk, and the commit lacks it."""
+    top, lost = Path(commit.repository.top), hook.find_lost(commit.repository, commit.export)
+    if given is not None:
+        name = commit.clone.inside(os.path.join(os.path.realpath(given.parent), given.name))  # noqa: PTH118
+        if name is None or not (name in commit.files or given.is_file()):
+            configuration.load(given)  # outside of the repository, or it does not exist
+        lost = [name] if name and name not in commit.files else []
+    if lost:
+        message, hint = "the commit lacks this configuration", _adding(lost, git.Index())
+        raise ConfigError.of("not-staged", message, shown(top / lost[0]), hint=hint)
+    return (
+        [top / file for file in commit.export.configurations] if given is None else [top / (name or given.absolute())]
+    )
 
 
-class RobotFiles:
-    """The files that a build of one robot reads or writes, by their paths in git."""
+def _find_faults(commit: Commit, file: Path, options: BuildOptions, is_writing: bool) -> Iterator[Fault]:
+    """Yield the faults of the robots of one configuration; with `is_writing`, build them. Raises UrdfsyncError."""
+    dry = msgspec.structs.replace(options, dry=True)
+    with commit.clone:
+        if noop.is_in_step(str(file)):
+            return
+        with Reads() as everything:
+            try:
+                with Reads() as settings:
+                    config = configuration.load(file)
+                results = list(build(config, config.select(()), dry))
+            except UrdfsyncError:
+                if _is_touched(commit, everything.entries):
+                    raise
+                return
+        if all(result.in_step for result in results):
+            remember_configuration(config, settings)
+            return
+    judged = [
+        _Judged(commit, config, robot, result)
+        for robot, result in zip(config.robots, results, strict=True)
+        if not result.in_step
+    ]
+    judged = [
+        robot
+        for robot in judged
+        if _is_touched(commit, settings.entries, *robot.folders) or _is_touched(commit, robot.result.reads.entries)
+    ]
+    names, here, built = {one.robot.name for one in judged}, dict[str, Result](), dict[str, Result]()
+    with contextlib.suppress(UrdfsyncError):  # the working tree may have another fault than the commit
+        ours = configuration.load(file) if judged else config
+        robots = [robot for robot in ours.robots if robot.name in names]
+        here = {result.robot: result for result in build(ours, robots, dry)}
+        stale = [robot for robot in robots if not (here[robot.name].in_step or here[robot.name].failed)]
+        if is_writing and stale:
+            alone = msgspec.structs.replace(options, renews=False)
+            built = {result.robot: result for result in build(ours, stale, alone)}
+    for one in judged:
+        yield one.fault(here.get(one.robot.name), built.get(one.robot.name), is_writing)
 
-    def __init__(self, commit: Commit, config: Config, robot: RobotConfig, planned: Result) -> None:
-        """`planned` is the result of a dry run."""
-        self._commit, self._config_file, self.robot, self.planned = commit, config.file, robot, planned
-        self._state = f"{config.root / STATE_FOLDER}{os.sep}"
-        self.outputs = commit.paths(parents.files(robot))
-        """The files that the commit needs, if they exist."""
-        self.known = commit.paths([config.file])
-        """The files that the commit needs, and the files that a build read or looked for."""
-        self.note(planned)
-        folders = [robot.folder, Path(self._state, "bases", robot.name), *filter(None, [robot.templates])]
-        self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
 
-    def note(self, result: Result) -> None:
-        """Add the files that a plan or a build has read or written."""
-        entries = [entry for entry in result.reads.entries if entry[0] not in (*LISTINGS, VARIABLE)]
-        package = f"{self.robot.folder}{os.sep}"
-        outputs = {path for _, path in entries if path.startswith((package, self._state))}
-        unneeded = {action.path for action in result.actions if action.reason in _UNNEEDED}
-        outputs -= {os.path.normpath(result.root / path) for path in unneeded}
-        self.outputs |= self._commit.paths(path for path in outputs if self._is_for_git(path))
-        self.known |= self.outputs | self._commit.paths(path for _, path in entries)
+def _is_touched(commit: Commit, entries: Iterable[Entry], *folders: str) -> bool:
+    """Return whether the commit changes a file that a build read or looked for, or that is in one of the folders.
+
+    Without staged changes, by hand, or without a former commit, all robots count as touched.
+    """
+    if commit.changed is None or not (commit.changed or "GIT_INDEX_FILE" in os.environ):
+        return True
+    if any(PurePosixPath(path).name in _OF_ALL for path in commit.changed):
+        return True
+    return bool(_Places(commit.clone, entries).select(commit.changed, folders))
+
+
+class _Places:
+    """All that a build has read or looked for in a repository, as paths from the top."""
+
+    def __init__(self, clone: Clone, entries: Iterable[Entry]) -> None:
+        self.files, self._listed = set[str](), set[str]()
+        for kind, path in entries:
+            places = map(clone.inside, clone.trail(path)) if kind != VARIABLE else ()
+            inside = [place for place in places if place is not None]
+            self.files.update(inside)
+            if kind in LISTINGS:
+                self._listed.update(inside)
+        # a link or a submodule may take the place of a folder
+        self._around = {
+            "/".join(path.split("/")[:depth]) for path in self.files for depth in range(path.count("/") + 1)
+        }
+
+    def select(self, changed: Mapping[str, bool], folders: tuple[str, ...] = ()) -> set[str]:
+        """Return the changed paths that a build depends on; the value is whether a path is new or deleted."""
+        return {
+            path
+            for path, is_new in changed.items()
+            if path in self.files
+            or path in self._around
+            or path.startswith(folders)
+            or (is_new and path.rpartition("/")[0] in self._listed)
+        }
+
+
+class _Judged:
+    """A robot that is out of step in the clone."""
+
+    def __init__(self, commit: Commit, config: Config, robot: RobotConfig, result: Result) -> None:
+        self._commit, self._config, self.robot, self.result = commit, config, robot, result
+        self._state = str(config.root / STATE_FOLDER)
+        bases = Path(self._state, "bases", robot.name)
+        folders = [str(folder) for folder in (robot.folder, bases, robot.templates) if folder]
+        self.folders = tuple(f"{path}/" for folder in folders if (path := commit.clone.inside(folder)) is not None)
+
+    def fault(self, here: Result | None, built: Result | None, is_writing: bool) -> Fault:
+        """Return the fault; `here` is the result of a dry run in the working tree, `built` that of a build."""
+        if built is None and here and here.in_step:
+            return self._not_staged(here, is_writing)
+        result = built or (here if is_writing and here and here.failed else self.result)
+        if result.failed or result.conflicts or result.is_broken:
+            return self._fault("out-of-step", result.summary, "", result)
+        hint = _adding(self._find_missing(built, index := git.Index()), index, self.folders) if built else _BUILD
+        return self._fault("out-of-step", f"out of step: {result.summary}", hint, result)
+
+    def _not_staged(self, here: Result, is_writing: bool) -> Fault:
+        """Return the fault if only the working tree is in step."""
+        index, result = git.Index(), here if is_writing else self.result
+        hidden = _Places(self._commit.clone, here.reads.entries).select(dict.fromkeys(index.hidden, True), self.folders)
+        missing = self._find_missing(here, index)
+        if hidden:
+            message, hint = (
+                f"git ignores changes of {', '.join(sorted(hidden))}",
+                "`git help update-index` says how to undo this",
+            )
+            return self._fault("hidden", message, hint, result, is_enough=True)
+        if missing:
+            message, hint = (
+                f"in step, but not staged: {counted(len(missing), 'file')}",
+                _adding(missing, index, self.folders),
+            )
+            return self._fault("not-staged", message, hint, result, is_enough=True)
+        message, hint = "in step, but a clone is not", "clone the repository, and run `urdfsync build --check` there"
+        if nested := sorted(self._nested(here)):
+            hint = f"commit the changes in {nested[0]}, make it a submodule, and `git add` it"
+        return self._fault("out-of-step", f"{message}: {self.result.summary}", hint, result)
+
+    def _find_missing(self, here: Result, index: git.Index) -> set[str]:
+        """Return the files to add to the commit: those that differ in the index, and that a build depends on."""
+        top = Path(self._commit.repository.top)
+        own, cloned = (
+            _Places(Clone(str(top), str(top)), here.reads.entries),
+            _Places(self._commit.clone, self.result.reads.entries),
+        )
+        unstaged, untracked = dict.fromkeys(index.unstaged, True), dict.fromkeys(index.untracked, False)
+        found = {path for places in (own, cloned) for path in places.select(unstaged, self.folders)} | own.select(
+            untracked
+        )
+        # of ignored files, only those that the build reads
+        nested = tuple(f"{path}/" for path in self._nested(here))
+        unknown = {path for path in own.files - index.tracked - index.untracked if not path.startswith(nested)}
+        found |= {path for path in unknown if (top / path).is_file()}
+        return {
+            path
+            for path in found
+            if (self._is_for_git(path) and not (top / path / ".git").exists()) or path in index.tracked
+        }
+
+    def _nested(self, here: Result) -> set[str]:
+        """Return the submodules and other repositories that a build in the working tree reads."""
+        top = self._commit.repository.top
+        files = _Places(Clone(top, top), here.reads.entries).files
+        folders = {str(folder) for path in files for folder in PurePosixPath(path).parents[:-1]}
+        return {folder for folder in folders if Path(top, folder, ".git").exists()}
 
     def _is_for_git(self, path: str) -> bool:
-        """Return whether a file belongs into a commit: parts of the recorded state do not."""
-        return not path.startswith(self._state) or path.removeprefix(self._state).startswith(_COMMITTED)
+        """Return whether a file belongs into a commit: parts of the recorded state and the user's models do not."""
+        place = f"{self._commit.repository.top}/{path}"
+        if place.startswith(f"{self._state}{os.sep}"):
+            return place.removeprefix(f"{self._state}{os.sep}").startswith(_COMMITTED)
+        return not path.endswith(".mo") or path.startswith(self.folders) or path in self._commit.files
 
-    def select(self, paths: Iterable[str]) -> set[str]:
-        """Return the paths that belong to the robot."""
-        return {path for path in paths if path in self.known or path.startswith(self.folders)}
-
-    def find_unstaged(self) -> set[str]:
-        """Return the files that have to be added to the commit."""
-        index = self._commit.index
-        outputs = {path for path in self.outputs - index.tracked if Path(index.top, path).is_file()}
-        # a build may read ignored files, and the user's models need not be in the commit
-        inputs = {path for path in self.known & index.untracked if not path.endswith(".mo")}
-        return self.select(index.unstaged) | outputs | inputs
-
-    def find_fault(self) -> Fault | None:
-        """Return why the commit fails before a build; None if it passes."""
-        index = self._commit.index
-        if hidden := self.select(index.hidden):
-            message = f"git ignores changes of {', '.join(sorted(hidden))}"
-            return self.fault("hidden", message, "`git help update-index` says how to undo this")
-        if partly := self.select(self._commit.files & index.unstaged):
-            hint = f"{self.adding(partly)}, or put the rest aside with `git stash push --keep-index`"
-            return self.fault("partly-staged", f"partly staged: {', '.join(sorted(partly))}", hint)
-        if not self.planned.in_step:
-            return self.fault_of_build(self.planned, "`urdfsync hook build`")
-        if unstaged := self.find_unstaged():
-            message = f"in step, but not staged: {counted(len(unstaged), 'file')}"
-            return self.fault("not-staged", message, self.adding(unstaged))
-        return None
-
-    def fault_of_build(self, result: Result, hint: str) -> Fault:
-        """Return the fault of a robot that a build wrote, or that is out of step."""
-        if result.failed or result.conflicts or result.is_broken:
-            return self.fault("out-of-step", result.summary, "", result)
-        return self.fault("out-of-step", f"out of step: {result.summary}", hint, result)
-
-    def fault(self, code: str, message: str, hint: str, result: Result | None = None) -> Fault:
-        """Return a fault of this robot."""
-        message, place = f"robot `{self.robot.name}`: {message}", shown(self._config_file)
-        return Fault(Diagnostic(Severity.ERROR, code, message, place, hint=hint), result)
-
-    def adding(self, paths: Collection[str]) -> str:
-        """Return the command that adds files to the commit, from any folder of the repository."""
-        index, names = self._commit.index, set(paths)
-        ignored = names - index.tracked - index.untracked
-        for folder in self.folders if len(names) > _FEW and not ignored else ():
-            inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
-            if len(inside) > 1 and inside <= names:  # then name the whole folder
-                names = names - inside | {folder.removesuffix("/")}
-        # to git `:/` means the top, from any folder; after a second colon, a name may begin with a special sign
-        from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
-        return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
+    def _fault(self, code: str, message: str, hint: str, result: Result, *, is_enough: bool = False) -> Fault:
+        message, place = f"robot `{self.robot.name}`: {message}", shown(self._config.file)
+        return Fault(Diagnostic(Severity.ERROR, code, message, place, hint=hint), result, is_enough)
 
 
-def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool) -> Iterator[Fault]:
-    """Yield the faults of the robots of one configuration; with `writing`, build the robots. Raises UrdfsyncError."""
-    config = configuration.load(Path(commit.index.top, path))
-    robots = [_plan(commit, config, robot, options) for robot in config.robots]
-    commit.index = index = git.Index()  # the daemon may have written files since the first look, and before the plan
-    if not any(not robot.planned.in_step or robot.find_unstaged() or robot.select(index.hidden) for robot in robots):
-        return
-    to_build = []
-    for robot in robots:
-        fault = robot.find_fault() if robot.select(commit.touched) else None
-        if fault and writing and fault.result and not fault.result.failed:
-            to_build.append(robot)
-        elif fault:
-            yield fault
-    alone = msgspec.structs.replace(options, renews=False)
-    results = list(build(config, [robot.robot for robot in to_build], alone)) if to_build else []
-    commit.index = git.Index()  # builds have changed files
-    for robot, result in zip(to_build, results, strict=True):
-        robot.note(result)
-        unstaged = robot.find_unstaged()
-        if unstaged or exit_code([result]) is not Exit.IN_STEP:  # otherwise the commit lacks the written files
-            yield robot.fault_of_build(result, robot.adding(unstaged))
-
-
-def _plan(commit: Commit, config: Config, robot: RobotConfig, options: BuildOptions) -> RobotFiles:
-    """Plan a build of one robot in the working tree, and find its files."""
-    dry = msgspec.structs.replace(options, dry=True, trusted=True)
-    (result,) = build(config, [robot], dry)
-    return RobotFiles(commit, config, robot, result)
+def _adding(paths: Collection[str], index: git.Index, folders: Sequence[str] = ()) -> str:
+    """Return the command that adds files to the commit, from any folder of the repository."""
+    names = set(paths)
+    ignored = names - index.tracked - index.untracked
+    for folder in folders if len(names) > _FEW and not ignored else ():
+        inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
+        if len(inside) > 1 and inside <= names:  # then name the whole folder
+            names = names - inside | {folder.removesuffix("/")}
+    # to git `:/` means the top, from any folder; after a second colon, a name may begin with a special sign
+    from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
+    return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"

@@ -1,6 +1,7 @@
 """Facts that show a change: of a path, of the names in a folder, of an environment variable.
 
-A no-op build looks at each recorded fact through this module, so it imports hardly anything.
+A no-op build looks at each recorded fact through this module, so it imports hardly anything. The hook lets it look at a
+clone (see `places`).
 """
 
 from __future__ import annotations
@@ -8,6 +9,8 @@ from __future__ import annotations
 import errno
 import os
 import stat
+
+from urdfsync.dependencies.places import place
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
 if TYPE_CHECKING:
@@ -50,7 +53,7 @@ def facts_of(kind: str, path: str | os.PathLike[str]) -> Facts:
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
     if kind == UNMERGED:
         return checksum(unmerged_paths(path))
-    with os.scandir(path) as entries:
+    with os.scandir(place(path)) as entries:
         return names_in(kind, entries)
 
 
@@ -65,7 +68,7 @@ def look(kind: str, path: str | os.PathLike[str]) -> Facts:
 def path_facts(path: str | os.PathLike[str]) -> Facts:
     """Return the facts of a path now. Raises OSError if the path can't be accessed."""
     try:
-        status = os.lstat(path)
+        status = os.lstat(place(path, follow=False))
         if stat.S_ISREG(status.st_mode):
             return stat_of(status)
         if not stat.S_ISLNK(status.st_mode):
@@ -73,12 +76,14 @@ def path_facts(path: str | os.PathLike[str]) -> Facts:
     except OSError as error:
         if error.errno in _ABSENT:
             return NOTHING
+        error.filename = os.fspath(path)
         raise
     try:
-        target = os.stat(path)
+        target = os.stat(place(path))
     except OSError as error:
         if error.errno in _ABSENT:
             return (*stat_of(status), 0)
+        error.filename = os.fspath(path)
         raise
     is_file = stat.S_ISREG(target.st_mode)
     return (*stat_of(status), *(stat_of(target) if is_file else (stat.S_IFMT(target.st_mode),)))
@@ -175,8 +180,7 @@ def hash_content(content: bytes) -> str:
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
     """Read a regular file without recording it, after `read_stat` or for no record; otherwise like `read_file`."""
-    # opening a pipe would wait for a writer
-    with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
+    with open(path, "rb", buffering=0, opener=_open) as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "it is not a regular file", os.fspath(path))
@@ -186,3 +190,12 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
             return file.read()
         # a file of the system may have size 0 and never end
         return file.read(MAX_FILE) or b""
+
+
+def _open(path: str, flags: int) -> int:
+    """Open a file; opening a pipe waits for no writer. Raises OSError."""
+    try:
+        return os.open(place(path), flags | _NONBLOCK)
+    except OSError as error:
+        error.filename = path
+        raise

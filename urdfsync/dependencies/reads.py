@@ -34,6 +34,10 @@ from urdfsync.dependencies.facts import (
 )
 from urdfsync.dependencies.facts import file_type as type_in
 from urdfsync.dependencies.facts import is_file as has_file
+from urdfsync.dependencies.places import is_clone, place
+
+PARENTS = "urdfsync-parents"
+"""A file in the `.git` of the hook's clone: the parents of its commit."""
 
 
 class Reads:
@@ -101,6 +105,18 @@ def cannot_record() -> None:
     """Note that the present work reads what no entry shows: its result is not remembered."""
     if (reads := _current.get()) is not None:
         reads.complete = False
+
+
+def depend_on_commits(top: str | os.PathLike[str] | None) -> None:
+    """Record that commits of the repository at `top` are read.
+
+    They may change the result without changing a file, so nothing is remembered. In the hook's clone, a file has the
+    parents of its commit.
+    """
+    if top and is_clone():
+        depend_on(os.path.join(top, ".git", PARENTS))
+    else:
+        cannot_record()
 
 
 def include(other: Reads) -> None:
@@ -179,17 +195,25 @@ def read_stat(path: str | os.PathLike[str]) -> Facts:
 
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     """Return the names in a folder, in no order. Raises OSError."""
-    return [entry.name for entry in _scan(NAMES, folder)]
+    return [entry.name for entry in scan_folder(folder)]
+
+
+def scan_folder(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
+    """Return the entries of a folder, as `scan_modelica`; record all names. Raises OSError."""
+    return _scan(NAMES, folder)
 
 
 def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
-    """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError."""
+    """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError.
+
+    Use the names of the entries: their paths may lead into a clone.
+    """
     return _scan(MODELICA, folder)
 
 
 def _scan(kind: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
     try:
-        with os.scandir(folder) as scanned:
+        with os.scandir(place(folder)) as scanned:
             entries = list(scanned)
     except OSError as error:
         _record(kind, folder, failed(error))

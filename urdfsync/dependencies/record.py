@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import time
 
-from urdfsync.dependencies import localfile, program
+from urdfsync.dependencies import localfile, places, program
 from urdfsync.dependencies.facts import VARIABLE, hash_file, is_young, look
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
@@ -125,6 +125,7 @@ class Record:
         """Save the record in the state folder; if that fails, or a file may still change, nothing is remembered."""
         if not self.facts.can_be_saved() or any(not word or "\0" in word for word in (self.key, *self.words)):
             return
+        folder = places.place(folder)  # the hook's clone has records of its own
         place = os.path.join(folder, program.FOLDER)
         about = "\0".join((_FORMAT, program.identity(folder), program.user()))
         texts = [about, self.key, self.facts.dumps(), "\0".join(self.words)]
@@ -138,6 +139,7 @@ def load(folder: str, name: str) -> Record | None:
 
     A record may be damaged: then its robot is built as if it had none.
     """
+    folder = places.place(folder)
     place = os.path.join(folder, program.FOLDER)
     try:
         about, key, facts, words, result = (localfile.read(os.path.join(place, name)) or b"").split(b"\0\0", 4)

@@ -58,8 +58,8 @@ def find_doubts(
     if unconfirmed and notes.model == hash_of(record.snapshot):  # otherwise git may have changed the meaning of names
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
-    if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
-        reads.cannot_record()  # a commit may change this result without changing a file
+    if unconfirmed and inputs.last.version is not None and (top := git.find_top(inputs.config.root)) is not None:
+        reads.depend_on_commits(top)
         edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
         for commit in _commits(inputs):
             doubts |= _look(inputs, generation, commit, edits)
@@ -99,7 +99,7 @@ def _commits(inputs: Inputs) -> Iterator[Revision]:
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
     names = ["MERGE_HEAD", *(str(parent) for parent in repository.head.peel(pygit2.Commit).parent_ids)]
-    if inputs.last.notes.program:
+    if inputs.last.notes.model:
         names += [f"HEAD~{number}" for number in range(2, _BACK)]
         # after a squash, the branch may be deleted: look at the commits that were checked out last
         recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)

@@ -18,6 +18,7 @@ from urdfsync.changes import Changes, Effects
 from urdfsync.config import Config
 from urdfsync.config.advice import Advice, brings_back
 from urdfsync.dependencies import reads
+from urdfsync.dependencies.reads import walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Snapshot
 from urdfsync.engine.actions import Actions, Reason
@@ -142,7 +143,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     gone = {files.path(action.path) for action in actions if action.is_deletion}
     # a stranger may have written the record: never look into a folder elsewhere, or propose to delete it
     is_inside = files.is_inside(f"{inputs.last.folder}/package.mo")
-    below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
+    below = sorted(map(Path, walk_files(old))) if is_inside else [old]
     rest = [shown(path) for path in below if path not in gone and new not in path.parents]
     if not rest:
         return

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.dependencies.reads import is_file, walk_files
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
 from urdfsync.files import Templates, digest, normalised, shown, text_digest
@@ -214,8 +216,8 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
         message = f"there is no template `{problem.name}`"
     elif isinstance(problem, UnicodeDecodeError):  # this error names no file: find the file with these bytes
         message, content = "the template is not UTF-8", problem.object
-        files = (path for folder in renderer.folders for path in sorted(folder.rglob("*")) if path.is_file())
-        file = next((str(path) for path in files if path.read_bytes() == content), "")
+        files = (path for folder in renderer.folders for path in sorted(walk_files(folder)))
+        file = next((path for path in files if read_unrecorded(path) == content), "")
         line = content.count(b"\n", 0, problem.start) + 1
     raise _template_error(renderer.folders, artifact.template, file, line, message)
 
@@ -251,7 +253,7 @@ def _without_word(text: str, word: str) -> str:
 
 def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:
     """Return the error at a line of a template folder's file; without a file, the error is in `template`."""
-    file = file or next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
+    file = file or next((str(folder / template) for folder in folders if is_file(folder / template)), template)
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
     hint = "correct the template, or delete it to use urdfsync's template" if is_own else "install urdfsync again"
     if not is_own and len(folders) > 1 and file == template:  # the user can add it

@@ -16,6 +16,7 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.dependencies.facts import MAX_FILE
+from urdfsync.dependencies.places import place
 from urdfsync.dependencies.reads import file_type, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
@@ -268,7 +269,7 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
     """Return one warning for missing files with the same noun and reason."""
     first, what = dependencies[0], _named(dependencies)
     others = ((path, _find_other_case(path)) for path in first.candidates)
-    if found := next((other for path, other in others if other and other != path and other.is_file()), None):
+    if found := next((at for path, at in others if at and at != path and Path(place(at)).is_file()), None):
         what, hint = f"{what} not found; there is `{shown(found)}`", "rename it, or correct the case in the source"
         return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", what, source, line, hint=hint)
     beginning, match = next(
@@ -283,9 +284,10 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
 def _find_other_case(path: Path) -> Path | None:
     """Return an existing path that differs only in case: the exporter's system may ignore case."""
     try:
-        folder = path.parent if path.parent == path or path.parent.is_dir() else _find_other_case(path.parent)
+        is_folder = path.parent == path or Path(place(path.parent)).is_dir()
+        folder = path.parent if is_folder else _find_other_case(path.parent)
         # the path is recorded as a dependency, but not this folder: it may change all the time
-        names = sorted(os.listdir(folder)) if folder else []  # noqa: PTH208
+        names = sorted(os.listdir(place(folder))) if folder else []  # noqa: PTH208
     except OSError:
         return None
     return next((folder / name for name in names if folder and name.lower() == path.name.lower()), None)

@@ -7,7 +7,6 @@ and makes a `package.order` only together with a new package.
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
@@ -15,7 +14,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.reads import is_file, is_folder, read_file
+from urdfsync.dependencies.reads import file_type, is_file, is_folder, read_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.files import digest, shown
@@ -69,9 +68,9 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
             message = f"the output folder {shown(robot.output)} is a Modelica package itself"
             hint = "name the folder above it as output, and the package with its full name"
             raise _refusal(config, robot, "output-is-package", message, hint, "output")
-    elif not (
-        existing := next(folder for folder in (robot.output, *robot.output.parents) if os.path.lexists(folder))
-    ).is_dir():
+    elif not is_folder(
+        existing := next(folder for folder in (robot.output, *robot.output.parents) if file_type(folder, follow=False))
+    ):
         message = f"the output folder {shown(robot.output)} can't be created: {shown(existing)} is not a folder"
         raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
     elif config.root not in robot.output.parents:

@@ -16,6 +16,7 @@ from urdfsync.changes import Changes
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import record
 from urdfsync.dependencies.facts import Entry, Facts
+from urdfsync.dependencies.places import is_clone
 from urdfsync.dependencies.reads import Reads, depend_on
 from urdfsync.dependencies.record import FactList, Record
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -114,7 +115,7 @@ def remember_configuration(config: Config, reads: Reads) -> None:
     """Remember a configuration without warnings whose robots were all built: then a no-op build need not read it."""
     for robot in config.robots:
         is_plain = registry.is_own(robot.domain) and robot.output.is_relative_to(config.root)
-        if robot.on_build == "check" or not is_plain:
+        if (robot.on_build == "check" and not is_clone()) or not is_plain:
             return  # these builds do more than compare
     folder = config.root / STATE_FOLDER
     with reads:
@@ -133,9 +134,12 @@ def _lines(robot: RobotConfig) -> str:
 def _quick_commands(result: Result) -> str:
     """Return the commands that say no more than the summary, and how many findings there are; `-` for none."""
     findings = (each.severity is Severity.ERROR or each.file.endswith(".mo") for each in result.diagnostics)
-    if not result.in_step or any(findings) or any(action.reason not in _SILENT for action in result.actions):
+    if not result.in_step:
         return noop.NONE
-    return "build" if any(action.status is not FileStatus.IN_STEP for action in result.actions) else "build status"
+    if any(findings) or any(action.reason not in _SILENT for action in result.actions):
+        return noop.IN_STEP
+    is_edited = any(action.status is not FileStatus.IN_STEP for action in result.actions)
+    return f"{noop.IN_STEP} build" if is_edited else f"{noop.IN_STEP} build status"
 
 
 def still(findings: Sequence[Diagnostic]) -> str:

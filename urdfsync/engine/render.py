@@ -28,6 +28,8 @@ from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context, Macro
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
+from urdfsync.dependencies.places import named, place
+from urdfsync.dependencies.reads import walk_files
 from urdfsync.files import put
 from urdfsync.modelica import literals
 
@@ -216,6 +218,15 @@ def _mark_lines() -> type[Extension]:
     return MarkLines
 
 
+class _Loader(jinja2.FileSystemLoader):
+    """Reads templates, perhaps in a clone; their file names are those of the user's repository."""
+
+    def get_source(self, environment: jinja2.Environment, template: str) -> tuple[str, str, Callable[[], bool]]:
+        """Return the text of a template, its file, and a function that returns whether it is unchanged."""
+        text, file, is_unchanged = super().get_source(environment, template)
+        return text, named(file), is_unchanged
+
+
 class Renderer:
     """Renders templates from `folders`; a template hides templates of the same name in later folders.
 
@@ -227,11 +238,11 @@ class Renderer:
         self.folders = tuple(folders)
         self.sound = set[tuple[str, ...]]()
         """Texts that `generate` has checked, without literals and own names."""
-        own = [(folder, path) for folder in folders[:-1] for path in folder.rglob("*")]
+        own = [(folder, Path(path)) for folder in folders[:-1] for path in walk_files(folder)]
         self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
         kind = _Environment if is_trusted else _Sandbox
         self._environment = kind(
-            loader=jinja2.FileSystemLoader([str(folder) for folder in folders]),
+            loader=_Loader([place(folder) for folder in folders]),
             variable_start_string="<<",
             variable_end_string=">>",
             block_start_string="<%",

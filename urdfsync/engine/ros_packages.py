@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync.dependencies.reads import depend_on, file_type, is_file, is_folder, list_folder, note_names, read_file
+from urdfsync.dependencies.reads import is_file, is_folder, list_folder, read_file, scan_folder
 
 _NAME = rb"<name>\s*([^<\s]+)\s*</name>"
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
@@ -95,21 +95,19 @@ def is_visible_file(path: Path) -> bool:
 
 
 def _below(top: Path) -> Iterator[tuple[str, Path]]:
-    # depend on missing and unreadable folders, which may change
-    for current, folders, files in os.walk(top, onerror=lambda error: depend_on(error.filename)):
-        path = Path(current)
-        note_names(path, (*folders, *files))
-        for mark in _MARKS.intersection(folders):
-            file_type(path / mark)  # a link to a folder may lead to a file later: record that it is a folder
-        if _IGNORED.intersection(files):
-            folders.clear()
-        elif "package.xml" in files:
-            folders.clear()
-            if name := _package_name(path):
-                yield name, path
-        elif len(path.relative_to(top).parts) >= _DEPTH:
-            folders.clear()
-        folders[:] = sorted(folder for folder in folders if not folder.startswith("."))
+    waiting = [(top, 0)]
+    while waiting:
+        path, depth = waiting.pop()
+        try:
+            entries = {entry.name: entry for entry in scan_folder(path)}
+        except OSError:  # the folder is missing or unreadable now
+            continue
+        marks = {name for name in _MARKS.intersection(entries) if not is_folder(path / name)}
+        if "package.xml" in marks and marks.isdisjoint(_IGNORED) and (name := _package_name(path)):
+            yield name, path
+        if not marks and depth < _DEPTH:
+            below = (entry.name for entry in entries.values() if entry.is_dir(follow_symlinks=False))
+            waiting += [(path / name, depth + 1) for name in sorted(below, reverse=True) if not name.startswith(".")]
 
 
 def _package_name(folder: Path) -> str | None:

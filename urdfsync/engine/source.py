@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import os
 import re
 import stat
 from bisect import bisect_right
@@ -17,14 +16,15 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.config.trust import find_untrusted_command
-from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.dependencies.facts import PATH, facts_of, read_unrecorded
+from urdfsync.dependencies.places import real
 from urdfsync.dependencies.reads import (
     cannot_record,
     depend_on,
     file_type,
     is_file,
     is_folder,
-    note_names,
+    list_folder,
     read_file,
 )
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
@@ -355,22 +355,23 @@ def _check_templates(folder: Path) -> None:
 
     Raises ConfigError.
     """
-    for place, folders, files in os.walk(folder):
-        note_names(place, (*folders, *files))
-        for path in (Path(place, name) for name in (*folders, *files)):
-            file_type(path, follow=False)
-            if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
-                message = "the link leads out of the template folder"
-                hint = "replace it by a copy of its target"
-            elif path.is_file() and path.stat().st_size > MAX_TEMPLATE:
-                depend_on(path)
-                message = f"the file has more than {MAX_TEMPLATE:,} bytes, which is too large for a template"
-                hint = "move it out of the template folder"
-            elif path.exists() and not (path.is_file() or path.is_dir()):  # reading a FIFO might never end
-                message = f"this is {kind_of(path.stat().st_mode)}, not a template"
-                hint = "move it out of the template folder"
-            else:
-                continue
+    waiting = [folder]
+    for path in waiting:
+        kind, target, message = file_type(path, follow=False), file_type(path), ""
+        if kind == stat.S_IFDIR or path == folder:
+            with contextlib.suppress(OSError):  # an unreadable folder has no templates
+                waiting += map(path.joinpath, list_folder(path))
+        elif kind == stat.S_IFLNK and not Path(real(path)).is_relative_to(real(folder)):
+            message = "the link leads out of the template folder"
+            hint = "replace it by a copy of its target"
+        elif target == stat.S_IFREG and facts_of(PATH, path)[-3] > MAX_TEMPLATE:
+            depend_on(path)
+            message = f"the file has more than {MAX_TEMPLATE:,} bytes, which is too large for a template"
+            hint = "move it out of the template folder"
+        elif target not in (0, stat.S_IFREG, stat.S_IFDIR):  # reading a FIFO might never end
+            message = f"this is {kind_of(target)}, not a template"
+            hint = "move it out of the template folder"
+        if message:
             raise ConfigError.of("template", message, shown(path), hint=hint)
 
 

@@ -14,6 +14,7 @@ import msgspec
 
 from urdfsync import git
 from urdfsync.dependencies import reads
+from urdfsync.dependencies.places import named, real
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Reason
@@ -170,7 +171,7 @@ def find_sides(file: Path, text: str) -> Sides | None:
     """
     import pygit2
 
-    reads.cannot_record()  # a commit may change this result without changing a file
+    reads.depend_on_commits(git.find_top(file.parent))
     text = _plain(text)
     try:
         repository = Revision(file.parent, "HEAD").repository
@@ -191,8 +192,8 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
         return {}  # importing pygit2 takes 55 ms
     import pygit2
 
-    reads.cannot_record()  # a commit may change this result without changing a file
-    wanted = {os.path.relpath(os.path.realpath(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
+    reads.depend_on_commits(top)
+    wanted = {os.path.relpath(real(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
     found = dict[str, FileRecord]()
     try:
         for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():
@@ -211,7 +212,7 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
 
 def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:
     """Yield the versions in the index, if git reports a conflict in the file."""
-    folder = Path(os.path.realpath(file.parent)).relative_to(os.path.realpath(repository.workdir))
+    folder = Path(real(file.parent)).relative_to(named(os.path.realpath(repository.workdir)))
     path, label = (folder / file.name).as_posix(), re.search(r"(?m)^>{7,} ([^\s:]+)", text)
     for base, ours, theirs in repository.index.conflicts or ():
         entries = [entry for entry in (ours, theirs) if entry and entry.path == path]

@@ -1,15 +1,110 @@
-"""Decides by saved answers whether a commit passes: if there is no work, `urdfsync hook` imports no other module."""
+"""Decides by the records of dependencies whether a commit passes: then `urdfsync hook` imports few other modules."""
 
 from __future__ import annotations
 
 import os
 
 from urdfsync import git, noop
+from urdfsync.dependencies.places import Clone
+
+TYPE_CHECKING = False  # importing it from `typing` takes 2 ms
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+_CHECKSUM = 20
+"""The number of bytes at the end of an index that identify it, as a part of its checksum."""
+_END = "end of an export by urdfsync"
 
 
-def find_configurations(index: git.Index) -> set[str]:
-    """Return the tracked configurations, and untracked configurations on disk with tracked state."""
-    name, states = noop.CONFIGURATION, ".urdfsync/robots/"
-    configurations = {path for path in index.tracked if path.endswith(name) and path.rpartition("/")[2] == name}
-    of_states = {path.rpartition(states)[0] + name for path in index.tracked if states in path}
-    return configurations | {path for path in of_states if os.path.isfile(f"{index.top}/{path}")}
+class Export:
+    """What the hook's clone was exported from (see `git.clone`)."""
+
+    def __init__(
+        self,
+        index: str,
+        tree: str,
+        conversions: str,
+        configurations: Sequence[str],
+        lost: Sequence[str],
+        modules: Sequence[str],
+    ) -> None:
+        """`index` identifies the index; it is empty if a submodule was not at hand.
+
+        `conversions` is a hash of the settings and attributes by which git converts files. `lost` are the untracked
+        configurations of tracked states. `modules` are the submodules that a clone has. All paths are from the top.
+        """
+        self.index, self.tree, self.conversions = index, tree, conversions
+        self.configurations, self.lost, self.modules = configurations, lost, modules
+
+    @classmethod
+    def read(cls, file: str | os.PathLike[str]) -> Export | None:
+        """Return the last export; None if there is none, or if an export is under way or was killed."""
+        try:
+            with open(file, encoding="utf-8", errors="surrogateescape", newline="") as opened:
+                *texts, end = opened.read().split("\0\0")
+        except OSError:
+            return None
+        lists = ([path for path in text.split("\0") if path] for text in texts[3:])
+        return cls(*texts[:3], *lists) if len(texts) == 6 and end == _END else None
+
+    def write(self, file: str | os.PathLike[str]) -> None:
+        """Write the file of the last export."""
+        lists = self.configurations, self.lost, self.modules
+        texts = [self.index, self.tree, self.conversions, *map("\0".join, lists)]
+        with open(file, "w", encoding="utf-8", errors="surrogateescape", newline="") as opened:
+            opened.write("\0\0".join([*texts, _END]))
+
+
+def is_answered(arguments: list[str]) -> bool:
+    """Return whether a command is a hook, and the clone's records let the commit pass."""
+    if arguments not in (["hook", "build"], ["hook", "check"]):
+        return False
+    repository = git.Repository()
+    export = Export.read(record_place(repository))
+    is_merge = os.path.exists(f"{repository.folder}/MERGE_HEAD")  # other parents, perhaps without another index
+    if export is None or is_merge or export.index != identify(read_index(repository)):
+        return False
+    with Clone(repository.top, f"{repository.folder}/urdfsync/clone"):
+        files = (f"{repository.top}/{path}" for path in export.configurations)
+        if find_lost(repository, export) or not all(map(noop.is_in_step, files)):
+            return False
+    after = Export.read(record_place(repository))
+    return after is not None and after.index == export.index  # otherwise another hook changed the clone meanwhile
+
+
+def record_place(repository: git.Repository) -> str:
+    """Return the file of the last export."""
+    return f"{repository.folder}/urdfsync/exported"
+
+
+def read_index(repository: git.Repository) -> bytes:
+    """Return the content of the index; empty if nothing was ever added."""
+    try:
+        with open(repository.index, "rb") as file:
+            return file.read()
+    except FileNotFoundError:
+        return b""
+
+
+def identify(index: bytes) -> str:
+    """Return a text that identifies the content of an index."""
+    checksum = index[-_CHECKSUM:]
+    if not any(checksum):  # a setting of git's lets it write no checksum
+        from hashlib import sha256  # takes 3 ms
+
+        checksum = sha256(index).digest()
+    return f"{len(index)} {checksum.hex()}"
+
+
+def find_configurations(files: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Return the configurations among the files of a commit, and those that are missing beside recorded states."""
+    name, states = noop.CONFIGURATION, "/.urdfsync/robots/"
+    files = [f"/{path}" for path in files]
+    found = {path[1:] for path in files if path.rpartition("/")[2] == name}
+    of_states = {f"{path.rpartition(states)[0]}/{name}"[1:] for path in files if states in path}
+    return sorted(found), sorted(of_states - found)
+
+
+def find_lost(repository: git.Repository, export: Export) -> list[str]:
+    """Return the configurations on disk that the commit lacks, although it has their states."""
+    return [path for path in export.lost if os.path.isfile(f"{repository.top}/{path}")]

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.dependencies.places import named, place, real
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Dependency
 from urdfsync.files import digest, shown
@@ -38,7 +39,7 @@ def open_repository(folder: Path) -> pygit2.Repository | None:
     try:
         # libgit2's discover_repository may find a bare repository that a stranger has committed as files
         flags = pygit2.enums.RepositoryOpenFlag.NO_SEARCH | pygit2.enums.RepositoryOpenFlag.NO_DOTGIT
-        repository = pygit2.Repository(Path(top, ".git"), flags)
+        repository = pygit2.Repository(place(Path(top, ".git")), flags)
     except pygit2.GitError as problem:  # for example, it belongs to another user
         message, hint = f"the repository can't be read: {problem}", "repair it, or use --against ./FILE"
         raise SourceError.of("git", message, shown(Path(top)), hint=hint) from None
@@ -59,7 +60,7 @@ class Revision:
             message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
             raise SourceError.of("no-repository", message, hint=_HINT)
         self.repository = repository
-        self._top = Path(os.path.realpath(repository.workdir))
+        self._top = Path(named(os.path.realpath(repository.workdir)))
         try:
             self._tree = repository.revparse_single(name).peel(pygit2.Commit).tree
         except (pygit2.GitError, KeyError, ValueError):
@@ -81,11 +82,11 @@ class Revision:
 
     def holds(self, file: Path) -> bool:
         """Return whether a revision of this repository can have a file at this path; False inside of a submodule."""
-        place = Path(os.path.realpath(file))
-        if self._top not in place.parents:
+        path = Path(real(file))
+        if self._top not in path.parents:
             return False
-        inside = itertools.takewhile(lambda folder: folder != self._top, place.parents)
-        return not any((folder / ".git").exists() for folder in inside)
+        inside = itertools.takewhile(lambda folder: folder != self._top, path.parents)
+        return not any(Path(place(folder / ".git")).exists() for folder in inside)
 
     def contents(self, files: Sequence[Path]) -> Mapping[Path, bytes]:
         """Return the contents of those files that this revision has.
@@ -96,7 +97,7 @@ class Revision:
 
         contents = {}
         for file in filter(self.holds, files):
-            path = Path(os.path.realpath(file)).relative_to(self._top).as_posix()
+            path = Path(real(file)).relative_to(self._top).as_posix()
             try:
                 entry = self._tree[path]
             except KeyError:

@@ -6,11 +6,12 @@ from pathlib import Path
 
 from urdfsync import git
 from urdfsync.dependencies import reads
+from urdfsync.dependencies.places import is_clone, place
 
 
 def find_unmerged(folder: Path) -> set[str]:
     """Return the real paths of the unmerged files in the repository around a folder; none without a repository."""
-    if (top := git.find_top(folder)) is None:
+    if (top := git.find_top(folder)) is None or is_clone():  # a commit has no unmerged files
         return set()
     paths = reads.find_unmerged(find_git_folder(top) / "index")
     if paths:
@@ -20,7 +21,7 @@ def find_unmerged(folder: Path) -> set[str]:
 
 def find_git_folder(top: str) -> Path:
     """Return the folder of the index and of references such as HEAD; of a `git worktree`, it is elsewhere."""
-    folder = Path(top, ".git")
+    folder = Path(place(f"{top}/.git"))
     if folder.is_file():
         return Path(top, folder.read_text(errors="replace").removeprefix("gitdir: ").strip())
     return folder

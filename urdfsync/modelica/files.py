@@ -59,10 +59,11 @@ def modelica_files(
             if entry.name.startswith(".") or entry.name == NOT_CLASSES:
                 continue
             with contextlib.suppress(OSError):  # some file systems list no types
+                path = os.path.join(current, entry.name)  # noqa: PTH118 - strings: there are thousands
                 if entry.is_dir(follow_symlinks=False):
-                    waiting += [entry.path] if entry.path not in left_out else []
+                    waiting += [path] if path not in left_out else []
                 elif entry.name.endswith(".mo") and entry.is_file(follow_symlinks=False):
-                    yield entry.path
+                    yield path
 
 
 def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:

@@ -11,6 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.dependencies import localfile
+from urdfsync.dependencies.places import is_clone
 from urdfsync.dependencies.reads import depend_on, note_content
 
 
@@ -54,9 +55,12 @@ def load(state_folder: Path, robot: str) -> Notes:
     content = localfile.read_whole(file) or b""
     note_content(file, content)
     try:
-        return msgspec.json.decode(content.partition(b"\n")[2], type=Notes)
+        notes = msgspec.json.decode(content.partition(b"\n")[2], type=Notes)
     except (ValueError, RecursionError):
         return Notes()
+    if is_clone():  # of this machine's work, a clone may skip conversions, but it has no history
+        return Notes(program=notes.program, texts=notes.texts, imports=notes.imports, expansion=notes.expansion)
+    return notes
 
 
 def save(state_folder: Path, robot: str, notes: Notes) -> None:
@@ -64,7 +68,7 @@ def save(state_folder: Path, robot: str, notes: Notes) -> None:
 
     If writing fails, the next build repeats the work.
     """
-    if state_folder.is_dir():
+    if state_folder.is_dir() and not is_clone():
         localfile.replace(str(place(state_folder, robot)), msgspec.json.encode(notes, order="sorted"))
 
 

@@ -1,0 +1,235 @@
+"""Exports git's index to a clone for the hook: a fresh clone of the next commit would have the same files.
+
+The clone is in `urdfsync/` in the folder of the repository, or of its working tree; nobody else uses it. It is a
+repository of its own that borrows the objects of the user's repository. So git itself does what it does in each clone:
+links, modes, filters, line ends. The settings and attributes of the user's own clone do not count there. Git rewrites
+only the files that differ from the last export. The user's index and objects are never written.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.dependencies.places import Clone
+from urdfsync.dependencies.reads import PARENTS
+from urdfsync.diagnostics import SourceError
+from urdfsync.files import digest
+from urdfsync.git import GitError, Repository, hook, list_paths, run
+from urdfsync.git.hook import Export
+from urdfsync.state.lock import Lock
+
+_SUBMODULE = "160000"
+_MOST_OBJECTS = 20
+"""A clone with more objects in one of 256 folders is made anew: each export adds some, and git never deletes them."""
+
+
+class Commit(msgspec.Struct, frozen=True):
+    """The next commit of a repository, as a clone."""
+
+    repository: Repository
+    clone: Clone
+    export: Export
+    files: frozenset[str]
+    """All files, links and submodules of the commit. All paths are from the top."""
+    changed: Mapping[str, bool] | None
+    """The files, links and submodules that the commit changes, and whether each is new or deleted. A folder counts if
+    its first file is new, or its last file is deleted. None without a former commit."""
+
+
+@contextlib.contextmanager
+def export(repository: Repository, wait: float) -> Iterator[Commit]:
+    """Export the index, and keep other hooks from the clone during a `with` block.
+
+    Raises GitError, LockedError after `wait` seconds, and SourceError while files are unmerged.
+    """
+    folder = Path(repository.folder, "urdfsync")
+    with Lock(folder / "lock", wait) as lock:
+        lock.acquire()
+        yield _export(repository, folder)
+
+
+def _export(repository: Repository, folder: Path) -> Commit:
+    record, clone, index = hook.record_place(repository), str(folder / "clone"), folder / "index"
+    former = Export.read(record)
+    Path(record).unlink(missing_ok=True)  # if this process is killed, the next hook begins anew
+    if former is None or len(_names(f"{clone}/.git/objects/17")) > _MOST_OBJECTS:
+        former = None
+        _remove(clone)
+    _prepare(clone, repository.objects)
+    content = hook.read_index(repository)
+    index.write_bytes(content) if content else index.unlink(missing_ok=True)
+    tree = _write_tree(clone, index)
+    entries = _list(clone, tree)
+    modules, names = _find_submodules(clone, tree, entries), [path for path, _, _ in entries]
+    attributes = repr([entry for entry in entries if entry[0].rpartition("/")[2] == ".gitattributes"])
+    settings = run("config", "--list", clone=clone)
+    conversions = digest(f"{attributes}{settings}".encode(errors="surrogateescape"))
+    if former and (former.conversions != conversions or set(former.modules) != modules.keys()):
+        former = None  # git would rewrite only files with another content
+        for name in _names(clone):
+            _remove(f"{clone}/{name if name != '.git' else '.git/index'}")
+    if former is None or former.tree != tree:
+        run("read-tree", "-u", "--reset", tree, clone=clone)
+    parents = [parent for name in ("HEAD", "MERGE_HEAD") for parent in _find_commits(repository, name)]
+    _set_head(clone, tree, parents)
+    around = _repositories(repository.folder)
+    are_exported = [
+        _export_submodule(f"{clone}/{path}", commit, [_inside(repository.top, path), *_modules(around, name)])
+        for path, (commit, name) in modules.items()
+    ]
+    identity = hook.identify(content) if all(are_exported) else ""
+    export = Export(identity, tree, conversions, *hook.find_configurations(names), tuple(modules))
+    export.write(record)
+    changed = dict(_changes(clone, parents[0], tree)) if parents else None
+    return Commit(repository, Clone(repository.top, clone), export, frozenset(names), changed)
+
+
+def _write_tree(clone: str, index: Path) -> str:
+    """Write the tree of an index, a copy of the user's, to the objects of the clone. Raises GitError, SourceError."""
+    try:
+        return run("write-tree", GIT_OBJECT_DIRECTORY=f"{clone}/.git/objects", GIT_INDEX_FILE=str(index)).strip()
+    except GitError:
+        for entry in list_paths("ls-files", "--unmerged", "--", ":/"):
+            message, hint = "the file is not merged yet, so there is nothing to commit", "resolve it and `git add` it"
+            raise SourceError.of("unmerged", message, entry.partition("\t")[2], hint=hint) from None
+        raise
+
+
+def _prepare(clone: str, objects: str) -> None:
+    """Make the repository of a clone, unless it exists, and let it borrow objects from a folder."""
+    if not Path(clone, ".git").is_dir():
+        Path(clone).mkdir(parents=True, exist_ok=True)
+        kind = run("rev-parse", "--show-object-format").strip()
+        run("init", "-q", "--template=", f"--object-format={kind}", clone=clone)
+    Path(clone, ".git/index.lock").unlink(missing_ok=True)  # git was killed
+    borrowed = Path(clone, ".git/objects/info/alternates")
+    borrowed.parent.mkdir(exist_ok=True)
+    # relative, so that the user can move the repository
+    borrowed.write_text(f"{os.path.relpath(objects, f'{clone}/.git/objects')}\n", errors="surrogateescape")
+
+
+def _set_head(clone: str, tree: str, parents: Sequence[str]) -> None:
+    """Let HEAD of the clone be a commit of this tree: a build looks for edits in the commits that were merged."""
+    person = {f"GIT_{role}_{key}": "urdfsync" for role in ("AUTHOR", "COMMITTER") for key in ("NAME", "EMAIL")}
+    dates = {f"GIT_{role}_DATE": "@0 +0000" for role in ("AUTHOR", "COMMITTER")}
+    after = [word for parent in parents for word in ("-p", parent)]
+    commit = run("commit-tree", "-m", "next", *after, tree, clone=clone, **person, **dates)
+    Path(clone, ".git/HEAD").write_text(commit)
+    file, text = Path(clone, ".git", PARENTS), "\n".join(parents)
+    if not file.is_file() or file.read_text() != text:
+        file.write_text(text)
+
+
+def _find_commits(repository: Repository, name: str) -> list[str]:
+    """Return the commits that HEAD or MERGE_HEAD names; none if there is no such commit."""
+    if name != "HEAD":
+        file = Path(repository.folder, name)
+        return file.read_text().split() if file.is_file() else []
+    try:
+        return [run("rev-parse", "-q", "--verify", "HEAD").strip()]
+    except GitError:  # there is no commit yet
+        return []
+
+
+def _list(clone: str, tree: str) -> list[tuple[str, str, str]]:
+    """Return path, mode and hash of all files, links and submodules in a tree."""
+    lines = (line.partition("\t") for line in list_paths("ls-tree", "-r", "--full-tree", tree, clone=clone))
+    return [(path, facts.split()[0], facts.split()[2]) for facts, _, path in lines]
+
+
+def _changes(clone: str, commit: str, tree: str) -> Iterator[tuple[str, bool]]:
+    """Yield the paths that differ in two trees, as in `Commit.changed`."""
+    lines = list_paths("diff-tree", "-r", "-t", "--raw", "--no-renames", f"{commit}^{{tree}}", tree, clone=clone)
+    for facts, path in zip(lines[::2], lines[1::2], strict=True):
+        modes = {facts[1:7], facts[8:14]}
+        if modes != {"040000"}:
+            yield path, len(modes) > 1
+
+
+def _find_submodules(clone: str, tree: str, entries: Iterable[tuple[str, str, str]]) -> dict[str, tuple[str, str]]:
+    """Return commit and name of each submodule that a clone would have, by path.
+
+    A repository without an entry in `.gitmodules` is an empty folder in clones.
+    """
+    commits = {path: sha for path, mode, sha in entries if mode == _SUBMODULE}
+    if not commits:
+        return {}
+    try:
+        lines = list_paths("config", "--list", "--blob", f"{tree}:.gitmodules", clone=clone)
+    except GitError:  # there is no such file, or it is damaged
+        return {}
+    settings = dict(line.split("\n", 1) for line in lines if "\n" in line)
+    names = {path: key[10:-5] for key, path in settings.items() if key.startswith("submodule.") and key[-5:] == ".path"}
+    return {
+        path: (sha, names[path])
+        for path, sha in commits.items()
+        if path in names and settings.get(f"submodule.{names[path]}.update") != "none"
+    }
+
+
+def _repositories(folder: str) -> list[str]:
+    """Return the folder of a repository; for a working tree of `git worktree` also that of the whole repository."""
+    common = Path(folder, "commondir")
+    return [folder, *([str(Path(folder, common.read_text().strip()))] if common.is_file() else [])]
+
+
+def _modules(repositories: Iterable[str], name: str) -> list[str]:
+    """Return the folders where git keeps the repository of a submodule."""
+    return [f"{folder}/modules/{name}" for folder in repositories]
+
+
+def _inside(top: str, path: str) -> str:
+    """Return the folder of the repository of a submodule with a working tree."""
+    at = Path(top, path, ".git")
+    try:
+        return str(at.parent / at.read_text(errors="surrogateescape").removeprefix("gitdir:").strip())
+    except OSError:  # it is the folder itself, or it is missing
+        return str(at)
+
+
+def _export_submodule(clone: str, commit: str, folders: Iterable[str]) -> bool:
+    """Export a commit of a submodule from the first of these repositories that has it; return whether one has it.
+
+    Otherwise the folder is empty, as in a clone without its submodules.
+    """
+    head = Path(clone, ".git/HEAD")
+    if head.is_file() and head.read_text().strip() == commit:
+        return True
+    _remove(clone)
+    Path(clone).mkdir()
+    for folder in filter(os.path.isdir, folders):
+        with contextlib.suppress(GitError):
+            words = "rev-parse", "--git-path", "objects", f"{commit}^{{commit}}"
+            objects = run(*words, clone=clone, GIT_DIR=folder).split("\n")[0]
+            break
+    else:
+        return False
+    _prepare(clone, os.path.realpath(objects))
+    run("read-tree", "-u", "--reset", commit, clone=clone)
+    inner, around = _find_submodules(clone, commit, _list(clone, commit)), _repositories(folder)
+    are_exported = [
+        _export_submodule(f"{clone}/{path}", sha, _modules(around, name)) for path, (sha, name) in inner.items()
+    ]
+    if all(are_exported):
+        head.write_text(f"{commit}\n")  # at last: otherwise the next hook exports it again
+    return all(are_exported)
+
+
+def _remove(path: str) -> None:
+    """Remove a file, or a folder with all that is in it, if it exists."""
+    place = Path(path)
+    if place.is_dir() and not place.is_symlink():
+        shutil.rmtree(place)
+    else:
+        place.unlink(missing_ok=True)
+
+
+def _names(folder: str) -> list[str]:
+    """Return the names in a folder; none if it is missing."""
+    return [path.name for path in Path(folder).iterdir()] if Path(folder).is_dir() else []
