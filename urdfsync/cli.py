@@ -11,11 +11,10 @@ import threading
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, get_args
 
-from urdfsync import overview
+from urdfsync import overview, streams
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.result import Exit
-from urdfsync.output import streams
 from urdfsync.output.console import Console, Format
 from urdfsync.spelling import nearest
 

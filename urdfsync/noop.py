@@ -11,9 +11,9 @@ from __future__ import annotations
 import os
 import sys
 
+from urdfsync import streams
 from urdfsync.dependencies import record
 from urdfsync.dependencies.record import FactList, Record
-from urdfsync.output import streams
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 25 ms
 if TYPE_CHECKING:

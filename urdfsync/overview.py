@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from urdfsync import __version__
-from urdfsync.output import streams
+from urdfsync import __version__, streams
 from urdfsync.shells import completion
 
 CODES = (

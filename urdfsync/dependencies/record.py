@@ -107,7 +107,9 @@ class FactList:
         if not text:
             return cls()
         words = text.split("\0")
-        return cls(list(zip(words[::4], words[1::4], strict=True)), list(map(int, words[2::4])), words[3::4])
+        rows = list(zip(words[::4], words[1::4], words[2::4], words[3::4], strict=True))
+        facts, hashes = [int(facts) for _, _, facts, _ in rows], [sha256 for *_, sha256 in rows]
+        return cls([(kind, path) for kind, path, _, _ in rows], facts, hashes)
 
 
 class Record:
