@@ -20,6 +20,7 @@ from support.replay import contents
 from support.urdfs import joint, limit, link, robot
 
 from urdfsync import config
+from urdfsync.dependencies import localfile
 from urdfsync.domain import Import
 from urdfsync.engine.actions import FileStatus, Reason
 from urdfsync.engine.build import build
@@ -276,6 +277,6 @@ def test_a_recorded_exchange_of_names_moves_no_edit(
 def rebind(folder: Path) -> None:
     """Make copied notes count as written in their present place."""
     for file in (folder / ".urdfsync/notes").iterdir():
-        text, status = msgspec.json.decode(file.read_bytes()), file.stat()
-        file.write_bytes(msgspec.json.encode({**text, "inode": status.st_ino, "written_at": status.st_mtime_ns}))
-        os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
+        content = file.read_bytes().partition(b"\n")[2]
+        file.unlink()
+        localfile.write(file, content)

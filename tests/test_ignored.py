@@ -25,6 +25,7 @@ UNRELATED = {
     "no-attribute",
     "no-conflict",
     "not-watched",
+    "unmerged",
 }
 """Codes of warnings about commands, not about a configuration."""
 WORDS = "no node is called `ground`"

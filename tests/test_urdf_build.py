@@ -74,7 +74,7 @@ def test_a_link_that_goes_with_its_frame_stops_the_build_too(cart: Path) -> None
 
 def test_the_new_name_of_a_class_has_a_capital_although_that_of_its_element_has_none(cart: Path) -> None:
     run(cart)
-    (cart / "modelica/Cart/Bench.mo").write_text("within Cart;\nmodel Bench\n  Joints.Caster caster;\nend Bench;\n")
+    (cart / "Bench.mo").write_text("model Bench\n  Cart.Joints.Caster caster;\nend Bench;\n")
     (cart / "cart.urdf").write_text(CART.replace('"caster"', '"swivel"'))
     (found,) = (found for found in run(cart).diagnostics if found.code == "unresolved")
-    assert (found.hint, found.line) == ("use `Swivel` instead", 3)
+    assert (found.hint, found.line) == ("use `Swivel` instead", 2)

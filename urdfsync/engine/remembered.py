@@ -6,7 +6,7 @@ Builds, dry runs, `status`, `diff`, the hooks and the daemon ask `recall` before
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -55,15 +55,24 @@ class Keys:
         """Return the robot's key; empty if the options ask for a new plan. Raises ConfigError for a broken domain."""
         if not self._is_plain:
             return ""
-        own = msgspec.json.encode(msgspec.structs.replace(robot, lines={}), enc_hook=_plain, order="sorted")
+        own = _plain(msgspec.structs.replace(robot, lines={}))
         others = [entry for entry in self._folders if entry[0] != robot.name]
         code = "" if registry.is_own(robot.domain) else registry.program(robot.domain)
-        shared = f"{self._shared}{others}{code}".encode(errors="surrogateescape")
-        return digest(own + b"\0" + shared)
+        return digest(f"{own}{others}{self._shared}{code}".encode(errors="surrogateescape"))
 
 
-def _plain(value: Any) -> Any:
-    return sorted(value) if isinstance(value, frozenset) else str(value)
+def _plain(value: Any) -> str:
+    """Return a text of a value of the configuration, the same in each process; names of files may not be UTF-8."""
+    match value:
+        case msgspec.Struct():
+            return repr([_plain(getattr(value, name)) for name in value.__struct_fields__])
+        case Mapping():
+            return repr([(key, _plain(item)) for key, item in value.items()])
+        case frozenset():
+            return repr(sorted(map(_plain, value)))
+        case list() | tuple():
+            return repr(list(map(_plain, value)))
+    return repr(value)
 
 
 def recall(
@@ -108,7 +117,11 @@ def remember(config: Config, robot: RobotConfig, key: str, reads: Reads, result:
     facts, folder = FactList.of(reads), str(config.root / STATE_FOLDER)
     findings = robot.without_ignored(result.diagnostics)
     words = [result.summary, _quick_commands(result), still(findings) or noop.NONE, *map(finding_key, findings)]
-    Record(key, facts, words, msgspec.msgpack.encode(stored)).save(folder, f"{robot.name}{noop.ROBOT}")
+    try:
+        content = msgspec.msgpack.encode(stored)
+    except UnicodeEncodeError:  # a file's name is not UTF-8
+        return
+    Record(key, facts, words, content).save(folder, f"{robot.name}{noop.ROBOT}")
 
 
 def remember_configuration(config: Config, reads: Reads) -> None:

@@ -72,6 +72,8 @@ def with_unshown(
     change of its owner. A file whose owner has no change, such as the robot model, may show any change. So may any file
     show a change of an element without a file.
     """
+    if news.renames:  # no text shows which of two parts that look alike is which, but edits follow them
+        return news
     elements = set(news.by_element())
     is_whole = any(owner not in elements or " " not in owner for owner in changed - {IMPORTS})
 
