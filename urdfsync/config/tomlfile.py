@@ -90,7 +90,9 @@ def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
     for line in text.split("\n"):
         keys: tuple[str, ...] = ()
         if match := _LINE.match(line):
-            with contextlib.suppress(tomli.TOMLDecodeError, RecursionError):  # a line of a long string may look like a key
+            with contextlib.suppress(
+                tomli.TOMLDecodeError, RecursionError
+            ):  # a line of a long string may look like a key
                 keys = tuple(_parts(match[2]))
         opens = bool(match and match[1] and keys)
         yield opens, keys if opens else header + keys

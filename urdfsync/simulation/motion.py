@@ -8,7 +8,6 @@ from __future__ import annotations
 import csv
 import io
 import math
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -19,7 +18,7 @@ from urdfsync.answers.facts import read_unrecorded
 from urdfsync.diagnostics import SourceError
 from urdfsync.files import shown
 from urdfsync.simulation.models import Input
-from urdfsync.spelling import nearest
+from urdfsync.spelling import name_and_unit, nearest
 
 MOST_ROWS = 10_000
 
@@ -34,7 +33,6 @@ _UNITS = {
 }
 """The possible units of a column, with their factors, by the unit of the input."""
 _SMOOTH = ("rad", "m", "rad/s", "m/s")
-_HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s*")
 
 
 class Motion(msgspec.Struct, frozen=True):
@@ -112,8 +110,9 @@ def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Inpu
     factors: dict[str, float] = {}
     units = {"time": "s", **{signal.name: signal.unit for signal in inputs}}
     for cell in header:
-        match = _HEADER.fullmatch(cell)
-        name, unit = (match["name"], match["unit"]) if match else (cell, None)
+        name, unit = name_and_unit(cell)
+        if not unit or unit[0].isdigit():  # `q[1]` is an item of an input
+            name, unit = cell.strip(), ""
         if not factors and name != "time":
             _refuse(file, f"the first column is `{name}`, not `time`", line, "separate columns by commas, `time` first")
         if name not in units:
@@ -123,10 +122,10 @@ def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Inpu
         if name in factors:
             _refuse(file, f"the column `{name}` is there twice", line)
         possible = _UNITS.get(units[name], {units[name]: 1.0})
-        if unit is not None and unit not in possible:
+        if unit and unit not in possible:
             hint = f"give it in {' or '.join(filter(None, possible))}"
             _refuse(file, f"`{name}` can't be given in {unit}", line, hint)
-        factors[name] = possible[unit] if unit is not None else 1.0
+        factors[name] = possible[unit] if unit else 1.0
     if missing := [name for name in units if name not in factors]:
         _refuse(file, f"columns are missing: {', '.join(missing)}", line)
     return factors

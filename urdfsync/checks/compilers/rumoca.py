@@ -50,7 +50,9 @@ _SPAN = re.compile(r" @ Span \{[^{}]*\}")
 _SHADOW = "variability violation: "
 """If a model has any error, rumoca 0.10.2 also reports this error about models of the Modelica Standard Library."""
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
-_FRAMED = re.compile(r"^[ \t]*×(?P<words>(?:[^╭\n]|\n(?![ \t]*×))*+)╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]", re.MULTILINE)
+_FRAMED = re.compile(
+    r"^[ \t]*×(?P<words>(?:[^╭\n]|\n(?![ \t]*×))*+)╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]", re.MULTILINE
+)
 _PIECES = re.compile(r"\n|; (?=\S)")
 _PREFIXES = re.compile(
     r"^(?:- <[^>]*> \[\w+\]: |\w+ failed: |[\w.]+ failed in \w+: |[\w.]+ could not be compiled: |Failed to [^:]*: )+"
