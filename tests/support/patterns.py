@@ -16,7 +16,7 @@ from pathlib import Path
 from re import _constants as c, _parser
 
 METHODS = ("match", "fullmatch", "search", "sub", "subn", "finditer", "findall", "split")
-PACKAGE = Path(__file__).parents[1] / "urdfsync"
+PACKAGE = Path(__file__).parents[2] / "urdfsync"
 
 
 class Word(str):
