@@ -26,6 +26,6 @@ def test_nearly_every_pattern_is_reached() -> None:
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no limit of CPU time")
 def test_no_pattern_takes_a_second_for_200_kb() -> None:
     """A signal ends the process after a second of its own CPU time, a twentieth of what a quadratic pattern takes."""
-    program = [sys.executable, patterns.__file__, "0"]
-    done = subprocess.run(program, cwd=patterns.PACKAGE.parent, capture_output=True, text=True, check=False)
+    program = [sys.executable, "-m", "support.patterns", "0"]
+    done = subprocess.run(program, cwd=Path(__file__).parent, capture_output=True, text=True, check=False)
     assert done.stdout.rsplit("\n", 2)[-2:] == ["done", ""], done.stdout.rsplit("\n", 2)[-2] + done.stderr
