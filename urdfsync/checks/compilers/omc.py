@@ -157,7 +157,7 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
         given = [next(answers) for _ in some]
         result = CompileResult(problem) if problem else _result(task, given, folder)
         # the task's own text is no file of the user's
-        own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^\]]*\] ")
+        own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^][]*\] ")
         result = msgspec.structs.replace(result, problem=own.sub("", result.problem))
         yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
 
