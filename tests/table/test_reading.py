@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import io
+import json
 import zipfile
 from collections.abc import Callable
 from typing import Any
@@ -262,8 +263,102 @@ def test_elements_under_keys_may_have_a_column_name() -> None:
     assert table("[M1]\nname = 'Motor one'\n", "a.toml").elements == {"M1": {"name": "Motor one"}}
 
 
-def test_a_workbook_that_unpacks_to_gigabytes_is_refused() -> None:
+def test_a_large_workbook_is_refused() -> None:
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("xl/workbook.xml", b"0" * 200_000_001)
-    assert "more than 200,000,000 bytes" in str(reading(content.getvalue(), "a.xlsx").diagnostics[0])
+        archive.writestr("xl/workbook.xml", b"0" * 20_000_001)
+    assert "more than 20,000,000 bytes" in str(reading(content.getvalue(), "a.xlsx").diagnostics[0])
+
+
+# --- small files that would take long ---------------------------------------------------------------------------------
+
+
+def replaced(content: bytes, old: str, new: str) -> bytes:
+    """A workbook with another text in its first sheet; openpyxl can't write each workbook that it reads."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    files["xl/worksheets/sheet1.xml"] = files["xl/worksheets/sheet1.xml"].replace(old.encode(), new.encode())
+    changed = io.BytesIO()
+    with zipfile.ZipFile(changed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, text in files.items():
+            archive.writestr(name, text)
+    return changed.getvalue()
+
+
+PARTS = rows(["name", "mass [kg]"], ["a", 1])
+LAST = '<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>'
+
+
+def test_of_a_workbook_only_cells_that_exist_are_read() -> None:
+    """A cell in the last corner made openpyxl fill 17 billion cells, a merged range or a link of the sheet as well."""
+    found = reading(replaced(PARTS, "</sheetData>", LAST), "a.xlsx").diagnostics
+    assert [str(each).partition(";")[0] for each in found] == [
+        "a.xlsx:1048576: error: the row has 16384 cells, but the header has 2"
+    ]
+    merged = replaced(PARTS, "</sheetData>", '</sheetData><mergeCells><mergeCell ref="A1:XFD1048576"/></mergeCells>')
+    assert "has merged cells: A1:XFD1048576" in str(reading(merged, "a.xlsx").diagnostics[0])
+    linked = '</sheetData><hyperlinks><hyperlink ref="A1:XFD1048576" location="A1"/></hyperlinks>'
+    for harmless in (linked, "</sheetData>"):
+        same = replaced(replaced(PARTS, "A1:B2", "A1:XFD1048576"), "</sheetData>", harmless)
+        assert table(same, "a.xlsx").elements == {"a": {"mass": 1.0}}
+
+
+@pytest.mark.parametrize(
+    ("content", "file"),
+    [
+        (replaced(PARTS, "</sheetData>", '<row r="99999999999"><c><v>1</v></c></row></sheetData>'), "a.xlsx"),
+        (
+            replaced(
+                PARTS,
+                "</sheetData>",
+                "".join(f'<row r="{r}"><c r="XFD{r}"/></row>' for r in range(3, 400)) + "</sheetData>",
+            ),
+            "a.xlsx",
+        ),
+        (json.dumps([{f"column{number}": "a"} for number in range(3000)]), "a.json"),
+    ],
+    ids=["a row far outside", "wide rows", "a column for each element"],
+)
+def test_a_table_has_a_greatest_number_of_cells(content: bytes | str, file: str) -> None:
+    assert "more than 5,000,000 cells" in str(reading(content, file).diagnostics[0])
+
+
+def test_the_places_of_escaped_names_are_not_searched_for_ever() -> None:
+    """Names with escaped letters are not found as written; the lines of later entries are those of entries before."""
+    names = [f"Stück {number}" for number in range(60_000)]
+    found = reading(json.dumps({name: {"m [kg]": 1} for name in names}, indent=0), "a.json")
+    assert isinstance(found.snapshot, Table)
+    assert len(found.snapshot.elements) == 60_000
+
+
+def test_many_equal_connections_are_numbered_at_once() -> None:
+    found = table((HEADER + "a,1\n").encode() + MARK + b"from,to\n" + 20_000 * b"a,a\n")
+    assert [*found.connections][-1] == "a a 9999"
+    assert len(found.connections) == 20_000
+
+
+@pytest.mark.parametrize(("header", "words"), [
+    ("mass [" + " " * 6_000 + "x", "has numbers but no unit"),
+    ("mass" + " " * 120_000 + "[kg", "has numbers but no unit"),
+    ("mass [" + "k" * 110_000 + "]", "is no unit"),
+    ("mass [" + "kg." * 40_000 + "]", "is no unit"),
+])  # fmt: skip
+def test_a_header_that_is_no_name_and_unit_takes_no_time(header: str, words: str) -> None:
+    (found,) = reading(f"name,{header}\na,1\n").diagnostics
+    assert words in found.message
+
+
+def test_only_the_first_unknown_names_get_hints() -> None:
+    links = "".join(f"part{number},parts{number}x\n" for number in range(3000))
+    parts = "".join(f"part{number},1\n" for number in range(3000))
+    found = reading((HEADER + parts).encode() + MARK + b"from,to\n" + links.encode()).diagnostics
+    assert len(found) == 3000
+    assert sum("did you mean" in finding.hint for finding in found) == 20
+
+
+def test_a_pump_curve_that_rises_is_an_error_of_the_source() -> None:
+    """Such a curve has no coefficients, since its head has to fall as the flow rises."""
+    pytest.importorskip("wntr", reason="wntr is not installed")
+    network = "[RESERVOIRS]\na 1\n[JUNCTIONS]\nb 0 1\n[PUMPS]\np a b HEAD c\n[CURVES]\n{}[OPTIONS]\nUnits LPS\n[END]\n"
+    (found,) = reading(network.format("c 1500 250\nc 0 100\nc 3000 400\n"), "town.inp").diagnostics
+    assert "the curve of pump `p` is no head that falls with the flow" in found.message

@@ -52,7 +52,7 @@ _USERS = "users"
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
 _SAME_TIME = 1e-7  # s
-_BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
+_BALANCE = re.compile(r"(?<![\d,])([\d,]++) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 
 _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
 """The texts of a version of the package, and the tasks for this version."""

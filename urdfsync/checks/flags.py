@@ -9,8 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+_INSIDE = r"(?:[^;\n]|\n(?!  assert\())"
 _ASSERTION = re.compile(
-    r"^  assert\((?P<condition>[^;]*?),\s+(?P<message>getInstanceName\(\)[^;]*), AssertionLevel\.warning\);",
+    rf"^  assert\((?P<condition>(?:(?!,\s+getInstanceName\(\)){_INSIDE})*+),\s+"
+    rf"(?P<message>getInstanceName\(\){_INSIDE}*?), AssertionLevel\.warning\);",
     re.MULTILINE,
 )
 """An assertion that only warns, in the layout of generated files; it must not be inside of another equation."""

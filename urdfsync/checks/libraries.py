@@ -27,8 +27,8 @@ NEXT: Version = (5,)  # newer versions are untested, and used only without an ol
 
 _COPY_REVISION = 7  # raise this number when libraries are taken apart in another way
 
-_ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
-_NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
+_ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()[^\S\n]*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
+_NOISE = re.compile(rb'"(?:\\.|[^"\\])*+(?:"|\\?\Z)|//[^\n]*+|/\*.*?(?:\*/|\Z)', re.DOTALL)
 _LIBRARY_NAME = re.compile(rb"\bimport\s+(?:\w+\s*=\s*)?\.?(\w+)|(?<![\w.\])'])\.?\b(\w+)\s*\.")
 _HINT = (
     "name the folder that holds `Modelica`, `ModelicaServices` and `Complex`, 4.1.0 or newer, with `library` in the "

@@ -16,9 +16,10 @@ import msgspec
 
 from urdfsync.modelica.tree import LAYOUT
 
-_STRING = r'"(?:\\.|[^"\\])*"'
-_REMARK = r"//[^\n]*|/\*.*?\*/"
-_QUOTED = r"'(?:\\.|[^'\\])*'"
+# a string or comment without an end goes on to the end of the text: else each quotation mark would look for it
+_STRING = r'"(?:\\.|[^"\\])*+(?:"|\\?\Z)'
+_REMARK = r"//[^\n]*+|/\*.*?(?:\*/|\Z)"
+_QUOTED = r"'(?:\\.|[^'\\])*+(?:'|\\?\Z)"
 _NAME = rf"(?:{_QUOTED}|[A-Za-z_]\w*+)"
 _KINDS = "package|model|block|function|record|type|connector|class"
 _GAP = rf"(?:\s++|{_REMARK})*+"
@@ -26,9 +27,11 @@ _FRONT = re.compile(rf"\ufeff?{_GAP}(?:within\b(?:{_REMARK}|{_QUOTED}|[^;/'])*+;
 """The text before the class of a file."""
 _LOOKS = "|".join((*sorted(LAYOUT), "Documentation"))
 _TOKEN = re.compile(rf"{_STRING}|{_QUOTED}|{_REMARK}|\bannotation\b|(?P<looks>\b(?:{_LOOKS})\s*\()|[()]", re.DOTALL)
+_DEEPEST = 50
+"""Deepest nesting of packages that are taken apart; each is read once more for each package around it."""
 _MARK = "// urdfsync: "
 _PLACE = re.compile(rf"{_MARK}(.+):(\d+)$")
-_BLANK = re.compile(rf"(?:\s+|{_REMARK}|\b(?:public|protected)\b)*", re.DOTALL)
+_BLANK = re.compile(rf"(?:\s++|{_REMARK}|\b(?:public|protected)\b)*+", re.DOTALL)
 _CLASS = re.compile(
     rf"(?:(?:encapsulated|partial|pure|impure|expandable|operator)\b{_GAP})*+(?P<kind>{_KINDS})\b{_GAP}"
     rf"(?:extends\b{_GAP})?+(?P<name>{_NAME})(?:{_GAP}{_STRING}(?:{_GAP}\+{_GAP}{_STRING})*+)?+(?:{_GAP}(?P<short>=))?",
@@ -81,13 +84,17 @@ def packed(libraries: Mapping[str, Library], named: Iterable[str]) -> dict[str, 
     for piece in itertools.chain.from_iterable(libraries.values()):
         names.setdefault(piece.owner, []).append(piece.names)
         inside.setdefault(piece.owner.rpartition(".")[0], set()).add(piece.owner)
-    reached, found, waiting = {*libraries, *named, *_UNNAMED}, set[str](), {*libraries}
-    while new := [owner for owner in waiting if owner.rpartition(".")[2] in reached]:
-        found.update(new)
-        waiting.difference_update(new)
-        for owner in new:
-            reached.update("\n".join(names.get(owner, ())).split("\n"))  # an empty library has no text
-            waiting |= inside.get(owner, set())
+    reached, found, new, waiting = {*libraries, *named, *_UNNAMED}, set[str](), [*libraries], dict[str, list[str]]()
+    while new:
+        owner = new.pop()
+        if (word := owner.rpartition(".")[2]) not in reached:
+            waiting.setdefault(word, []).append(owner)
+            continue
+        found.add(owner)
+        new += inside.get(owner, ())
+        for word in {*"\n".join(names.get(owner, ())).split("\n")} - reached:  # an empty library has no text
+            reached.add(word)
+            new += waiting.pop(word, ())
     return {name: "".join(_kept(pieces, found)) for name, pieces in libraries.items()}
 
 
@@ -125,7 +132,8 @@ def _texts(
     package.
     """
     text = _plain(texts[path].decode("utf-8", "replace"))
-    text = _FRONT.sub(lambda front: "\n" * front[0].count("\n"), text, 1)
+    front = _FRONT.match(text)
+    text = "\n" * text.count("\n", 0, front.end()) + text[front.end() :] if front else text
     above, start, place = owner.rpartition(".")[0], 0, path.encode(errors="replace").decode()
     if path.rpartition("/")[2] == "package.mo":
         blank = _BLANK.match(text)
@@ -140,21 +148,26 @@ def _texts(
         yield name or owner, each
 
 
-def _members(owner: str, text: str, at: int, end: int) -> Iterator[tuple[str, str]]:
-    """Yield the texts of a package's body: each class in it, and the texts around them."""
+def _members(owner: str, text: str, at: int, end: int, deep: int = 0) -> Iterator[tuple[str, str]]:
+    """Yield the texts of a package's body: each class in it, and the texts around them.
+
+    The rest of the body stays whole behind a class without an end, as does a package that is `deep` inside others.
+    """
     since = at
     while at < end:
         if blank := _BLANK.match(text, at, end):
             at = blank.end()
         found = _CLASS.match(text, at, end)
         stop = _end_of(text, found, end) if found else _semicolon(text, at, end)
-        if found and stop:
+        if not stop:
+            break
+        if found:
             if since < at:
                 yield owner, text[since:at]
             name = f"{owner}.{found['name']}" if owner else found["name"]
-            if found["kind"] == "package" and not found["short"]:
+            if found["kind"] == "package" and not found["short"] and deep < _DEEPEST:
                 yield name, text[at : found.end()]
-                yield from _members(name, text, found.end(), stop)
+                yield from _members(name, text, found.end(), stop, deep + 1)
             else:
                 yield name, text[at:stop]
             since = stop

@@ -13,7 +13,7 @@ from urdfsync.domain import Domain
 from urdfsync.modelica.names import LIBRARY
 
 _ROW = re.compile(r"^\| `[^|]*` \|.*\|$", re.MULTILINE)
-_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
+_LINK = re.compile(r"\[([^\[\]]*)\]\([^()]*\)")
 
 
 def working_folder() -> Path:

@@ -15,9 +15,9 @@ from urdfsync.modelica.markers import find_markers
 DEEPEST = 50
 """Deepest nesting of tables and lists; real files need a few levels."""
 
-_PLACE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$"
-_KEY = r"""(?:"(?:[^"\\]|\\.)*"|'[^']*'|[A-Za-z0-9_-]+)"""
-_LINE = re.compile(rf"\s*(\[\[?)?\s*({_KEY}(?:\s*\.\s*{_KEY})*)\s*[=\]]")
+_PLACE = r"\(at (?:line (\d+), column (\d+)|end of document)\)$"
+_KEY = r"""(?:"(?:[^"\\]|\\.)*+"|'[^']*+'|[A-Za-z0-9_-]++)"""
+_LINE = re.compile(rf"\s*+(\[\[?)?+\s*+({_KEY}(?:\s*+\.\s*+{_KEY})*+)\s*+[=\]]")
 """A line that opens a table, or sets a key."""
 _QUOTED = r"'([^']*)'"
 
@@ -42,7 +42,7 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
             message, hint = "unresolved merge markers", "settle the merge"
         elif place := re.search(_PLACE, message):
             line, column = int(place[1] or text.rstrip().count("\n") + 1), int(place[2] or 0)
-            message = message[0].lower() + message[1 : place.start()].replace("\n", " ")
+            message = message[0].lower() + message[1 : place.start()].rstrip().replace("\n", " ")
             if twice := re.match(r"cannot declare \((.*)\) twice", message):
                 message = f"the table `{'.'.join(re.findall(_QUOTED, twice[1]))}` is there twice"
                 hint = "put the keys of both into one table"
@@ -90,12 +90,24 @@ def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
     for line in text.split("\n"):
         keys: tuple[str, ...] = ()
         if match := _LINE.match(line):
-            with contextlib.suppress(tomli.TOMLDecodeError):  # a line of a long string may look like a key
-                parts = re.findall(_KEY, match[2])
-                keys = tuple(tomli.loads(f"key = {part}")["key"] if part[0] in "\"'" else part for part in parts)
+            with contextlib.suppress(
+                tomli.TOMLDecodeError, RecursionError
+            ):  # a line of a long string may look like a key
+                keys = tuple(_parts(match[2]))
         opens = bool(match and match[1] and keys)
         yield opens, keys if opens else header + keys
         header = keys if opens else header
+
+
+def _parts(key: str) -> Iterator[str]:
+    """Yield the parts of a dotted key. Raises TOMLDecodeError, or RecursionError for too many parts."""
+    if not ('"' in key or "'" in key):  # much faster
+        yield from map(str.strip, key.split("."))
+        return
+    table: Any = tomli.loads(f"{key} = 0")
+    while isinstance(table, dict):
+        ((part, table),) = table.items()
+        yield part
 
 
 def without_table(text: str, *table: str) -> str:

@@ -242,7 +242,9 @@ def _parse(file: _File) -> Any:
     _macros.update(macro.getAttribute("name") for macro in document.getElementsByTagName("xacro:macro"))
     declared = document.getElementsByTagName("xacro:arg")
     _defaults.update(each.getAttribute("name") for each in declared if each.hasAttribute("default"))
-    text = re.sub(r"<!--.*?-->", "", cast(io.BytesIO, file.buffer).getvalue().decode(errors="replace"), flags=re.DOTALL)
+    text = re.sub(
+        r"<!--.*?(?:-->|\Z)", "", cast(io.BytesIO, file.buffer).getvalue().decode(errors="replace"), flags=re.DOTALL
+    )
     _uses.update(dict.fromkeys(re.findall(r"\$\(arg\s+([^\s)]+)\s*\)", text)))
     return document
 

@@ -50,7 +50,7 @@ _ROLES = (
     "value condition constraint description annotation definition body end ;"
 ).split()
 """The roles of an element's parts, in order."""
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_COMMENT = re.compile(r"//[^\n]*+|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _BLOCKS = frozenset({"if", "for", "when"})
 _MOVABLE = frozenset({"arguments", "annotation"})
 """Lists without a meaning if they are empty."""

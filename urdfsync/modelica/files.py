@@ -14,7 +14,7 @@ from urdfsync.dependencies.reads import is_file, scan_modelica
 ClassName: TypeAlias = tuple[str, ...]
 PACKAGE_FILE = "package.mo"
 NOT_CLASSES = "Resources"
-_NO_CODE = re.compile(rb"('(?:[^'\\\n]|\\.)*')|\"(?:[^\"\\]|\\.)*\"|//[^\n]*|/\*.*?\*/", re.DOTALL)
+_NO_CODE = re.compile(rb"('(?:[^'\\\n]|\\.)*+'?)|\"(?:[^\"\\]|\\.)*+(?:\"|\\?\Z)|//[^\n]*+|/\*.*?(?:\*/|\Z)", re.DOTALL)
 """Matches strings and comments. A quoted name may contain what looks like a comment, so quoted names match, too: as a
 group."""
 

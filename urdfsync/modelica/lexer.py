@@ -11,7 +11,7 @@ from urdfsync.modelica import markers
 from urdfsync.modelica.names import KEYWORDS
 
 _STRING = r'"(?:[^"\\]++|\\.)*+"'
-_QUOTED_NAME = r"'(?:[^'\\\n]|\\.)*+'"
+_QUOTED_NAME = r"(?<!\\)'(?:[^'\\\n]|\\.)*+'"  # none begins in another one without an end
 _TOKEN = re.compile(
     rf"""
     (?:\s++|//[^\n]*+|/\*.*?\*/|(?P<endless_comment>/\*.*+))*+

@@ -12,10 +12,10 @@ _ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\
 _CONTROLS = "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]"
 """Characters that end lines, reverse the direction of text, or have no UTF-8."""
 _LITERAL = r"""(?xs)
-    "(?:[^"\\]|\\.)*"                        # a string
+    (?<!\\)"(?:[^"\\]|\\.)*+"                # a string
     | (?:[-+]\s*)?(?:
         Modelica\.Constants\.inf\b           # stands for a limit that is absent
-        | (?<![\w.])\d+(?:\.\d*)?(?:[eE][-+]?\d+)?
+        | (?<![\w.])\d++(?:\.\d*+)?(?:[eE][-+]?\d+)?
       )
     """
 _LARGEST_INTEGER = 2**31 - 1  # every Modelica tool accepts this without a decimal point

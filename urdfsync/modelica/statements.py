@@ -20,7 +20,7 @@ _COMPONENT = re.compile(
     r"\s*(?:(?:replaceable|inner|outer|final|parameter|constant)\s+)*\.?(\w+)(?:\.\w+)*\s+(\w+)(?=[\s(]|\Z)"
 )
 _UNNAMED = re.compile(r"\s*(?:connect|assert|annotation)\s*\(")
-_ENCLOSED = re.compile(r'"(?:[^"\\]|\\.)*"|[({\[][^(){}\[\]"]*[)}\]]')
+_STRING_OR_SIGN = re.compile(r'"(?:[^"\\]|\\.)*+(?:"|\\?\Z)|[](){}[,]', re.DOTALL)
 _SEEN_BY_OTHERS = re.compile(r"\b(?:redeclare|uses)\b")
 
 
@@ -108,10 +108,12 @@ def is_plain(statement: str) -> bool:
     component = _COMPONENT.match(statement)
     if not (component and is_name(component[1]) and is_name(component[2])):
         return bool(_UNNAMED.match(statement))
-    rest, longer = statement[component.end() :], ""
-    while "," in rest and rest != longer:
-        rest, longer = _ENCLOSED.sub("", rest), rest
-    return "," not in rest  # a comma separates several components
+    depth = 0
+    for sign in _STRING_OR_SIGN.findall(statement, component.end()) if "," in statement else ():
+        depth += (sign in "([{") - (sign in ")]}")
+        if sign == "," and depth <= 0:
+            return False  # a comma separates several components
+    return depth == 0
 
 
 def mentioning(statements: Collection[str], names: Collection[str]) -> set[str]:

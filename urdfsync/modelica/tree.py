@@ -23,7 +23,7 @@ from urdfsync.modelica.parser import SECTIONS, Parser
 LAYOUT = frozenset({"Placement", "Line", "Icon", "Diagram"})
 """Annotations about places and graphics in a diagram."""
 
-_REMARK = re.compile(r"[^\S\n]*(?://[^\n]*|/\*(?:(?!\*/)[^\n])*\*/)(?=\s*\n)")
+_REMARK = re.compile(r"[^\S\n]*+(?://[^\n]*+|/\*(?:(?!\*/)[^\n])*\*/)(?=\s*\n)")
 """A comment that ends a line."""
 
 _INITIAL = "initial equation "
@@ -237,7 +237,7 @@ def comments(text: str) -> list[str]:
     tokens, _ = lex(text)
     places = [0, *(end for token in tokens for end in (token.start, token.start + len(token.text)))]
     gaps = (text[start:stop] for start, stop in zip(places[::2], places[1::2], strict=False))
-    return [comment for gap in gaps for comment in re.findall(r"//[^\n\r]*|/\*.*?\*/", gap, re.DOTALL)]
+    return [comment for gap in gaps for comment in re.findall(r"//[^\n\r]*+|/\*.*?(?:\*/|\Z)", gap, re.DOTALL)]
 
 
 def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:

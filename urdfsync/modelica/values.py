@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from urdfsync.modelica.lexer import Token, lex
 
-_NUMBER = r"[-+]?\s*(?:Modelica\.Constants\.inf\b|(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"
-_NUMBERS = re.compile(rf"(?:\s|[{{}}\[\],;]|{_NUMBER})*")
+_NUMBER = r"(?:[-+]\s*+)?(?:Modelica\.Constants\.inf\b|(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?)"
+_NUMBERS = re.compile(rf"(?:\s|[{{}}\[\],;]|{_NUMBER})*+")
 _EMPTY = re.compile(r"fill\(0, 0, \d+\)")
 _ENDS_OF_CONNECTION = re.compile(r"connect\(((?:\[[^\]]*\]|[^,\[])*),((?:\[[^\]]*\]|[^)\[])*)\)")
 _SECTIONS = ("equation", "public", "protected", "initial")

@@ -81,10 +81,9 @@ def _moved_names(changes: Changes) -> dict[str, str]:
 
 def _step(old: str, new: str) -> int:
     """Return the change of the number in a name; 0 if anything else changed."""
-    parts = [re.fullmatch(r"(.*?)(\d+)", name) for name in (old, new)]
-    if not (parts[0] and parts[1]) or parts[0][1] != parts[1][1]:
-        return 0
-    return int(parts[1][2]) - int(parts[0][2])
+    texts = [name.rstrip("0123456789") for name in (old, new)]
+    numbers = [name.removeprefix(text) for name, text in zip((old, new), texts, strict=True)]
+    return int(numbers[1]) - int(numbers[0]) if texts[0] == texts[1] and all(numbers) else 0
 
 
 def _title(elements: Sequence[str]) -> str:

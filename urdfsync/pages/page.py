@@ -9,7 +9,6 @@ import base64
 import gzip
 import hashlib
 import math
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -40,7 +39,6 @@ SCRIPTS = (
 FOLLOWER = "follow.js"
 """The last script of a page that a daemon serves."""
 _FOLDER = Path(__file__).parent
-_STYLE = re.compile("<style>(.*?)</style>", re.DOTALL)
 _MOST_INSTANTS = 1000
 """The greatest number of instants of a simulation on the page."""
 _LEAST = 1e-17
@@ -67,7 +65,7 @@ def page(
     names = SCRIPTS if build is None else (*SCRIPTS, FOLLOWER)
     scripts = [library.text, *((_FOLDER / name).read_text("utf-8") for name in names)]
     style = (_FOLDER / "page.css").read_text("utf-8")
-    styles = [style, *_STYLE.findall(content.diagram)]
+    styles = [style, *(part.partition("</style>")[0] for part in content.diagram.split("<style>")[1:])]
     environment = html_environment(_FOLDER)
     environment.filters |= {"words": words, "findings": findings_table}
     environment.globals |= {"difference_lines": difference_lines, "reason": reason, "settle_hint": settle_hint}

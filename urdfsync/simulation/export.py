@@ -33,7 +33,9 @@ _BEGINNING = 2**16
 _MOST_BYTES = 2**28
 """The greatest number of bytes of an FMU that is opened: its list of contents may be nearly the whole file."""
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
-_MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
+_MODEL_EXCHANGE = re.compile(
+    rb"(?<![ \t])[ \t]*+<ModelExchange\b[^<>]*+>(?:(?<=/>)|(?:(?!<ModelExchange\b).)*?</ModelExchange>)\s*+", re.DOTALL
+)
 
 
 class Exported(msgspec.Struct, frozen=True):

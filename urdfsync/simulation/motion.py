@@ -9,7 +9,6 @@ import bisect
 import csv
 import io
 import math
-import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -21,7 +20,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.files import shown
 from urdfsync.numerals import MarkError, Row, find_separator, with_points
 from urdfsync.simulation.models import Input
-from urdfsync.spelling import nearest
+from urdfsync.spelling import name_and_unit, nearest
 
 MOST_ROWS = 10_000
 
@@ -40,7 +39,6 @@ _OVERSHOOT = 0.05
 """The share of the range of an input by which its spline may leave two rows; a sine with 8 rows a turn takes 0.04."""
 _STRAIGHT = 2
 """Up to this number of rows, the spline is a straight line."""
-_HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s*")
 
 
 class Motion(msgspec.Struct, frozen=True):
@@ -145,8 +143,9 @@ def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Inpu
     factors: dict[str, float] = {}
     units = {"time": "s", **{signal.name: signal.unit for signal in inputs}}
     for cell in header:
-        match = _HEADER.fullmatch(cell)
-        name, unit = (match["name"], match["unit"]) if match else (cell, None)
+        name, unit = name_and_unit(cell)
+        if not unit or unit[0].isdigit():  # `q[1]` is an item of an input
+            name, unit = cell.strip(), ""
         if not factors and name != "time":
             _refuse(file, f"the first column is `{name}`, not `time`", line, "name `time` first, then the inputs")
         if name not in units:
@@ -156,10 +155,10 @@ def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Inpu
         if name in factors:
             _refuse(file, f"the column `{name}` is there twice", line)
         possible = _UNITS.get(units[name], {units[name]: 1.0})
-        if unit is not None and unit not in possible:
+        if unit and unit not in possible:
             hint = f"give it in {' or '.join(filter(None, possible))}"
             _refuse(file, f"`{name}` can't be given in {unit}", line, hint)
-        factors[name] = possible[unit] if unit is not None else 1.0
+        factors[name] = possible[unit] if unit else 1.0
     if missing := [name for name in units if name not in factors]:
         _refuse(file, f"columns are missing: {', '.join(missing)}", line)
     return factors

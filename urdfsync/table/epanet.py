@@ -41,6 +41,7 @@ def read(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         path.write_bytes(content)
         try:
             network = wntr.network.WaterNetworkModel(str(path))
+            found = _elements(network)
         except Exception as error:  # noqa: BLE001 - wntr may raise any error for a damaged file
             reason = " ".join(str(error).replace(str(path), file).split()) or type(error).__name__
             hint = "correct the file until EPANET reads it"
@@ -48,7 +49,7 @@ def read(content: bytes, file: str) -> tuple[Sheet, Sheet]:
     lines = _lines(content.decode(errors="replace"))
     elements, connections = list[tuple[int, list[object]]](), list[tuple[int, list[object]]]()
     names = [column.partition("[")[0] for column in _COLUMNS]
-    for kind, values in _elements(network):
+    for kind, values in found:
         values["kind"], line = kind, lines.get((_KINDS[kind], values["name"]), 0)
         key = values["name"] = f"{kind} {values['name']}"
         elements.append((line, [values.get(name) for name in names]))
@@ -82,7 +83,10 @@ def _elements(network: Any) -> list[tuple[str, dict[str, Any]]]:
         elif _kind(link) == "valve":
             values |= {"diameter": link.diameter, "minor_loss": link.minor_loss, "setting": link.initial_setting}
         elif link.pump_type == "HEAD":
-            coefficients = map(float, link.get_head_curve_coefficients())
+            try:
+                coefficients = map(float, link.get_head_curve_coefficients())
+            except Exception as error:
+                raise ValueError(f"the curve of pump `{name}` is no head that falls with the flow: {error}") from error
             values |= dict(zip(("shutoff_head", "head_loss", "exponent"), coefficients, strict=True))
         found.append((_kind(link), values))
     return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 import tomllib
 import warnings
 import zipfile
@@ -18,8 +19,14 @@ from urdfsync.numerals import MarkError, find_separator, with_points
 from urdfsync.table.model import NOTHING, Sheet
 
 CONNECTIONS = "connections"
-_LARGEST = 200_000_000
-"""The greatest number of bytes of an unpacked workbook."""
+_LARGEST = 20_000_000
+"""The greatest number of bytes of an unpacked workbook: openpyxl reads 1 MB/s."""
+_MOST_CELLS = 5_000_000
+"""The greatest number of cells of a table, empty ones included."""
+_LAST_ROW = 1_048_576
+_MERGED = re.compile(rb"""<(?:\w++:)?mergeCell\s[^<>]*?\bref\s*+=\s*+["']([A-Z]++(\d++)[^"'<>]*)""")
+_MOST_MISSES = 100
+"""The greatest number of entries whose place is looked for in vain, as if a file escapes its letters."""
 MARK = b"\n\0connections\0\n"
 """Separates a source from the connections in the CSV beside it."""
 
@@ -153,13 +160,20 @@ def _from_entries(entries: object, text: str, file: str, position: int) -> Sheet
         hint = "write one entry for each element, with the columns as keys"
         raise SourceError.of("table-file", "the elements are neither a list nor a table of entries", file, hint=hint)
     header = list(dict.fromkeys(str(column) for entry in entries for column in entry))
-    rows = list[tuple[int, Sequence[object]]]()
+    if len(header) * len(entries) > _MOST_CELLS:
+        raise _too_many_cells(file)
+    rows, misses = list[tuple[int, Sequence[object]]](), 0
+    line, counted = text.count("\n", 0, position) + 1, position
     for entry in entries:
         cells = {str(column): value for column, value in entry.items()}
         # entries are in order: the line of an entry is that of its first value after the previous entry
         first = next(iter(cells.values()), "")
-        found = _find_word(text, str(first), position) if isinstance(first, str | int | float) else -1
-        rows.append((text.count("\n", 0, max(found, position)) + 1, [cells.get(column) for column in header]))
+        is_findable = isinstance(first, str | int | float) and misses < _MOST_MISSES
+        found = _find_word(text, str(first), position) if is_findable else -1
+        misses += found < 0
+        line += text.count("\n", counted, max(found, counted))
+        counted = max(found, counted)
+        rows.append((line, [cells.get(column) for column in header]))
         position = max(found + 1, position)
     return Sheet(header, rows)
 
@@ -184,20 +198,23 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         ) from None
     if _unpacked_size(content) > _LARGEST:
         raise SourceError.of("table-file", f"the workbook has more than {_LARGEST:,} bytes", file, hint="split it")
-    books = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # openpyxl warns of ignored parts, such as conditional formats
-        for computed in (True, False):
-            try:
-                books.append(openpyxl.load_workbook(io.BytesIO(content), data_only=computed))
-            except Exception as error:  # noqa: BLE001 - openpyxl may raise any error for a damaged file
-                message = f"this is no workbook: {error}"
-                raise SourceError.of("table-file", message, file, hint="save the workbook as .xlsx again") from None
-    values, formulas = books
-    names = values.sheetnames
-    named = {name.lower(): name for name in names}
-    found = [names[0], named[CONNECTIONS]] if CONNECTIONS in named and len(names) > 1 else names[:1]
-    sheets = [_from_worksheet(values[name], formulas[name], file) for name in found]
+        try:
+            # `read_only` reads cells alone: a merged range or a link of the whole sheet would fill the memory
+            values, formulas = (
+                openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=computed)
+                for computed in (True, False)
+            )
+            names = values.sheetnames
+            named = {name.lower(): name for name in names}
+            found = [names[0], named[CONNECTIONS]] if CONNECTIONS in named and len(names) > 1 else names[:1]
+            sheets = [_from_worksheet(values[name], formulas[name], file) for name in found]
+        except SourceError:
+            raise
+        except Exception as error:  # noqa: BLE001 - openpyxl may raise any error for a damaged file
+            message, hint = f"this is no workbook: {error}", "save the workbook as .xlsx again"
+            raise SourceError.of("table-file", message, file, hint=hint) from None
     return sheets[0], sheets[1] if len(sheets) > 1 else NOTHING
 
 
@@ -211,11 +228,19 @@ def _unpacked_size(content: bytes) -> int:
 
 
 def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
-    if merged := next(iter(values.merged_cells.ranges), None):
-        message, hint = f"sheet `{values.title}` has merged cells: {merged}", "unmerge these cells, and fill each cell"
-        raise SourceError.of("table-file", message, file, merged.min_row, hint=hint)
-    rows = list[tuple[int, Sequence[object]]]()
+    with values._get_source() as source:  # in the mode `read_only`, openpyxl tells no merged cells
+        merged = _MERGED.search(source.read())
+    if merged:
+        message = f"sheet `{values.title}` has merged cells: {merged[1].decode(errors='replace')}"
+        hint = "unmerge these cells, and fill each cell"
+        raise SourceError.of("table-file", message, file, int(merged[2][:9]), hint=hint)
+    rows, count = list[tuple[int, Sequence[object]]](), 0
+    for sheet in (values, formulas):
+        sheet.reset_dimensions()  # the file may state another size
     for number, (cells, originals) in enumerate(zip(values.iter_rows(), formulas.iter_rows(), strict=True), 1):
+        count += len(cells)
+        if count > _MOST_CELLS or number > _LAST_ROW:
+            raise _too_many_cells(file)
         for cell, original in zip(cells, originals, strict=True):
             if cell.value is None and original.value is not None:
                 message, hint = f"the formula in {cell.coordinate} has no result", "open the workbook, and save it"
@@ -225,14 +250,24 @@ def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
     if not rows:
         return NOTHING
     header = _without_end(rows[0][1])
-    width = len(header)
+    width, empty = len(header), [None] * len(header)
+    if width * len(rows) > _MOST_CELLS:
+        raise _too_many_cells(file)
     return Sheet(
         ["" if cell is None else str(cell) for cell in header],
         [
-            (line, _without_end(cells) if any(c is not None for c in cells[width:]) else cells[:width])
+            (line, _without_end(cells) if any(c is not None for c in cells[width:]) else [*cells, *empty][:width])
             for line, cells in rows[1:]
         ],
     )
+
+
+def _too_many_cells(file: str) -> SourceError:
+    message, hint = (
+        f"the table has more than {_MOST_CELLS:,} cells, empty ones included",
+        "delete what lies far outside",
+    )
+    return SourceError.of("table-file", message, file, hint=hint)
 
 
 def _without_end(cells: Sequence[object]) -> Sequence[object]:

@@ -11,17 +11,18 @@ from typing import NamedTuple
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Reading
-from urdfsync.spelling import counted, nearest
+from urdfsync.spelling import counted, name_and_unit, nearest
 from urdfsync.table import formats
 from urdfsync.table.model import FROM, NOTHING, TO, TYPES, Options, Sheet, Table, Value
 from urdfsync.table.names import find_clashes
 from urdfsync.table.units import Unit, find_unit, is_same_kind
 
-_HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*", re.DOTALL)
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
 _KIND = re.compile(r"[A-Za-z0-9_-]+")
 _TEXTS = "text", "boolean"
 """The types of columns without numbers."""
+_MOST_HINTS = 20
+"""The greatest number of findings before a hint at a similar name: comparing all names takes up to a second."""
 _TRUTH = {"true": True, "false": False}
 
 
@@ -94,16 +95,17 @@ class _Reader:
 
     def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
         """Return the columns; the columns in `texts` have texts."""
-        columns = list[_Column]()
+        columns, names = list[_Column](), set[str]()
         for number, cell in enumerate(sheet.header):
             name, unit = name_and_unit(cell)
             if not name or not name.isprintable():
                 self._error("no-column", f"column {number + 1} has no name", 1, "name the column in the header")
-            elif name in (column.name for column in columns):
+            elif name in names:
                 self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
             if name in texts and unit not in ("", "text"):
                 hint = "name columns of texts as `key` and `kind` in the configuration"
                 self._error("no-key", f"column `{name}` has the unit {unit}: it can't name elements", 1, hint)
+            names.add(name)
             is_text = name in texts or not name
             columns.append(_Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
         for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
@@ -157,13 +159,13 @@ class _Reader:
     def _connections(
         self, sheet: Sheet, columns: Sequence[_Column], elements: Mapping[str, object]
     ) -> dict[str, dict[str, Value]]:
-        rows = dict[str, dict[str, Value]]()
+        rows, numbers = dict[str, dict[str, Value]](), dict[str, int]()
         first_lines = dict[object, int]()
         for line, row in self._values(sheet, columns):
             ends = [str(row.get(end) or "") for end in (FROM, TO)]
             for name in ends:
                 if name not in elements:
-                    near = nearest(name, elements)
+                    near = nearest(name, elements) if len(self.findings) < _MOST_HINTS else ""
                     hint = f"did you mean `{near}`?" if near else "add the element, or correct the connection"
                     self._error("no-element", f"there is no element `{name}`", line, hint)
             cells = tuple(sorted(row.items()))
@@ -174,9 +176,10 @@ class _Reader:
                     Diagnostic(Severity.WARNING, "equal-connections", message, self._file, line, hint=hint)
                 )
             first_lines.setdefault(cells, line)
-            key, number = " ".join(ends), 2
+            key, number = " ".join(ends), numbers.get(" ".join(ends), 2)
             while key in rows:
                 key, number = f"{' '.join(ends)} {number}", number + 1
+            numbers[" ".join(ends)] = number
             rows[key], self.lines[f"connection {key}"] = row, line
         return rows
 
@@ -201,12 +204,6 @@ class _Reader:
 
     def _of_option(self, option: str, message: str, hint: str) -> None:
         self.of_options.append((option, Diagnostic(Severity.ERROR, "no-column", message, hint=hint)))
-
-
-def name_and_unit(header: str) -> tuple[str, str]:
-    """Return the name and the unit in a cell of a header. Both may be empty."""
-    match = _HEADER.fullmatch(header)
-    return (match["name"], (match["unit"] or "").strip()) if match else (header, "")
 
 
 def _is_number(cell: object) -> bool:

@@ -15,7 +15,9 @@ _COHERENT = frozenset("m kg s A K mol cd rad sr Hz N Pa J W C V F Ohm S Wb T H l
 _TERM = rf"(?:{'|'.join(sorted(_COHERENT))})(?:-?[1-9])?"
 _MODELICA = re.compile(rf"(?:1|{_TERM}(?:\.{_TERM})*)(?:/(?:{_TERM}|\({_TERM}(?:\.{_TERM})+\)))?")
 """Matches a product of SI units, or a quotient of two products, in Modelica's spelling."""
-_UNIT = re.compile(r"(?=.)(?!.*[.*/^]{2})(?!.*\d[\deE])(1/)?[^\W\d_%°]*[%°]?[\w.*/()^-]*")
+_UNIT = re.compile(r"(?=.)(?!.*[.*/^]{2})(?!.*\d[\deE])(1/)?[^\W\d_%°]*+[%°]?+[\w.*/()^-]*+")
+_LONGEST = 100
+"""The greatest number of characters of a unit."""
 _KNOWN = frozenset(
     "meter gram second ampere kelvin mole candela radian steradian hertz newton pascal joule watt coulomb volt "
     "farad ohm Ohm siemens weber tesla henry lumen lux becquerel gray sievert katal minute hour day degree turn "
@@ -70,8 +72,11 @@ def is_same_kind(text: str, other: str) -> bool:
 def _with_dots(text: str) -> str:
     """Return a unit with `N.m` instead of `Nm` and the like, and with `ozf.in` instead of `oz-in`.
 
-    pint reads `Nm` as a textile unit, and an ounce as a mass; the torque of servos is in ounces of force.
+    pint reads `Nm` as a textile unit, and an ounce as a mass; the torque of servos is in ounces of force. Raises
+    ValueError for a long text, since pint would try all places for the end of a prefix.
     """
+    if len(text) > _LONGEST:
+        raise ValueError(f"`{text[:_LONGEST]}…` is no unit")
     return re.sub(r"\bozf?[.-]in\b", "ozf.in", re.sub(r"\b([mk]?N)([cm]?m)\b", r"\1.\2", text))
 
 

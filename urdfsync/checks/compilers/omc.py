@@ -64,11 +64,12 @@ _FOLLOWS = re.compile(
 )
 """Messages that only follow from another one."""
 _ASSERTION = re.compile(
-    r"\[(?P<file>[^\n]*?):(?P<line>\d+):\d+-\d+:\d+:\w+\]\n[^\n]*violated at time (?P<time>[-+.\deE]*\d)\n"
-    r"[^\n]* --> \"(?P<text>.*?)\"$",
-    re.MULTILINE | re.DOTALL,
+    r"^\[(?P<file>.*?):(?P<line>\d+):\d+-\d+:\d+:\w+\]\n.*violated at time (?P<time>[-+.\deE]*\d)\n"
+    r".* --> \"(?P<text>(?s:.*))",
+    re.MULTILINE,
 )
-_TERMINATED = re.compile(r"call terminate\(\) at time [^\n]*\n[^\n]*Message : ([^\n]*)")
+"""Matches up to the end of the log; a quotation mark at the end of a line ends the text."""
+_TERMINATED = re.compile(r"^(?>.*?call terminate\(\) at time ).*+\n.*?Message : (.*)", re.MULTILINE)
 _BUILDS = re.compile(r"Error building simulator|Failed to get version from cmake")
 _LOG = re.compile(r"^(?:LOG_\w+)? *\| *(?P<level>\w+|\|) *\|? *\|? *")
 
@@ -156,7 +157,7 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
         given = [next(answers) for _ in some]
         result = CompileResult(problem) if problem else _result(task, given, folder)
         # the task's own text is no file of the user's
-        own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^\]]*\] ")
+        own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^][]*\] ")
         result = msgspec.structs.replace(result, problem=own.sub("", result.problem))
         yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
 
@@ -283,7 +284,8 @@ def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> C
             lines = [_LOG.sub("", line) for line in log.splitlines() if not line.startswith("LOG_SUCCESS")]
             text = "\n".join(filter(None, lines))
             if failed := _ASSERTION.search(text):
-                text = f"assert failed at t={failed['time']}: {failed['text']} ({failed['file']}:{failed['line']})"
+                words = failed["text"].partition('"\n')[0].removesuffix('"')
+                text = f"assert failed at t={failed['time']}: {words} ({failed['file']}:{failed['line']})"
             runs.append(SimulationResult(problem=one_line(text.replace("\n", "; "))))
     return CompileResult(runs=tuple(runs))
 

@@ -39,18 +39,20 @@ STARTS_PROGRAMS = False
 
 _FILE = "Task.mo"  # always the same name, so that a new text replaces the last one in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
-_SEARCH = re.compile(r"event iteration (at t=\S+) cycles .* which the mode search ")
+_SEARCH = re.compile(r"event iteration (at t=\S+) cycles ")
 _STUCK = (
     "rumoca finds no state of joints with the friction law stiction that slide together, {}: "
     'choose `friction = "lugre"`, or OpenModelica with `--tool`'
 )
 """The message about two joints with stiction; rumoca's own message does not name the cause."""
-_SPAN = re.compile(r" @ Span \{.*?\) \}")
+_SPAN = re.compile(r" @ Span \{[^{}]*\}")
 
 _SHADOW = "variability violation: "
 """If a model has any error, rumoca 0.10.2 also reports this error about models of the Modelica Standard Library."""
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
-_FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
+_FRAMED = re.compile(
+    r"^[ \t]*×(?P<words>(?:[^╭\n]|\n(?![ \t]*×))*+)╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]", re.MULTILINE
+)
 _PIECES = re.compile(r"\n|; (?=\S)")
 _PREFIXES = re.compile(
     r"^(?:- <[^>]*> \[\w+\]: |\w+ failed: |[\w.]+ failed in \w+: |[\w.]+ could not be compiled: |Failed to [^:]*: )+"
@@ -216,4 +218,6 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
 def _words(error: Exception) -> str:
     """Return the compiler's message without places in its own notation."""
     words = _SPAN.sub("", str(error.args[0] if error.args else error))
-    return _STUCK.format(search[1]) if (search := _SEARCH.search(words)) else words
+    search = _SEARCH.search(words)
+    is_stuck = search is not None and " which the mode search " in words[search.end() :]
+    return _STUCK.format(search[1]) if search and is_stuck else words

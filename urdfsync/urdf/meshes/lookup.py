@@ -44,7 +44,7 @@ AS_IS = (".stl", ".obj")
 """Formats that Modelica tools can draw: such files without a scale are imported unchanged."""
 
 _SCHEME = r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)"  # at least two letters: `C:` is a drive
-_FOUND = r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s+([^)]+)\)/*(.*)"
+_FOUND = r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s++([^)]++)\)/*(.*)"
 _DRIVE = r"/*([A-Za-z]:/.*)"
 _MENTIONS = {
     ".obj": re.compile(rb"^[ \t]*mtllib[ \t]([^\r\n]+)", re.MULTILINE),

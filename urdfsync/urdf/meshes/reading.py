@@ -21,7 +21,7 @@ from urdfsync.urdf.meshes.process import MeshError, is_binary_stl
 
 _COMPRESSIONS = (b"KHR_draco_mesh_compression", b"EXT_meshopt_compression")
 _FACES = {
-    ".off": re.compile(rb"OFF(?:\s|#[^\n]*\n)*\d+\s+(\d+)"),
+    ".off": re.compile(rb"^\w{0,8}?OFF(?:\s++|#[^\n]*+\n)*+\d++\s++(\d++)", re.MULTILINE),
     ".ply": re.compile(rb"^element[ \t]+face[ \t]+(\d+)", re.MULTILINE),
 }
 """Patterns for the number of faces that a file announces, by suffix."""

@@ -16,7 +16,7 @@ from xml.etree.ElementTree import Element, SubElement
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
-from urdfsync.spelling import nearest
+from urdfsync.spelling import name_and_unit, nearest
 from urdfsync.urdf.options import MotorNumber, Options
 from urdfsync.urdf.parse.fields import Reader
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Motor, Transmission
@@ -68,7 +68,6 @@ def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str
     from xml.sax.saxutils import quoteattr  # a late import saves most robots 9 ms
 
     from urdfsync.table.formats import read_sheets, with_decimal_points  # likewise
-    from urdfsync.table.reading import name_and_unit
 
     sheet, _ = read_sheets(content, file)
     header = [name_and_unit(cell) for cell in sheet.header]
@@ -160,7 +159,7 @@ def _read_row(reader: Reader, element: Element, joint: Element, line: int) -> Ro
 
 def _in_si(number: MotorNumber, text: str, expected: str) -> float:
     """Return a number with a unit, such as `410 [N.cm]`, in the `expected` unit. Raises ValueError or SourceError."""
-    from urdfsync.table.reading import name_and_unit, read_value  # a late import saves most robots 15 ms
+    from urdfsync.table.reading import read_value  # a late import saves most robots 15 ms
     from urdfsync.table.units import find_unit, is_same_kind
 
     cell, unit = name_and_unit(text)
