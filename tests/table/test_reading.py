@@ -333,7 +333,7 @@ def test_the_places_of_escaped_names_are_not_searched_for_ever() -> None:
 
 def test_many_equal_connections_are_numbered_at_once() -> None:
     found = table((HEADER + "a,1\n").encode() + MARK + b"from,to\n" + 20_000 * b"a,a\n")
-    assert [*found.connections][-1] == "a a 9999"
+    assert [*found.connections][-1] == "a a 20000"
     assert len(found.connections) == 20_000
 
 

@@ -89,14 +89,15 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
     drawing = None if picture is None else store.drawing(robot.name)
     changes = [*files.values(), *(store.save(drawing, picture.encode()) if picture and drawing else ())]
     notes: Notes | None = None
+    contents = {key: one.content for key, one in files.items()}
+    index, texts = _put_aside(inputs, generation.package, decision, contents)
+    findings += _tell_aside(inputs, actions, index, texts)
+    changes += store.save_aside(robot.name, index, texts)
     if inputs.options.removes:
         state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
     else:
         record = _record(inputs, generation, decision)
-        contents = {key: one.content for key, one in files.items()}
-        index, texts = _put_aside(inputs, generation.package, decision, contents)
-        findings += _tell_aside(inputs, actions, index, texts)
-        changes += [*versions.changes, *store.save_aside(robot.name, index, texts)]
+        changes += versions.changes
         state = []
         # without other writes, `status` and some other commands leave a complete state
         if not (inputs.last.record.files and decision.is_complete) or is_writing or inputs.options.renews:
