@@ -19,7 +19,7 @@ from urdfsync import config as configuration
 from urdfsync import git, noop
 from urdfsync.commands import arguments
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies.facts import LISTINGS, VARIABLE, Entry
+from urdfsync.dependencies.facts import LISTINGS, UNMERGED, VARIABLE, Entry
 from urdfsync.dependencies.places import Clone
 from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
@@ -167,7 +167,7 @@ class _Places:
     def __init__(self, clone: Clone, entries: Iterable[Entry]) -> None:
         self.files, self._listed = set[str](), set[str]()
         for kind, path in entries:
-            places = map(clone.inside, clone.trail(path)) if kind != VARIABLE else ()
+            places = map(clone.inside, clone.trail(path)) if kind not in (VARIABLE, UNMERGED) else ()
             inside = [place for place in places if place is not None]
             self.files.update(inside)
             if kind in LISTINGS:
