@@ -447,7 +447,7 @@ def test_a_hook_asks_for_every_input(built: Path, execute: Execute, monkeypatch:
     assert "git add :/urdf/masses.yaml" in execute("hook", "check", code=1).err
     repository.git("add", "urdf")
     repository.git("reset", "-q", str(EXPANDED))
-    assert f"git add :/{EXPANDED}" in execute("hook", "check", code=1).err
+    execute("hook", "check")  # a clone expands the source again
     repository.git("add", ".urdfsync")
     execute("hook", "check")
     (built / "urdf/masses.yaml").write_text("upper: 2.5 # kg\n")
