@@ -187,7 +187,7 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
     Only bases that recorded files need count: an earlier build may have left others, and copies of replaced files.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    left_out = {".urdfsync/lock", ".urdfsync/bases", ".urdfsync/aside", ".urdfsync/notes"}
+    left_out = {".urdfsync/lock", ".urdfsync/bases", ".urdfsync/aside", ".urdfsync/notes", ".urdfsync/deps"}
     names = [name for name in found if left_out.isdisjoint((name, *map(str, PurePosixPath(name).parents)))]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
     return contents | {f".urdfsync/bases/{robot}": _needed(project, robot) for robot in Store(project).names()}

@@ -64,7 +64,8 @@ def find_edited(
     for action in actions:
         key = action.origin or action.path
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY
-        if is_text and action.mine not in (None, action.base, action.generated):
+        is_users = action.base is None and action.generated is None  # a class of the user's own is no edit
+        if is_text and not is_users and action.mine not in (None, action.base, action.generated):
             base = inputs.last.base(action.base) if action.base else None
             if action.base == action.generated:  # before `adopt` the base is not stored yet
                 base = generation.package.content(inputs.folder.path(action.path)).decode()
