@@ -39,7 +39,7 @@ OF_SOURCES = (["record", "arm.urdf"], ["init", "--config", "new.toml"])
 SOURCES = ("source", "chain", "entities", "numbers", "terminal", "meshes")
 """Words of the attacks that concern these commands."""
 LARGE = ("a long chain", "200 MB", "meshes")
-READ = (".urdfsync/deps/", ".urdfsync/notes/", ".urdfsync/lock", ".git/index", "page.html")
+READ = (".urdfsync/deps/", ".urdfsync/notes/", ".urdfsync/lock", ".git/index", ".git/urdfsync", "page.html")
 """Files of the project that reading commands may change."""
 WRITTEN = (*READ, "modelica/Arm", ".urdfsync", "new.toml", "modelica/package.order")
 

@@ -115,7 +115,7 @@ def run_one(work: Workplace, command: Sequence[str]) -> None:
         assert MINE.strip() in found, (command, name)
     for name in changes(before, after):
         is_output = name.endswith((".mo", "package.order")) or "/Resources/" in name or after.get(name) == "folder"
-        is_state = f"{name}/".startswith((".urdfsync/", "modelica/Bot/", ".git/index"))
+        is_state = f"{name}/".startswith((".urdfsync/", "modelica/Bot/", ".git/index", ".git/urdfsync/"))
         is_configuration = command[0] == "remove" and name == "urdfsync.toml"
         assert is_state or is_configuration or (is_output and not name.startswith(".git/")), (command, name)
 

@@ -14,7 +14,7 @@ import msgspec
 import pytest
 from support import replay
 from support.packages import read
-from support.replay import Files, Fresh, Project, Stamps
+from support.replay import Files, Fresh, Project, Stamps, without_former
 
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.result import Result
@@ -87,7 +87,7 @@ def faults(project: Project, before: Stamps, result: Result, old: Files, package
         yield from (
             f"{path} differs from a fresh build"
             for path in both
-            if found.get(path) != wanted.get(path)
+            if without_former(found.get(path)) != without_former(wanted.get(path))
             and not lacks_unmodelled(path, result, found.get(path), wanted.get(path))
         )
     written = {path.removeprefix(BELOW) for path in touched if path.startswith(BELOW)}

@@ -6,7 +6,6 @@ import contextlib
 import dataclasses
 import gc
 import itertools
-import json
 import os
 import shutil
 import signal
@@ -20,6 +19,7 @@ from support import edits
 from support.choices import options
 from support.urdfs import joint, limit, link, robot
 from urdfsync import config
+from urdfsync.dependencies import localfile
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
@@ -175,10 +175,9 @@ def copy(project: Path, to: Path) -> Path:
 
 def bind(file: Path) -> None:
     """Make copied planned hashes count as written in their present place."""
-    with contextlib.suppress(TypeError, ValueError):  # cut short, or damaged in another way
-        status, text = file.stat(), json.loads(file.read_bytes())
-        file.write_text(json.dumps({**text, "inode": status.st_ino, "written_at": status.st_mtime_ns}))
-        os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
+    content = file.read_bytes().partition(b"\n")[2]
+    file.unlink()
+    localfile.write(file, content)
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:

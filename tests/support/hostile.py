@@ -288,7 +288,7 @@ TOGETHER = (
     *("modules", "a template that leaves the sandbox", "a template without end", "a template that is a link"),
     *("a manifest with a file outside", "a manifest with the user's file", "a manifest with the configuration"),
     *("a manifest of a package outside", "deep planned hashes"),
-    *("bases that are a link", "an answer that is a link", "a lock that is a link", "conflicts that are a link"),
+    *("bases that are a link", "a record that is a link", "a lock that is a link", "conflicts that are a link"),
     *("a drawing that is a link", "an output that is a link", "an output folder outside", "a base that is no text"),
     *("huge numbers", "names for the terminal", "a manifest for the terminal", "attributes of git"),
 )

@@ -225,12 +225,14 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
             renames = match_with_last(inputs, generation.now.snapshot, {}).renames
         open_ = Open(as_recorded(generation.now.snapshot), renames, asked)
         contents = (text for text in inputs.settled.contents.values() if text is not None)
+        # a decision about an earlier export does not answer this question, not in the next build either
+        doubtful = {action.mine for action in decision.actions if action.reason is Reason.ASKED}
         return msgspec.structs.replace(
             old,
             files=files,
             imports={**old.imports, **renewed},
             open=open_,
-            confirmed=old.confirmed | {text_digest(text) for text in contents},
+            confirmed=(old.confirmed - doubtful) | {text_digest(text) for text in contents},
         )
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
     users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
