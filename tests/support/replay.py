@@ -131,7 +131,7 @@ def without_former(content: bytes | None) -> bytes | None:
     """The content of a file; of a recorded state without the former names, which tell how it came about."""
     lines = (content or b"").splitlines(keepends=True)
     history = (b"former ", b"sum ") if content and content.startswith(b"# What urdfsync built last") else ()
-    return content if not history else b"".join(line for line in lines if not line.startswith(history))
+    return content if not history else b"".join(line for line in lines if line.strip() and not line.startswith(history))
 
 
 def contents(folder: Path) -> dict[str, bytes]:
