@@ -44,7 +44,7 @@ def sources():
         yield path, ".".join(parts[:-1] if parts[-1] == "__init__" else parts), ast.parse(path.read_text())
 
 
-def find():
+def find() -> tuple[dict[object, object], list[str]]:
     trees = list(sources())
     used = defaultdict(lambda: defaultdict(set))
     for _, name, tree in trees:
