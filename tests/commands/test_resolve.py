@@ -32,6 +32,22 @@ def conflicts(execute: Execute) -> list[str]:
     return [found["action"]["path"].removeprefix(f"{LADDER}/") for robot in robots for found in robot["conflicts"]]
 
 
+def test_what_a_person_wrote_beside_the_versions_of_a_conflict_is_put_aside(execute: Execute, clean: Path) -> None:
+    execute("build", code=3)
+    saved = Path(".urdfsync/conflicts/ladder")
+    (version,) = saved.glob("*.generated.mo")
+    (saved / "notes.txt").write_text("ask Ada about R3\n")
+    version.write_text(version.read_text() + "// mine, too\n")
+    said = execute("build", code=3)
+    assert said.err.count("[put-aside]") == 2
+    assert "[put-aside]" not in execute("build", code=3).err
+    version.write_text("// once more\n")
+    execute("resolve", MODEL, "--take")
+    assert not saved.exists()
+    texts = "".join(path.read_text() for path in Path(".urdfsync/aside/ladder/conflicts").iterdir())
+    assert all(words in texts for words in ("ask Ada about R3", "// mine, too", "// once more"))
+
+
 # What a path may be
 
 

@@ -58,6 +58,8 @@ class _Versions(msgspec.Struct, frozen=True):
     changes: tuple[FileChange, ...]
     noted: Mapping[str, tuple[str, str]]
     """Two hashes for each proposal, by path: of its text as urdfsync wrote it, and of its two sides."""
+    written: Mapping[str, str]
+    """Hash of each other version, by path."""
     diagnostics: tuple[Diagnostic, ...]
 
 
@@ -111,6 +113,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         notes = msgspec.structs.replace(
             _notes(inputs, generation, record),
             proposals=old.proposals if inputs.options.dry else versions.noted,
+            versions=old.versions if inputs.options.dry else versions.written,
             edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
             uses=uses,
         )
@@ -378,7 +381,16 @@ def _save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> _Versions:
         edited = existing[name].decode(errors="replace") if name in persons else None
         saved.append(msgspec.structs.replace(conflict, files=files, edited=edited))
     changes = store.save_conflicts(robot, contents, persons)
-    return _Versions(tuple(saved), tuple(changes), notes, tuple(findings))
+    for name, content in store.persons_files(robot).items():
+        if name not in persons and content.strip() and contents.get(name) != content:  # it is replaced or deleted now
+            below = PurePosixPath("conflicts", name)
+            aside = below.with_name(f"{below.stem}.{digest(content)[:8]}{below.suffix}").as_posix()
+            changes += store.save(store.aside_file(robot, aside), content)
+            message, saved_as = "you wrote this file", shown(store.conflicts(robot) / name)
+            hint = f"a copy is {shown(store.aside_file(robot, aside))}"
+            findings.append(Diagnostic(Severity.NOTE, "put-aside", message, saved_as, hint=hint))
+    written = {name: digest(text) for name, text in contents.items() if name not in notes}
+    return _Versions(tuple(saved), tuple(changes), notes, written, tuple(findings))
 
 
 def _put_aside(

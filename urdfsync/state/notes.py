@@ -40,6 +40,8 @@ class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     proposals: Mapping[str, tuple[str, str]] = {}
     """Two hashes for each proposed merge, by path: of the proposal and of its two sides. A person changed a proposal if
     its hash differs."""
+    versions: Mapping[str, str] = {}
+    """Hashes of the other saved versions of conflicts, as urdfsync wrote them, by path."""
     model: str = ""
     """Hash of the last recorded model."""
     edited: Mapping[str, str] = {}

@@ -196,6 +196,12 @@ class Store:
         proposals = {path: text for path, text in self.conflict_files(robot).items() if ".merge" in path}
         return {path for path, text in proposals.items() if text.strip() and digest(text) != noted.get(path, ("",))[0]}
 
+    def persons_files(self, robot: str) -> dict[str, bytes]:
+        """Return the files among the saved versions of conflicts that a person wrote or changed, by path."""
+        noted = self.notes(robot)
+        known = {path: facts[0] for path, facts in noted.proposals.items()} | dict(noted.versions)
+        return {path: text for path, text in self.conflict_files(robot).items() if digest(text) != known.get(path)}
+
     def save_conflicts(self, robot: str, contents: Mapping[str, bytes], kept: Collection[str] = ()) -> list[FileChange]:
         """Return the writes of versions in the robot's folder, by path.
 
@@ -206,9 +212,9 @@ class Store:
         return [change for path, content in wanted.items() for change in self.save(folder / path, content)]
 
     def remove(self, robot: str) -> list[FileChange]:
-        """Return the deletions of all recorded state of a robot; proposals that a person changed stay."""
+        """Return the deletions of all recorded state of a robot; files of a person's among its conflicts stay."""
         files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
-        persons = self.persons_proposals(robot, self.notes(robot).proposals)
+        persons = self.persons_files(robot)
         changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
         return [*self.save_conflicts(robot, {}, persons), *changes]
 
