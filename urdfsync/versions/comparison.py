@@ -7,6 +7,7 @@ source, with the files of that version.
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import tempfile
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -153,13 +154,16 @@ def compare_sources(
 
     A failure does not stop the others. Without a configuration, `against` is required.
     """
-    for count, robot in enumerate(robots):
+    dry = msgspec.structs.replace(options, dry=True)
+    # all in one dry run, which looks at the robots' records once
+    results = build(config, robots, dry) if config is not None and against is None else itertools.repeat(None)
+    for count, (robot, result) in enumerate(zip(robots, results, strict=False)):
         options.progress(robot.name, count, len(robots))
         try:
             if against is not None:
                 yield _with_version(robot, against, config, options, folder)
-            elif config is not None:
-                yield _with_last_build(robot, config, options)
+            elif config is not None and result is not None:
+                yield _with_last_build(robot, config, options, result)
         except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
             failed = msgspec.structs.replace(_result(robot, config), failed=True, diagnostics=findings_of(error))
             yield Comparison(failed, shown(robot.source), against)
@@ -172,8 +176,8 @@ def _result(robot: RobotConfig, config: Config | None) -> Result:
     return Result(robot.name, robot.target.package, robot.folder, config.root, dry=True)
 
 
-def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) -> Comparison:
-    (result,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
+def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions, result: Result) -> Comparison:
+    """Compare a source with the last build; `result` is that of a dry run."""
     if result.failed or (result.changes is None and not (result.writes or result.renews or result.conflicts)):
         return Comparison(result, shown(robot.source))
     inputs = inspect(config, robot, options)
