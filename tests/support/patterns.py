@@ -1,10 +1,13 @@
-# mypy: ignore-errors
-# ruff: noqa
-"""Finds all regular expressions of the program, and tries each on texts on which it may take long."""
+"""Finds the regular expressions of the program, and tries each on texts that may take it long.
+
+As a program, it tries all of them, or those of its arguments. A signal ends it if one takes more than a second of CPU
+time for 200 kB: the last line of its output has the pattern.
+"""
 
 from __future__ import annotations
 
 import ast
+import builtins
 import importlib
 import itertools
 import re
@@ -12,310 +15,236 @@ import signal
 import sys
 import time
 from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from re import _constants as c, _parser
+from re import _compiler, _parser  # type: ignore[attr-defined]
+from re import _constants as ops  # type: ignore[attr-defined]
+from typing import Any, NamedTuple, TypeAlias
 
-METHODS = ("match", "fullmatch", "search", "sub", "subn", "finditer", "findall", "split")
 PACKAGE = Path(__file__).parents[2] / "urdfsync"
-
-
-class Word(str):
-    def __getattr__(self, _):
-        return self
-
-    def __call__(self, *a, **k):
-        return self
-
-    def __getitem__(self, k):
-        return self
-
-    def __truediv__(self, _):
-        return self
-
-
-class Names(dict):
-    def __missing__(self, key):
-        return Word("name")
-
-
-def sources():
-    for path in sorted(PACKAGE.rglob("*.py")):
-        parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
-        yield path, ".".join(parts[:-1] if parts[-1] == "__init__" else parts), ast.parse(path.read_text())
-
-
-def find() -> tuple[dict[object, object], list[str]]:
-    trees = list(sources())
-    used = defaultdict(lambda: defaultdict(set))
-    for _, name, tree in trees:
-        used_here = used[name]
-        for n in ast.walk(tree):
-            if isinstance(n, ast.Call) and isinstance(n.func, ast.Attribute) and n.func.attr in METHODS:
-                m = n.func.attr
-
-                for x in ast.walk(n.func.value):
-                    if isinstance(x, ast.Name):
-                        used_here[x.id].add(m)
-                    if isinstance(x, ast.Attribute):
-                        used_here[x.attr].add(m)
-    out, unreached = [], []
-    for path, name, tree in trees:
-        parents = {ch: p for p in ast.walk(tree) for ch in ast.iter_child_nodes(p)}
-        for n in ast.walk(tree):
-            if not (
-                isinstance(n, ast.Call)
-                and isinstance(n.func, ast.Attribute)
-                and isinstance(n.func.value, ast.Name)
-                and n.func.value.id == "re"
-                and n.func.attr not in ("escape",)
-            ):
-                continue
-            mod = importlib.import_module(name)
-            ns = Names(vars(mod))
-            b = ns.get("__builtins__")
-            ns.update(b if isinstance(b, dict) else vars(b))
-            ns.update({k: v for k, v in vars(mod).items()})
-            place = f"{path}:{n.lineno}"
-            try:
-                arg = n.args[0]
-                pat = eval(compile(ast.Expression(arg), place, "eval"), ns)
-            except Exception as e:
-                unreached.append(place)
-                continue
-            flags = 0
-            exprs = [k.value for k in n.keywords if k.arg == "flags"]
-            pos = {
-                "compile": 1,
-                "match": 2,
-                "search": 2,
-                "fullmatch": 2,
-                "findall": 2,
-                "finditer": 2,
-                "split": 3,
-                "sub": 4,
-            }[n.func.attr]
-            exprs += n.args[pos : pos + 1]
-            for e in exprs:
-                flags |= eval(compile(ast.Expression(e), place, "eval"), ns)
-            methods = {n.func.attr}
-            if n.func.attr == "compile":
-                p = n
-                while p in parents and not isinstance(p, (ast.Assign, ast.AnnAssign, ast.FunctionDef)):
-                    p = parents[p]
-                methods = set()
-                if isinstance(p, ast.Assign) and isinstance(p.targets[0], ast.Name):
-                    methods = allused(used, name, p.targets[0].id)
-                elif isinstance(p, ast.AnnAssign):
-                    methods = allused(used, name, p.target.id)
-                methods = methods or {"match", "fullmatch", "search", "sub"}
-            if isinstance(pat, Word):
-                unreached.append(place)
-                continue
-            if isinstance(pat, re.Pattern):
-                pats = [(pat.pattern, pat.flags)]
-            else:
-                pats = [(pat, flags)]
-            for pt, fl in pats:
-                out.append((place, pt, fl, frozenset(methods)))
-    return out, unreached
-
-
-def allused(used, module, name):
-    public = not name.startswith("_")
-    return {m for mod, names in used.items() if mod == module or public for m in names.get(name, ())}
-
-
-CANDIDATES = "a0 \n\t;\"'/*<>=-_.,()[]{}|:#@A\\é$%^&+?!~`\0"
-CATS = {
-    c.CATEGORY_DIGIT: "0",
-    c.CATEGORY_NOT_DIGIT: "a",
-    c.CATEGORY_SPACE: " ",
-    c.CATEGORY_NOT_SPACE: "a",
-    c.CATEGORY_WORD: "a",
-    c.CATEGORY_NOT_WORD: " ",
+FLAGS_AT = {"compile": 1, "sub": 4, "subn": 4, "split": 3}
+"""The position of the argument `flags` of functions of `re`; 2 for all others."""
+METHODS = {"match", "fullmatch", "search", "sub", "subn", "finditer", "findall", "split"}
+REPEATS = (ops.MAX_REPEAT, ops.MIN_REPEAT, ops.POSSESSIVE_REPEAT)
+ONE_CHARACTER = (ops.LITERAL, ops.NOT_LITERAL, ops.ANY, ops.IN)
+CHARACTERS = "a 0\n\t;\"'/*<>=-_.,()[]{}|:#@A\\é$%^&+?!~`\0"
+SHORT, LARGE = 1_000, 200_000
+LOCAL = {
+    ("checks/compilers/omc.py", "task.pattern"): "['.*']",  # of the user's own command line
+    ("checks/compilers/rumoca.py", "task.pattern"): "['.*']",
+    ("engine/file_kinds.py", "pattern"): "[pattern for _, pattern, _ in _OTHERS]",
+    ("engine/imports.py", "beginning"): "[*_HINTS]",
+    ("modelica/files.py", "b'\\\\b' + re.escape(name) + b'\\\\b'"): "[rb'\\bname\\b']",
+    ("urdf/meshes/reading.py", "statements"): "[rb'^ *((?:[vf]|usemtl) .*)', rb'^ *([vf] .*)']",
 }
+"""Local names, by module and argument of `re`, with an expression for the patterns that they stand for."""
+
+Token: TypeAlias = tuple[Any, Any]
+"""An operation of a parsed pattern and its arguments, as `re._parser` makes them."""
+Attack: TypeAlias = tuple[str, str, str]
+"""A text: a beginning, a part that is repeated, and an end."""
 
 
-def accepted(items):
-    """One char per member of a class."""
-    neg = items and items[0][0] is c.NEGATE
-    if neg:
-        bad = re.compile(_charclass(items[1:]))
-        return [next(x for x in CANDIDATES if not bad.match(x))]
-    out = []
-    for op, av in items:
-        if op is c.LITERAL:
-            out.append(chr(av))
-        elif op is c.RANGE:
-            out.append(chr(av[0]))
-        elif op is c.CATEGORY:
-            out.append(CATS[av])
-    return list(dict.fromkeys(out))
+class Pattern(NamedTuple):
+    """A regular expression of the program, and the methods that it is used with."""
+
+    place: str
+    compiled: re.Pattern[Any]
+    methods: frozenset[str]
 
 
-def _charclass(items):
-    s = ""
-    esc = {
-        c.CATEGORY_DIGIT: r"\d",
-        c.CATEGORY_NOT_DIGIT: r"\D",
-        c.CATEGORY_SPACE: r"\s",
-        c.CATEGORY_NOT_SPACE: r"\S",
-        c.CATEGORY_WORD: r"\w",
-        c.CATEGORY_NOT_WORD: r"\W",
+class _Stub(str):
+    """Stands for a local name in an expression: a text or path that may be called, and has all attributes."""
+
+    __slots__ = ()
+
+    def __getattr__(self, name: str) -> _Stub:
+        return self
+
+    def __call__(self, *arguments: object, **keywords: object) -> _Stub:
+        return self
+
+    def __truediv__(self, name: str) -> _Stub:
+        return self
+
+
+class _Names(dict[str, object]):
+    """The names of a module. Other names are local."""
+
+    def __missing__(self, name: str) -> _Stub:
+        return _Stub("name")
+
+
+def find_patterns() -> list[Pattern]:
+    """Return each pattern that the program gives to a function of `re`."""
+    trees = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
+    used = {path: _methods_by_name(tree) for path, tree in trees.items()}
+    return [pattern for path, tree in trees.items() for pattern in _find_in(path, tree, used)]
+
+
+def _methods_by_name(tree: ast.Module) -> Mapping[str, set[str]]:
+    """Return by each name the methods of patterns that a module calls on a value with this name in it."""
+    methods = defaultdict[str, set[str]](set)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in METHODS:
+            for part in ast.walk(node.func.value):
+                if isinstance(part, ast.Name | ast.Attribute):
+                    methods[part.id if isinstance(part, ast.Name) else part.attr].add(node.func.attr)
+    return methods
+
+
+def _find_in(path: Path, tree: ast.Module, used: Mapping[Path, Mapping[str, set[str]]]) -> Iterator[Pattern]:
+    name = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts)
+    module = importlib.import_module(name.removesuffix(".__init__"))
+    names, local = _Names(vars(builtins) | vars(module)), path.relative_to(PACKAGE).as_posix()
+    targets = {
+        part: node.targets[0] if isinstance(node, ast.Assign) else node.target
+        for node in tree.body
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value
+        for part in ast.walk(node.value)
     }
-    for op, av in items:
-        if op is c.LITERAL:
-            s += re.escape(chr(av))
-        elif op is c.RANGE:
-            s += re.escape(chr(av[0])) + "-" + re.escape(chr(av[1]))
-        elif op is c.CATEGORY:
-            s += esc[av]
-    return "[" + s + "]"
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr != "escape"):
+            continue
+        if not (isinstance(node.func.value, ast.Name) and node.func.value.id == "re"):
+            continue
+        place, function, argument = f"{local}:{node.lineno}", node.func.attr, ast.unparse(node.args[0])
+        at = FLAGS_AT.get(function, 2)
+        given = [*node.args[at : at + 1], *(word.value for word in node.keywords if word.arg == "flags")]
+        flags = sum(eval(ast.unparse(flag), names) for flag in given)
+        methods = {function}
+        if function == "compile":  # another module may use a public name
+            name = getattr(targets.get(node), "id", "")
+            users = [path] if name.startswith("_") else used
+            methods = {method for user in users for method in used[user].get(name, ())} or {
+                "match",
+                "fullmatch",
+                "search",
+                "sub",
+            }
+        known = LOCAL.get((local, argument))
+        for pattern in eval(known or f"[{argument}]", names):
+            assert not isinstance(pattern, _Stub), f"{place}: `{argument}` is local: name its patterns in LOCAL"
+            yield Pattern(place, re.compile(pattern, flags), frozenset(methods))
 
 
-REPEATS = (c.MAX_REPEAT, c.MIN_REPEAT, c.POSSESSIVE_REPEAT)
+def attacks(pattern: re.Pattern[Any]) -> Iterator[Attack]:
+    """Yield texts that may take a pattern long: what its parts match, again and again, behind what precedes them."""
+    text = pattern.pattern.decode("latin-1") if isinstance(pattern.pattern, bytes) else pattern.pattern
+    tokens = _parser.parse(text, pattern.flags & ~re.UNICODE)
+    groups = dict[int, str]()
+    repeats = list(_repeats(tokens, "", groups))
+    signs = (sign for sign in _characters_of(tokens) if not sign.isalnum())
+    alphabet = list(dict.fromkeys(["a", " ", "\n", *signs]))[:14]
+    pumps = [
+        *alphabet,
+        *_samples(tokens, groups)[:4],
+        *itertools.chain.from_iterable((before, *bodies) for before, bodies in repeats),
+        *(before + body for before, bodies in repeats for body in bodies[:2]),
+        *(before[-1:] + sign for before, _ in repeats for sign in alphabet),
+        *(first + second for first in alphabet[3:8] for second in alphabet[3:8]),
+    ]
+    behind = ((before, pump) for before, bodies in repeats for pump in (*bodies, *alphabet))
+    for before, pump in dict.fromkeys([*(("", pump) for pump in pumps), *behind]):
+        if pump:
+            yield before, pump, ""
+            yield before, pump, "\0"
 
 
-def samples(seq, groups, most=4):
-    """A few short texts that a sequence matches."""
+def _children(token: Token) -> Sequence[Sequence[Token]]:
+    """Return the sequences inside of a token."""
+    operation, arguments = token
+    if operation in (*REPEATS, ops.SUBPATTERN, ops.ASSERT, ops.ASSERT_NOT):
+        return [arguments[-1]]
+    if operation is ops.BRANCH:
+        return [*arguments[1]]
+    return [arguments] if operation is ops.ATOMIC_GROUP else []
+
+
+def _repeats(tokens: Iterable[Token], before: str, groups: dict[int, str]) -> Iterator[tuple[str, list[str]]]:
+    """Yield for each long repeat the text that precedes it, and texts that its body matches."""
+    for token in tokens:
+        operation, arguments = token
+        if operation in REPEATS and arguments[1] > 30:
+            yield before, _samples(arguments[2], groups)[:6]
+        for child in _children(token):
+            yield from _repeats(child, before, groups)
+        before += _samples([token], groups)[0]
+
+
+def _samples(tokens: Iterable[Token], groups: dict[int, str]) -> list[str]:
+    """Return a few short texts that a sequence matches; note what its groups match."""
     texts = [""]
-    for op, av in seq:
-        if op is c.LITERAL:
-            opts = [chr(av)]
-        elif op is c.NOT_LITERAL:
-            opts = ["a" if av != 97 else "b"]
-        elif op is c.ANY:
-            opts = ["a"]
-        elif op is c.IN:
-            opts = accepted(av)
-        elif op in REPEATS:
-            inner = samples(av[2], groups, 3)
-            lo = max(av[0], 0)
-            opts = [i * lo for i in inner] if lo else ["", *inner[:1]]
-        elif op is c.SUBPATTERN:
-            opts = samples(av[-1], groups, most)
-            groups[av[0]] = opts[0]
-        elif op is c.BRANCH:
-            opts = [t for b in av[1] for t in samples(b, groups, 2)]
-        elif op is c.ATOMIC_GROUP:
-            opts = samples(av, groups, most)
-        elif op is c.GROUPREF:
-            opts = [groups.get(av, "")]
-        else:
-            opts = [""]
-        opts = list(dict.fromkeys(opts))[:12]
-        texts = [a + b for b in opts for a in texts[:1]] + [a + opts[0] for a in texts[1:]]
+    for token in tokens:
+        operation, arguments = token
+        options = [text for child in _children(token) for text in _samples(child, groups)[:4]]
+        if operation in ONE_CHARACTER:
+            options = _characters(token)
+        elif operation in REPEATS:
+            options = [text * arguments[0] for text in options] if arguments[0] else ["", *options[:1]]
+        elif operation is ops.SUBPATTERN:
+            groups[arguments[0]] = options[0]
+        elif operation is ops.GROUPREF:
+            options = [groups.get(arguments, "")]
+        elif operation in (ops.ASSERT, ops.ASSERT_NOT):
+            options = []
+        first, *others = options or [""]
+        texts = [*(text + first for text in texts), *(texts[0] + other for other in others)]
         texts = list(dict.fromkeys(texts))[:12]
     return texts
 
 
-def repeats(seq, before, groups):
-    """Yield for each repeat the text before it, and its body's samples."""
-    for op, av in seq:
-        if op in REPEATS:
-            if av[1] > 30:
-                yield before, samples(av[2], groups, 6)
-            yield from repeats(av[2], before, groups)
-        elif op is c.SUBPATTERN:
-            yield from repeats(av[-1], before, groups)
-        elif op is c.ATOMIC_GROUP:
-            yield from repeats(av, before, groups)
-        elif op is c.BRANCH:
-            for b in av[1]:
-                yield from repeats(b, before, groups)
-        elif op in (c.ASSERT, c.ASSERT_NOT):
-            yield from repeats(av[1], before, groups)
-        before += samples([(op, av)], groups)[0]
+def _characters_of(tokens: Iterable[Token]) -> Iterator[str]:
+    for token in tokens:
+        if token[0] in ONE_CHARACTER:
+            yield from _characters(token)
+        for child in _children(token):
+            yield from _characters_of(child)
 
 
-def literals(seq):
-    for op, av in seq:
-        if op in (c.LITERAL, c.NOT_LITERAL):
-            yield chr(av)
-        elif op is c.IN:
-            yield from accepted(av)
-        elif op in REPEATS:
-            yield from literals(av[2])
-        elif op is c.SUBPATTERN:
-            yield from literals(av[-1])
-        elif op is c.ATOMIC_GROUP:
-            yield from literals(av)
-        elif op is c.BRANCH:
-            for b in av[1]:
-                yield from literals(b)
-        elif op in (c.ASSERT, c.ASSERT_NOT):
-            yield from literals(av[1])
+def _characters(token: Token) -> list[str]:
+    """Return a few characters that a token matches; the members of a class come first."""
+    operation, arguments = token
+    if operation is ops.LITERAL:
+        return [chr(arguments)]
+    members = arguments if operation is ops.IN else []
+    own = [chr(code[0] if kind is ops.RANGE else code) for kind, code in members if kind in (ops.LITERAL, ops.RANGE)]
+    fits = _compiler.compile(_parser.SubPattern(_parser.State(), [token])).match
+    return [sign for sign in dict.fromkeys(own) if fits(sign)] + [sign for sign in CHARACTERS if fits(sign)][:2]
 
 
-def attacks(pattern, flags):
-    text = pattern.decode("latin-1") if isinstance(pattern, bytes) else pattern
-    fl = flags & ~re.UNICODE
-    tree = _parser.parse(text, fl)
-    groups = {}
-    rep = list(repeats(tree, "", groups))
-    alphabet = list(dict.fromkeys(["a", " ", "\n", *(x for x in literals(tree) if not x.isalnum())]))[:14]
-    whole = samples(tree, groups)
-    pumps = dict.fromkeys(
-        [
-            *alphabet,
-            *(p for _, ps in rep for p in ps),
-            *(b for b, _ in rep),
-            *(b + p for b, ps in rep for p in ps[:2]),
-            *whole[:4],
-            *(b[-1:] + x for b, _ in rep for x in alphabet),
-            *(x + y for x in alphabet[3:8] for y in alphabet[3:8]),
-        ]
-    )
-    for before, pump in dict.fromkeys(
-        [*(("", p) for p in pumps), *((b, p) for b, ps in rep for p in [*ps, *alphabet])]
-    ):
-        if pump:
-            for end in ("", "\0"):
-                yield before, pump, end
-
-
-def make(a, size):
-    before, pump, end = a
+def _text(attack: Attack, size: int) -> str:
+    before, pump, end = attack
     return before + pump * ((size - len(before) - len(end)) // len(pump)) + end
 
 
-def run(compiled, method, text):
-    if method == "match at":
-        at = 0
-        while at < len(text):
-            m = compiled.match(text, at)
-            at = m.end() if m and m.end() > at else at + 1
-    elif method in ("sub", "subn"):
-        compiled.sub(b"" if isinstance(text, bytes) else "", text)
-    elif method == "finditer":
-        for _ in compiled.finditer(text):
-            pass
-    else:
-        getattr(compiled, method)(text)
-
-
-def main() -> None:
-    """Try each pattern; one that takes more than a second of CPU time for 200 kB ends this process."""
-    for place, pattern, flags, methods in find()[0][int(sys.argv[1]) :]:
-        compiled = re.compile(pattern, flags)
-        for attack in dict.fromkeys(attacks(pattern, flags)):
-            texts = [make(attack, size) for size in (1_000, 4_000, 200_000)]
-            if isinstance(pattern, bytes):
-                texts = [text.encode("latin-1", "replace") for text in texts]
-            for method in sorted(methods):
-                print(f"{place} {method} {attack!r}", flush=True)
-                times = []
-                for text in texts[:2]:
-                    signal.setitimer(signal.ITIMER_VIRTUAL, 1.0)
-                    start = time.process_time()
-                    run(compiled, method, text)
-                    times.append(time.process_time() - start)
-                if times[1] > 0.0004 and times[1] > 5 * times[0]:  # only these may be slow: linear ones take fourfold
-                    signal.setitimer(signal.ITIMER_VIRTUAL, 1.0)
-                    run(compiled, method, texts[2])
+def _seconds(pattern: re.Pattern[Any], method: str, text: str) -> float:
+    """Return the time of one call. A signal ends the process after a second of CPU time."""
+    is_bytes = isinstance(pattern.pattern, bytes)
+    given: Any = text.encode("latin-1", "replace") if is_bytes else text
+    arguments = [b"" if is_bytes else ""] if method in ("sub", "subn") else []
+    signal.setitimer(signal.ITIMER_VIRTUAL, 1.0)
+    start = time.perf_counter()  # with a timer, Linux counts CPU time in steps of 4 ms
+    result = getattr(pattern, method)(*arguments, given)
+    if method == "finditer":
+        all(result)
+    seconds = time.perf_counter() - start
     signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-    print("done", flush=True)
+    return seconds
+
+
+def main(*patterns: str) -> None:
+    """Try these patterns; without any, those of the program."""
+    given = [Pattern("argument", re.compile(pattern), frozenset({"search"})) for pattern in patterns]
+    for place, pattern, methods in given or find_patterns():
+        for attack, method in itertools.product(dict.fromkeys(attacks(pattern)), sorted(methods)):
+            print(f"{place} {method} {attack!r}", flush=True)  # noqa: T201
+            short = min(_seconds(pattern, method, _text(attack, SHORT)) for _ in range(2))
+            # linear ones take four times as long; quadratic ones of a second for the large text take 0.4 ms here
+            if _seconds(pattern, method, _text(attack, 4 * SHORT)) > max(0.0004, 5 * short):
+                _seconds(pattern, method, _text(attack, LARGE))
+    print("done")  # noqa: T201
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])
