@@ -356,9 +356,15 @@ def test_only_the_first_unknown_names_get_hints() -> None:
     assert sum("did you mean" in finding.hint for finding in found) == 20
 
 
-def test_a_pump_curve_that_rises_is_an_error_of_the_source() -> None:
+@pytest.mark.parametrize("curve", [
+    "c 1500 250\nc 0 100\nc 3000 400\n",  # wntr takes a logarithm of a negative number
+    "c 0 100\nc 1 200\nc 2 300\n",  # wntr has a message of its own
+    "c 0 100\nc 1 100\nc 2 100\n",  # wntr divides by zero
+])  # fmt: skip
+def test_a_pump_curve_that_does_not_fall_is_one_error_of_the_source(curve: str) -> None:
     """Such a curve has no coefficients, since its head has to fall as the flow rises."""
     pytest.importorskip("wntr", reason="wntr is not installed")
     network = "[RESERVOIRS]\na 1\n[JUNCTIONS]\nb 0 1\n[PUMPS]\np a b HEAD c\n[CURVES]\n{}[OPTIONS]\nUnits LPS\n[END]\n"
-    (found,) = reading(network.format("c 1500 250\nc 0 100\nc 3000 400\n"), "town.inp").diagnostics
+    (found,) = reading(network.format(curve), "town.inp").diagnostics
+    assert found.code == "table-file"
     assert "the curve of pump `p` is no head that falls with the flow" in found.message
