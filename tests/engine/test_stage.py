@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import itertools
+import struct
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from support.commands import Execute
 from support.networks import (
     BASES,
     C1,
@@ -27,6 +29,7 @@ from support.networks import (
     source,
     stored,
 )
+from support.urdfs import robot
 
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.files import text_digest
@@ -243,3 +246,29 @@ def test_the_base_of_what_was_put_aside_stays(project: Path) -> None:
         source(f'"ohm": {old:g}', f'"ohm": {new:g}')
         run()
     assert base in stored(), "the merge may be undone and made again"
+
+
+@pytest.mark.parametrize("change", ["other", "none"])
+def test_a_mesh_with_bytes_that_look_like_line_ends_is_no_text_of_others(
+    folder: Path, execute: Execute, change: str
+) -> None:
+    """This machine wrote it: it is replaced, or deleted with its link, without a copy."""
+    mesh = struct.pack("<80sI9f3fH", b"a\rb\r\nc", 1, *[0.0] * 3, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+    Path("tip.stl").write_bytes(mesh)
+    Path("arm.urdf").write_text(_shown("tip.stl"))
+    execute("init", "arm.urdf")
+    execute("build")
+    (imported,) = Path("modelica/Arm/Resources").iterdir()
+    assert imported.read_bytes() == mesh
+    if change == "other":
+        Path("tip.stl").write_bytes(mesh.replace(b"b", b"d"))
+    else:
+        Path("arm.urdf").write_text(_shown())
+    assert "[put-aside]" not in execute("build").err
+    assert not imported.exists() or imported.read_bytes() != mesh
+    assert not Path(".urdfsync/aside").exists()
+
+
+def _shown(*meshes: str) -> str:
+    shapes = "".join(f'<visual><geometry><mesh filename="{mesh}"/></geometry></visual>' for mesh in meshes)
+    return robot(f'<link name="base">{shapes}</link>', name="arm")
