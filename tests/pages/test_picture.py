@@ -10,6 +10,7 @@ from typing import Any, cast
 import pytest
 import trimesh
 from support.commands import Execute
+from support.meshes import NODES, tenfold
 from support.pages import data_of, faces_of, read
 
 from urdfsync.engine.result import Exit
@@ -87,6 +88,14 @@ def test_a_mesh_that_is_too_large_for_the_package_is_shown_and_one_that_is_damag
     (faces,) = faces_of(file).values()
     assert 200_000 < faces <= 500_000
     assert "coarser" not in page.words  # nothing visible is lost
+
+
+def test_instances_in_instances_are_left_out_as_by_builds(tmp_path: Path, report: Report) -> None:
+    (tmp_path / "ball.dae").write_text(tenfold(20, '<instance_geometry url="#g"/>'))
+    shape = '<visual><geometry><mesh filename="ball.dae"/></geometry></visual>'
+    page = read(report(f'<robot name="ball"><link name="base">{shape}</link></robot>'))
+    assert page.words.count(NODES) == 2  # as a finding of the build, and of the picture
+    assert "takes more than" not in page.words
 
 
 def test_a_domain_without_a_picture_says_so(project: Path, execute: Execute) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 import trimesh
-from support.meshes import dae
+from support.meshes import NODES, dae, tenfold
 
 from urdfsync.urdf.meshes.geometry import Array, bounds
 from urdfsync.urdf.meshes.process import MeshError
@@ -78,6 +78,22 @@ def test_node_of_the_library_is_placed_where_it_is_instanced() -> None:
     part = f'<node id="part"><translate>1 0 0</translate>{PLACED}</node>'
     content = _dae('<node><translate>0 7 0</translate><instance_node url="#part"/></node>', nodes=part)
     assert _bounds(content) == [[1, 7, 0], [2, 9, 3]]
+
+
+@pytest.mark.parametrize("levels", [6, 20, 2_000])
+def test_instances_in_instances_are_counted_before_they_are_placed(levels: int) -> None:
+    with pytest.raises(MeshError, match=NODES):
+        _read(tenfold(levels, '<instance_geometry url="#g"/>').encode())
+
+
+def test_a_scene_may_have_thousands_of_instances() -> None:
+    assert len(_read(tenfold(3, '<instance_geometry url="#g"/>').encode())) == 1_000
+
+
+def test_a_node_in_itself_is_named() -> None:
+    inner = '<node id="n"><node><instance_node url="#n"/></node></node>'
+    with pytest.raises(MeshError, match="node #n has an instance of itself"):
+        _read(_dae('<node><instance_node url="#n"/></node>', nodes=inner))
 
 
 def test_skin_stands_as_it_is_bound() -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from support.meshes import HOSTILE, LIMITS, dae, tenfold, write_hostile
+from support.meshes import HOSTILE, LIMITS, dae, gltf, write_hostile
 from support.urdfs import link, robot
 
 from urdfsync import cli
@@ -25,7 +25,7 @@ Capture = pytest.CaptureFixture[str]
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="elsewhere not all limits hold")]
 REQUEST = Request(".dae")
 SOUND = dae().encode()
-ENDLESS = tenfold(11, "").encode()
+ENDLESS = gltf([{"mesh": 0}] * 200_000, [*range(200_000)]).encode()
 
 
 @pytest.fixture
@@ -77,7 +77,7 @@ def test_the_process_is_kept_until_a_mesh_breaks_a_limit(reader: MeshProcess, mo
     assert (reader.read(REQUEST, SOUND), _pid()) == ([(stl, facts)], first)
     monkeypatch.setattr(process, "CPU_SECONDS", 0.3)
     with pytest.raises(MeshError, match=LIMITS):
-        reader.read(REQUEST, ENDLESS)
+        reader.read(Request(".gltf"), ENDLESS)
     assert not psutil.pid_exists(first)
     monkeypatch.undo()
     assert reader.read(REQUEST, SOUND) == [(stl, facts)]
@@ -113,7 +113,7 @@ def test_an_interruption_is_heard_while_a_mesh_is_read(reader: MeshProcess) -> N
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
     try:
         with pytest.raises(KeyboardInterrupt):
-            reader.read(REQUEST, ENDLESS)
+            reader.read(Request(".gltf"), ENDLESS)
     finally:
         signal.signal(signal.SIGALRM, before)
     assert not psutil.pid_exists(first)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Iterator, Mapping
+from graphlib import CycleError, TopologicalSorter
 
 import numpy as np
 from lxml import etree
@@ -36,6 +37,8 @@ _NO_SHAPE = (
 _MATERIALS = ("library_effects", "library_materials", "bind_material")
 _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 _NONE = (0, 0, 0, 0)
+_MOST_PARTS = 200_000
+"""The greatest number of nodes and geometries of a scene: a build's limit of time suffices for about so many."""
 _MOVES = ("lookat", "matrix", "rotate", "scale", "translate")
 
 
@@ -58,6 +61,8 @@ def collada_parts(
         _leave_plain_colors(root, others)
     without = _NO_SHAPE if others is not None else _NO_SHAPE + _MATERIALS
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in without), with_tail=False)
+    if _count_parts(root) > _MOST_PARTS:
+        raise MeshError(f"the scene has more than {_MOST_PARTS:,} nodes, counted in all their places")
     _move_once_per_node(root)
     shapes = io.BytesIO(etree.tostring(root))
     del root  # frees memory: pycollada builds another tree.
@@ -140,6 +145,31 @@ def _place_skins(root: etree._Element) -> None:
         geometry = etree.SubElement(node, f"{space}instance_geometry", url=skin.get("source", ""))
         geometry.extend(instance.iterfind("{*}bind_material"))
         instance.getparent().replace(instance, node)  # type: ignore[union-attr] # only the root has no parent
+
+
+def _count_parts(root: etree._Element) -> int:
+    """Return the number of nodes and geometries of the largest scene, at most `_MOST_PARTS` + 1.
+
+    Nodes count in each place. A few nodes with instances of each other have more places than a computer can visit.
+    """
+    nodes = {f"#{node.get('id')}": node for node in root.iter("{*}node")}
+    children = {
+        parent: [nodes.get(part.get("url", ""), part) if _is_instance(part) else part for part in parent]
+        for parent in root.iter("{*}visual_scene", "{*}node")
+    }
+    counts = dict[etree._Element, int]()
+    try:
+        for part in TopologicalSorter(children).static_order():
+            count = 1 + sum(counts[child] for child in children.get(part, ()))
+            counts[part] = min(count, _MOST_PARTS + 1)  # integers of unlimited length would take long
+    except CycleError as error:
+        name = next(node.get("id") for node in error.args[1] if node.get("id"))
+        raise MeshError(f"node #{name} has an instance of itself") from error
+    return max((counts[scene] for scene in root.iter("{*}visual_scene")), default=0)
+
+
+def _is_instance(part: etree._Element) -> bool:
+    return etree.QName(part).localname == "instance_node"
 
 
 def _move_once_per_node(root: etree._Element) -> None:
