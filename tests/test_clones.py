@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.git import NEEDS_GIT, Repository
+from support.git import NEEDS_GIT, Repository, built_arm
 from support.networks import edit
 from support.replay import contents
 from support.urdfs import joint, link, robot
@@ -31,15 +31,7 @@ def write_source(*, elbow: str = "elbow", hand: str = "hand", grip: bool = True,
 @pytest.fixture
 def repository(folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Repository:
     """An arm, built and committed."""
-    project = folder / "project"
-    project.mkdir()
-    monkeypatch.chdir(project)
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    write_source()
-    execute("build")
-    repository = Repository(project, monkeypatch)
-    repository.commit()
-    return repository
+    return built_arm(folder / "project", write_source, execute, monkeypatch)
 
 
 class Both:

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from support.commands import Execute
 from support.files import fresh_models, models
-from support.git import NEEDS_GIT, Repository
+from support.git import NEEDS_GIT, Repository, built_arm
 from support.urdfs import joint, limit, link, robot
 
 pytestmark = NEEDS_GIT
@@ -36,15 +36,7 @@ def export(
 @pytest.fixture
 def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Repository:
     """The arm, built and committed."""
-    folder = tmp_path / "project"
-    folder.mkdir()
-    monkeypatch.chdir(folder)
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    export()
-    execute("build")
-    repository = Repository(folder, monkeypatch)
-    repository.commit()
-    return repository
+    return built_arm(tmp_path / "project", export, execute, monkeypatch)
 
 
 def unite(repository: Repository, execute: Execute, ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:

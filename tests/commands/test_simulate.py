@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
+from support.files import outputs
 from support.simulation import Compiler
 
 from urdfsync.checks.process import LimitError
@@ -36,11 +37,6 @@ def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
     assert "position passes its limit, 2 rad" in page
 
 
-def files() -> list[Path]:
-    """All files and folders of the project; what it remembers of dependencies is no output."""
-    return sorted(path for path in Path().rglob("*") if "deps" not in path.parts)
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -63,9 +59,9 @@ def test_bad_arguments_are_refused_and_nothing_is_written(
 ) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     Path("m.csv").write_text("time,shoulder_phi,elbow_phi\n0,0,0\n1,1,1\n")
-    before = files()
+    before = outputs()
     assert words in execute("simulate", *arguments, code=2).words
-    assert (files(), compiler.jobs) == (before, [])
+    assert (outputs(), compiler.jobs) == (before, [])
 
 
 def test_what_is_not_installed_is_said_first(
@@ -94,9 +90,9 @@ def test_an_interruption_leaves_nothing(compiler: Compiler, execute: Execute, mo
         raise KeyboardInterrupt
 
     monkeypatch.setattr("urdfsync.checks.compilers.run_job", interrupt)
-    before = files()
+    before = outputs()
     assert "interrupted" in execute("simulate", "--csv", "a.csv", code=130).words
-    assert files() == before
+    assert outputs() == before
 
 
 def test_a_limit_of_time_is_told_with_its_option(

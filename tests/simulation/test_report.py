@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from support.commands import Execute
+from support.files import outputs
 from support.simulation import Compiler
 
 SHOWN = """\
@@ -16,7 +15,7 @@ arm: Arm.ArmTest, 10 s in steps of 0.02 s; … s
 
 
 def test_joints_are_shown_beside_their_limits(compiler: Compiler, execute: Execute) -> None:
-    before = sorted(path for path in Path().rglob("*") if "deps" not in path.parts)
+    before = outputs()
     printed = execute("simulate")
     first, *rest = printed.lines
     assert first.startswith("arm: Arm.ArmTest, 10 s in steps of 0.02 s; ")
@@ -25,4 +24,4 @@ def test_joints_are_shown_beside_their_limits(compiler: Compiler, execute: Execu
         "warning: joint shoulder: position passes its limit, 2 rad, at 2 s; by up to 0.5 rad, for 0 s [limit-passed]"
     ]
     assert max(map(len, printed.lines)) <= 80
-    assert sorted(path for path in Path().rglob("*") if "deps" not in path.parts) == before
+    assert outputs() == before

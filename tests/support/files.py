@@ -29,6 +29,11 @@ def unchanged(folder: Path, but: str = "") -> Iterator[None]:
     assert after == before, [name for name in after.keys() | before.keys() if after.get(name) != before.get(name)]
 
 
+def outputs() -> list[Path]:
+    """All files and folders of the working folder, without what is remembered of dependencies."""
+    return sorted(path for path in Path().rglob("*") if "deps" not in path.parts)
+
+
 def models() -> dict[str, str]:
     """The models and records of all packages in the working folder, by path."""
     return {path.as_posix(): path.read_text() for path in sorted(Path("modelica").rglob("*.mo"))}
