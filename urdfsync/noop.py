@@ -142,24 +142,15 @@ def answer(arguments: Sequence[str]) -> str | None:
     with streams.SafeStreams() as output:
         if not Request(arguments).quiet:
             for robot, summary, findings in lines:
-                marks = [("✓ ", "green")] if _has_marks(output) else []
+                marks = [("✓ ", "green")] if streams.has_marks(output) else []
                 _write(output, *marks, (robot, "bold"), (f": {summary}", ""))
                 if findings:
                     _write(sys.stderr, (f"{robot}: {findings}", "dim"))
         return output.trouble
 
 
-def _is_terminal(stream: TextIO | streams.Stream) -> bool:
-    return bool(stream.isatty() or os.environ.get("FORCE_COLOR"))
-
-
-def _has_marks(stream: TextIO | streams.Stream) -> bool:
-    return _is_terminal(stream) and str(getattr(stream, "encoding", "")).lower().startswith("utf")
-
-
 def _write(stream: TextIO | streams.Stream, *parts: tuple[str, str]) -> None:
-    is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") in ("dumb", "unknown")
-    styles = {} if is_plain or not _is_terminal(stream) else _STYLES
+    styles = _STYLES if streams.has_colours(stream) else {}
     texts = (f"\x1b[{styles[style]}m{text}\x1b[0m" if style in styles else text for text, style in parts)
     stream.write("".join(texts) + "\n")
     stream.flush()

@@ -63,9 +63,10 @@ def is_own(name: str) -> bool:
 
 def program(name: str, state_folder: Path | None = None) -> str:
     """Return a hash of urdfsync, and of the code and templates of a domain; they are no inputs that builds record."""
-    own, templates = identity(str(state_folder or "")), domain(name).templates
+    own = identity(str(state_folder or ""))
     if is_own(name):
         return own
+    templates = domain(name).templates
     module = sys.modules[top_level(name)]
     file = module.__file__ or ""
     is_package = not file or os.path.basename(file) == "__init__.py"  # noqa: PTH119

@@ -10,9 +10,9 @@ import errno
 import os
 import sys
 
-TYPE_CHECKING = False  # importing `typing` takes 2 of the 12 ms of the check, contextlib 1
+TYPE_CHECKING = False  # importing `typing` takes 2 of the 25 ms of a no-op build, contextlib 1
 if TYPE_CHECKING:
-    from typing import Any, TextIO
+    from typing import IO, Any, TextIO
 
 
 class Stream:
@@ -86,3 +86,19 @@ class SafeStreams:
 
 def _devnull() -> TextIO:
     return open(os.devnull, "w", encoding="utf-8")
+
+
+def is_terminal(stream: IO[str] | Stream) -> bool:
+    """Return whether the stream is a terminal, or the user forces colours."""
+    return bool(stream.isatty() or os.environ.get("FORCE_COLOR"))
+
+
+def has_marks(stream: IO[str] | Stream) -> bool:
+    """Return whether signs like ✓ can be shown."""
+    return is_terminal(stream) and str(getattr(stream, "encoding", "")).lower().startswith("utf")
+
+
+def has_colours(stream: IO[str] | Stream) -> bool:
+    """Return whether the terminal and the user allow colours."""
+    is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") in ("dumb", "unknown")
+    return is_terminal(stream) and not is_plain

@@ -11,7 +11,7 @@ import contextlib
 import os
 import stat
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextvars import ContextVar, Token
 
 from urdfsync.dependencies.facts import (
@@ -22,7 +22,6 @@ from urdfsync.dependencies.facts import (
     VARIABLE,
     Entry,
     Facts,
-    checksum,
     facts_of,
     failed,
     hash_content,
@@ -220,11 +219,6 @@ def _scan(kind: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
         raise
     _record(kind, folder, names_in(kind, entries))
     return entries
-
-
-def note_names(folder: str | os.PathLike[str], names: Iterable[str]) -> None:
-    """Record the names in a folder that other code has listed."""
-    _record(NAMES, folder, checksum(names))
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:

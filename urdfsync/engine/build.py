@@ -7,7 +7,7 @@ until all robots are built.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -58,16 +58,15 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
     with contextlib.ExitStack() as stack:
         lock = stack.enter_context(build_lock(config.root / STATE_FOLDER, options.wait))
         builder = _Builder(config, options, lock)
-        seen = dict[Entry, Facts]()
-        known = {robot.name: builder.recall(robot, seen) for robot in robots}
-        changed = [robot for robot in robots if known[robot.name] is None]
+        known = builder.recall(robots)
+        changed = [robot for robot in robots if robot.name not in known]
         if options.executor or (len(changed) >= _LEAST_ROBOTS and (options.jobs or machine.cores()) > 1):
             from urdfsync.engine.pool import start_pool  # multiprocessing takes 15 ms to import
 
             builder.pool = stack.enter_context(start_pool(config, changed, options)) if changed else None
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
-            result = known[robot.name] or builder.build(robot)
+            result = known.get(robot.name) or builder.build(robot)
             notes = config.without_ignored([*([] if count else orphaned_state(config)), *builder.notes])
             builder.notes = []
             yield msgspec.structs.replace(result, diagnostics=(*notes, *robot.without_ignored(result.diagnostics)))
@@ -87,18 +86,19 @@ class _Builder:
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
-    def recall(self, robot: RobotConfig, seen: dict[Entry, Facts]) -> Result | None:
-        """Return the remembered result of a robot whose package leaves nothing to do; None if it has to be planned.
-
-        `seen` has facts that were looked at just now, and gets the others.
-        """
-        is_inside = robot.output.is_relative_to(self._config.root)  # otherwise it matters who trusts the folder
-        if not is_inside or self._transactions.is_pending():
-            return None
-        try:
-            return remembered.recall(self._config, robot, self._options, self._keys.key(robot), seen)
-        except UrdfsyncError:  # its domain is missing, or broken: the build reports it
-            return None
+    def recall(self, robots: Iterable[RobotConfig]) -> dict[str, Result]:
+        """Return the remembered results by name of robot; robots whose package leaves something to do have none."""
+        known, seen = dict[str, Result](), dict[Entry, Facts]()
+        if self._transactions.is_pending():
+            return known
+        for robot in robots:
+            if not robot.output.is_relative_to(self._config.root):
+                continue  # it matters who trusts the folder
+            with contextlib.suppress(UrdfsyncError):  # its domain is missing, or broken: the build reports it
+                key = self._keys.key(robot)
+                if result := remembered.recall(self._config, robot, self._options, key, seen):
+                    known[robot.name] = result
+        return known
 
     def build(self, robot: RobotConfig) -> Result:
         """Build one robot. The result has all errors as diagnostics."""
@@ -123,8 +123,7 @@ class _Builder:
                 reads=FactList.of(self._reads),
             )
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
-        facts = FactList.of(self._reads)
-        return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics), reads=facts)
+        return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics))
 
     def _plan_and_write(self, robot: RobotConfig) -> Result:
         """Plan, and write unless the run is dry. Repeat if another build or a save made the plan outdated."""
@@ -135,12 +134,10 @@ class _Builder:
                 plan = self.pool.plan(robot) if self.pool else plan_robot(self._config, robot, self._options)
             if self._options.dry:
                 if self._is_current(plan):
-                    self._note(robot, plan)
-                    return plan.result
+                    return self._finish(robot, plan)
                 continue
             if not (plan.result.writes or plan.writes or self._transactions.is_pending()):
-                self._note(robot, plan)
-                return plan.result
+                return self._finish(robot, plan)
             self._lock.acquire(self._wait)
             if not self._is_current(plan):
                 continue
@@ -150,21 +147,22 @@ class _Builder:
             self.notes += applied.diagnostics
             if not applied.not_done:  # empty unless somebody saved a file meanwhile
                 self._reads.renew({str(change.path): change.content for change in (*shared, *plan.writes)})
-                self._note(robot, plan)
-                return plan.result
+                return self._finish(robot, plan)
             saved = applied.not_done[0]
         message = "it keeps changing during the build"
         hint = "close the program that writes it, then build again"
         raise OutputError.of("restless", message, shown(saved), hint=hint)
 
-    def _note(self, robot: RobotConfig, plan: Plan) -> None:
-        """Save this machine's notes; remember the result of a plan without any write."""
+    def _finish(self, robot: RobotConfig, plan: Plan) -> Result:
+        """Save this machine's notes; remember the result of a plan without any write. Returns it with its reads."""
         if plan.notes:
             notes.save(self._state_folder, robot.name, plan.notes)
             file = notes.place(self._state_folder, robot.name)
             self._reads.renew({str(file): localfile.read_whole(file)})
-        if self._options.renews and not (plan.result.writes or plan.writes):
-            remembered.remember(self._config, robot, self._keys.key(robot), self._reads, plan.result)
+        result = msgspec.structs.replace(plan.result, reads=FactList.of(self._reads))
+        if self._options.renews and self._reads.complete and not (result.writes or plan.writes):
+            remembered.remember(self._config, robot, self._keys.key(robot), result)
+        return result
 
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build has written, or begun to write, since the plan was made."""

@@ -18,7 +18,7 @@ from urdfsync.dependencies import record
 from urdfsync.dependencies.facts import Entry, Facts
 from urdfsync.dependencies.places import is_clone
 from urdfsync.dependencies.reads import Reads, depend_on
-from urdfsync.dependencies.record import FactList, Record
+from urdfsync.dependencies.record import Record
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
 from urdfsync.engine.findings import orphaned_state
@@ -106,22 +106,22 @@ def recall(
     )
 
 
-def remember(config: Config, robot: RobotConfig, key: str, reads: Reads, result: Result) -> None:
-    """Remember a result without writes, unless the list of reads is incomplete."""
-    if not (key and reads.complete) or result.failed or result.stale or result.conflicts or result.settled:
+def remember(config: Config, robot: RobotConfig, key: str, result: Result) -> None:
+    """Remember a result without writes; the list of its reads is complete."""
+    if not key or result.failed or result.stale or result.conflicts or result.settled:
         return
     stated = any(finding.file == shown(config.file) for finding in result.diagnostics)
     stored = _Stored(
         tuple(result.actions), result.diagnostics, result.is_broken, result.changes, _lines(robot) if stated else ""
     )
-    facts, folder = FactList.of(reads), str(config.root / STATE_FOLDER)
     findings = robot.without_ignored(result.diagnostics)
     words = [result.summary, _quick_commands(result), still(findings) or noop.NONE, *map(finding_key, findings)]
     try:
         content = msgspec.msgpack.encode(stored)
     except UnicodeEncodeError:  # a file's name is not UTF-8
         return
-    Record(key, facts, words, content).save(folder, f"{robot.name}{noop.ROBOT}")
+    folder = str(config.root / STATE_FOLDER)
+    Record(key, result.reads, words, content).save(folder, f"{robot.name}{noop.ROBOT}")
 
 
 def remember_configuration(config: Config, reads: Reads) -> None:

@@ -351,8 +351,9 @@ def _base_changes(
 def _save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> _Versions:
     """Return the writes that save the versions of conflicts, and the paths of the versions."""
     store, robot, noted = inputs.store, inputs.robot.name, inputs.last.notes.proposals
-    existing = store.conflict_files(robot)
-    persons = store.persons_proposals(robot, noted)
+    existing, of_persons = store.conflict_files(robot), store.persons_files(robot, inputs.last.notes)
+    # an empty proposal does not count
+    persons = {path for path, text in of_persons.items() if ".merge" in path and text.strip()}
     contents, saved, findings = dict[str, bytes](), list[Conflict](), list[Diagnostic]()
     notes = {path: facts for path, facts in noted.items() if path in persons}
     for conflict in conflicts:
@@ -381,7 +382,7 @@ def _save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> _Versions:
         edited = existing[name].decode(errors="replace") if name in persons else None
         saved.append(msgspec.structs.replace(conflict, files=files, edited=edited))
     changes = store.save_conflicts(robot, contents, persons)
-    for name, content in store.persons_files(robot).items():
+    for name, content in of_persons.items():
         if name not in persons and content.strip() and contents.get(name) != content:  # it is replaced or deleted now
             below = PurePosixPath("conflicts", name)
             aside = below.with_name(f"{below.stem}.{digest(content)[:8]}{below.suffix}").as_posix()

@@ -9,7 +9,6 @@ from __future__ import annotations
 import importlib
 import io
 import json
-import os
 import sys
 import time
 from collections import Counter
@@ -21,6 +20,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.documents import Document, plain
 from urdfsync.spelling import visible
+from urdfsync.streams import has_colours, is_terminal
 
 if TYPE_CHECKING:
     import rich.console
@@ -91,22 +91,11 @@ def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool = False, verbose:
     return [*lines, *(line((words, "dim")) for words in more)]
 
 
-def is_terminal(stream: IO[str]) -> bool:
-    """Return whether the stream is a terminal, or the user forces colours."""
-    return stream.isatty() or bool(os.environ.get("FORCE_COLOR"))
-
-
-def has_marks(stream: IO[str]) -> bool:
-    """Return whether signs like ✓ can be shown."""
-    return is_terminal(stream) and str(getattr(stream, "encoding", "")).lower().startswith("utf")
-
-
 def rich_console(stream: IO[str]) -> rich.console.Console:
     """Return a console of rich on this stream, with colours if the terminal and the user allow them."""
     from rich.console import Console
 
-    is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") in ("dumb", "unknown")
-    system: Literal["auto"] | None = "auto" if is_terminal(stream) and not is_plain else None
+    system: Literal["auto"] | None = "auto" if has_colours(stream) else None
     return Console(file=stream, highlight=False, force_terminal=is_terminal(stream), color_system=system)
 
 

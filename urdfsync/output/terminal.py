@@ -5,8 +5,9 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 
-from urdfsync.output.console import StyledLine, first_lines, has_marks, line
+from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.sections import Mark, Section
+from urdfsync.streams import has_marks
 
 _MARKS = {Mark.WRONG: ("✗ ", "bold red"), Mark.OPEN: ("! ", "yellow"), Mark.NONE: ("", ""), Mark.FINE: ("✓ ", "green")}
 _FILES = {

@@ -188,17 +188,8 @@ class Store:
         existing = map(Path, walk_files(folder)) if self._tree.check_folder(folder) else ()
         return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
 
-    def persons_proposals(self, robot: str, noted: Mapping[str, tuple[str, str]]) -> set[str]:
-        """Return the paths of proposed merges that a person changed: their hashes differ from the `noted` hashes.
-
-        An empty proposal does not count.
-        """
-        proposals = {path: text for path, text in self.conflict_files(robot).items() if ".merge" in path}
-        return {path for path, text in proposals.items() if text.strip() and digest(text) != noted.get(path, ("",))[0]}
-
-    def persons_files(self, robot: str) -> dict[str, bytes]:
+    def persons_files(self, robot: str, noted: Notes) -> dict[str, bytes]:
         """Return the files among the saved versions of conflicts that a person wrote or changed, by path."""
-        noted = self.notes(robot)
         known = {path: facts[0] for path, facts in noted.proposals.items()} | dict(noted.versions)
         return {path: text for path, text in self.conflict_files(robot).items() if digest(text) != known.get(path)}
 
@@ -214,7 +205,7 @@ class Store:
     def remove(self, robot: str) -> list[FileChange]:
         """Return the deletions of all recorded state of a robot; files of a person's among its conflicts stay."""
         files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
-        persons = self.persons_files(robot)
+        persons = self.persons_files(robot, self.notes(robot))
         changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
         return [*self.save_conflicts(robot, {}, persons), *changes]
 

@@ -22,12 +22,13 @@ from urdfsync.engine.result import Checked, Result, check_result
 from urdfsync.files import shown
 from urdfsync.output.build_section import build_section
 from urdfsync.output.conflicts import conflict_lines
-from urdfsync.output.console import Console, StyledLine, findings, has_marks, line, rich_console, write_lines
+from urdfsync.output.console import Console, StyledLine, findings, line, rich_console, write_lines
 from urdfsync.output.documents import JSON_VERSION, plain
 from urdfsync.output.outline import outline
 from urdfsync.output.phrases import change_counts, generator_change
 from urdfsync.output.terminal import details
 from urdfsync.spelling import counted
+from urdfsync.streams import has_marks
 from urdfsync.watch import events
 from urdfsync.watch.terminal import StatusArea
 
