@@ -73,9 +73,8 @@ def test_what_a_check_rests_on_changes_it(project: Path, change: Callable[[], No
 def test_so_do_another_tool_another_distribution_and_another_wish(
     project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    found = [now(), now(physics=True)]
     monkeypatch.setattr(registry, "identity", lambda _: program._recall(""))  # a process knows its packages once
-    found.append(now())
+    found = [now(), now(physics=True)]
     (tmp_path / "site/numbers-2.0.dist-info").mkdir(parents=True)
     monkeypatch.syspath_prepend(tmp_path / "site")
     found.append(now())

@@ -71,6 +71,7 @@ class Problem(msgspec.Struct, frozen=True):
     """A better hint than the usual one for the code."""
 
 
+_TOO_LARGE = Problem("xacro", f"it expands to more than {MAX_FILE:,} bytes")
 NOT_UNICODE = Problem(
     "xacro",
     "a text or a path that it works with is not UTF-8",
@@ -80,6 +81,10 @@ NOT_UNICODE = Problem(
 
 class TimeLimitError(Exception):
     """The expansion has used all its CPU time."""
+
+
+class TooLargeError(Exception):
+    """The expanded text is larger than a source may be."""
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -276,10 +281,7 @@ def expand(request: Request) -> Answer:
             xacro.init_stacks(request.source)
             document = xacro.parse(None, request.source)
             xacro.process_doc(document, mappings=arguments)
-            text = document.toprettyxml(indent="  ")
-            # so the text is the same on every machine
-            for name, folder in sorted(files.packages.items(), key=lambda item: -len(item[1])):
-                text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
+            text = _text(document, files.packages)
             places = tuple(_places(document, text))
             for element in document.getElementsByTagName("*"):
                 if element.tagName in _macros:
@@ -300,6 +302,16 @@ def expand(request: Request) -> Answer:
         tuple(dict.fromkeys(line for line in lines if line and not line.startswith(_SAID_WHERE))),
         problem,
     )
+
+
+def _text(document: Any, packages: Mapping[str, str]) -> str:
+    """Return the text of a document, the same on every machine. Raises TooLargeError before steps that take seconds."""
+    text: str = document.toprettyxml(indent="  ")
+    if len(text) > MAX_FILE:
+        raise TooLargeError
+    for name, folder in sorted(packages.items(), key=lambda item: -len(item[1])):
+        text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
+    return text
 
 
 def _raise_at_limit(seconds: float) -> None:
@@ -354,6 +366,8 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str], un
             return Problem("xacro", "it includes or calls itself without end", file, line)
         case MemoryError() | TimeLimitError():
             return Problem("xacro-limits", "", file, line)
+        case TooLargeError():
+            return _TOO_LARGE
         case expat.ExpatError() if (kind := _kind(read_unrecorded(current))) is not None:
             return Problem(kind.code, kind.message, current, kind.line, kind.hint)
         case NotTextError():
@@ -391,8 +405,7 @@ def _encode(answer: Answer) -> bytes:
     except UnicodeEncodeError:
         return msgspec.json.encode(Answer(problem=NOT_UNICODE))
     if len(content) > MAX_FILE:
-        too_large = f"it expands to more than {MAX_FILE:,} bytes"
-        return msgspec.json.encode(Answer(problem=Problem("xacro", too_large)))
+        return msgspec.json.encode(Answer(problem=_TOO_LARGE))
     return content
 
 
