@@ -7,6 +7,7 @@ PACKAGES = {
     "fmu": "fmpy",
     "physics": "pin",
     "plot": "matplotlib",
+    "remote": "fsspec",
     "table": "openpyxl pint",
     "xacro": "xacro",
 }

@@ -19,6 +19,7 @@ from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
 from urdfsync.checks.package import RobotPackage, read_package, users_models
 from urdfsync.checks.process import Limits, limits_of
+from urdfsync.checks.remote import RemoteCache
 from urdfsync.checks.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
@@ -49,6 +50,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
     A package in step and without faults is not checked again until its fingerprint changes.
     """
     begin, cache = time.monotonic(), UserCache.default()
+    remote = RemoteCache(options.remote_cache, writes=options.remote_write)
     result = CheckResult(robot.name, robot.target.package, strict=options.strict)
     limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
     try:
@@ -56,7 +58,11 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         key = fingerprint(config, robot, options)
         request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
         package = read_package(config, robot, request)
-        earlier = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
+        earlier = None
+        if key and package.in_step and not options.fresh:
+            earlier = cache.load(key, CheckResult)
+            if earlier is None and (earlier := remote.load(key)):
+                cache.save(key, earlier)
         if earlier and options.curves and earlier.reference and not any(tool.curves for tool in earlier.tools):
             earlier = None  # a remembered result lacks the curves
         if earlier is None:
@@ -65,12 +71,17 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
             result.megabytes = limits.peak / 1e6
             is_same = key == fingerprint(config, robot, options)  # if not, a file was saved meanwhile
             if key and package.in_step and is_same:
-                cache.save(key, None if result.failed or result.differs else result)
+                is_right = not (result.failed or result.differs)
+                cache.save(key, result if is_right else None)
+                if is_right:
+                    remote.save(key, result)
         result = earlier or result
+        result.robot = robot.name  # another robot may have the same inputs
         result.folder, result.strict = shown(robot.folder), options.strict  # a saved check may have other values
         result.add(texts.missing_resources(package))  # the fingerprint does not cover these files
     except Exception as error:  # noqa: BLE001 - only this robot fails
         result.add(findings_of(error))
+    result.add(remote.warnings)
     result.diagnostics = robot.without_ignored(result.diagnostics)
     result.seconds = time.monotonic() - begin
     return result

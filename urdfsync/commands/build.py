@@ -28,7 +28,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "build",
-        "robots --wait --trust --jobs --executor",
+        "robots --wait --trust --jobs --executor --shard",
         formats=True,
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
@@ -46,6 +46,8 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots one by one, and show each result at once."""
+    if args.shard and not args.check:
+        raise arguments.UsageError(args.parser, "`--shard` needs `--check`: one process at a time may build")
     given = {"dry": args.dry_run or args.check, "merge": args.merge}
     results = arguments.call(build, BuildOptions, args, console, on_result=partial(show_result, console), **given)
     console.tell(_next_steps(results))

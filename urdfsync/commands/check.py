@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 
 from urdfsync.api import check
@@ -14,13 +15,15 @@ from urdfsync.commands.report import prepare_page
 from urdfsync.output.console import Console, line
 from urdfsync.output.terminal import text
 
+REMOTE_CACHE = "URDFSYNC_REMOTE_CACHE"
+
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = arguments.add_command(
         commands,
         "check",
-        "robots --wait --trust --executor --timeout --memory",
+        "robots --wait --trust --executor --timeout --memory --shard",
         formats=True,
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
@@ -38,9 +41,19 @@ def add(commands: arguments.Commands) -> None:
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
 
+    # never from the configuration: a stranger's repository would choose the results
+    words = f"also read results from a folder or bucket (default: the variable {REMOTE_CACHE})"
+    default = os.environ.get(REMOTE_CACHE, "")
+    option("--remote-cache", metavar="ADDRESS", default=default, help=words)
+    option("--remote-write", action="store_true", help="also write results to the remote cache")
+
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the robots, and show each result at once; at the end show the findings about all robots."""
+    if args.report and args.shard:
+        raise arguments.UsageError(args.parser, "`--report` takes one robot, `--shard` a share of all")
+    if args.remote_write and not args.remote_cache:
+        raise arguments.UsageError(args.parser, "`--remote-write` needs `--remote-cache`")
     results = list[CheckResult]()
     write_report = prepare_page(args, console, args.report) if args.report else None
 

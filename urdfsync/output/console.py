@@ -140,6 +140,7 @@ class Console:
         self._sections: list[Any] = []
         self._warnings: Sequence[Diagnostic] = ()
         self._begin = time.monotonic()
+        self.shard: str | None = None
         self._bar: tuple[Progress, TaskID] | None = None
 
     @property
@@ -196,7 +197,9 @@ class Console:
                 self._sections, diagnostics, code
             )
             return document
-        values = Document(command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics)
+        values = Document(
+            command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics, shard=self.shard
+        )
         indent = None if self._command == "watch" else 2  # each line of the daemon's output is one object
         return json.dumps(plain(values), indent=indent) + "\n"
 
