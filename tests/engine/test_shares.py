@@ -24,7 +24,7 @@ def record(robots: Config, end: str = "\n") -> None:
     """Record the robot `r0` with 1,000 lines, each other robot with 100."""
     for name in NAMES:
         file = Store(robots.root).path(name)
-        file.parent.mkdir(exist_ok=True)
+        file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(f"line{end}".encode() * (1000 if name == "r0" else 100))
 
 
