@@ -22,7 +22,7 @@ from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.differences import Differences
 from urdfsync.engine.edit_origins import EDITED
-from urdfsync.engine.findings import find_all, find_uses, tell_uses
+from urdfsync.engine.findings import UNMERGED, find_all, find_uses, tell_uses
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Former, Inputs, Settled
@@ -136,7 +136,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         renews=bool(state),
         stale=inputs.source.stale,
         is_broken=any(misfit.is_broken for misfit in decision.misfits),
-        is_unmerged=bool(inputs.unmerged),
+        is_unmerged=any(finding.code == UNMERGED for finding in findings),
         drawing=drawing,
         changes=news if news and (news.changes or news.generator) else None,
         conflict_texts=versions.conflicts,
