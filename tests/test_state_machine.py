@@ -192,9 +192,12 @@ EDITS: Mapping[str, edits.Edit] = {
 
 
 def is_but_for_edits(text: str, generated: str) -> bool:
-    """Whether a text is a generated one with added lines, remarks and numbers, all with tags."""
-    mine = [line for line in _OWN.sub("", _SHARED.sub("", text)).splitlines() if line.strip()]
-    other = [line for line in generated.splitlines() if line.strip()]
+    """Whether a text is a generated one with added lines, remarks and numbers, all with tags; indents may differ.
+
+    A new item before a comment in an array gets the comment's indent.
+    """
+    mine = [line.strip() for line in _OWN.sub("", _SHARED.sub("", text)).splitlines() if line.strip()]
+    other = [line.strip() for line in generated.splitlines() if line.strip()]
     patterns = (re.sub(r"7171\\\.\d{6}", r"[-\\w.+]+", re.escape(line)) for line in mine)
     return len(mine) == len(other) and all(map(re.fullmatch, patterns, other))
 

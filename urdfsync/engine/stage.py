@@ -40,7 +40,7 @@ from urdfsync.modelica.files import class_parts
 from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.notes import Notes
-from urdfsync.state.record import FileRecord, Open, Record, as_recorded
+from urdfsync.state.record import FileRecord, Open, Question, Record, as_recorded
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
 
@@ -212,6 +212,8 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
     """Return the record after a build."""
     old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
+    users_texts = {str(action.mine) for action in decision.actions if action.reason in EDITED and action.mine}
+    users_texts |= {text_hash(text) for key, text in decision.texts.items() if key.endswith(".mo")}
     if not decision.is_complete:
         # keep the model of the last complete build; record renewed files, but none in a former folder
         files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
@@ -222,7 +224,8 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
             if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
             and entry not in old.imports.get(key, ())
         }
-        asked = frozenset(action.path for action in decision.actions if action.reason is Reason.ASKED)
+        questions = (action for action in decision.actions if action.reason is Reason.ASKED)
+        asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
         renames = differences.renames
         if pending(inputs):  # the user may delete a declaration
             renames = match_with_last(inputs, generation.now.snapshot, {}).renames
@@ -230,13 +233,14 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         contents = (text for text in inputs.settled.contents.values() if text is not None)
         # a decision about an earlier export does not answer this question, not in the next build either
         doubtful = {action.mine for action in decision.actions if action.reason is Reason.ASKED}
-        return msgspec.structs.replace(
+        new = msgspec.structs.replace(
             old,
             files=files,
             imports={**old.imports, **renewed},
             open=open_,
             confirmed=(old.confirmed - doubtful) | {text_digest(text) for text in contents},
         )
+        return old if new == old else msgspec.structs.replace(new, edited=frozenset(users_texts))
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
     users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
     edited = (one for one in decision.actions if one.reason in users and one.mine)
@@ -250,14 +254,16 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         renamed=_brought(inputs, differences.renames),
         former=_former(inputs, generation, differences),
         confirmed=frozenset(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
+        edited=frozenset(users_texts),
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
     )
-    if news is None or any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in news.changes):
-        return new
-    # a change without effect on the package, such as an unmodelled part of the source, is not worth a commit
-    silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
+    # an edit is not worth a commit of the record
+    silent = msgspec.structs.replace(new, edited=old.edited)
+    if news is not None and all(change.change_class.rank <= ChangeClass.UNMODELLED.rank for change in news.changes):
+        # nor is a change without effect on the package, such as an unmodelled part of the source
+        silent = msgspec.structs.replace(silent, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
 
 
