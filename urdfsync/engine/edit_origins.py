@@ -60,7 +60,7 @@ def find_doubts(
     )
     asked = {} if is_undone or record.open is None else record.open.asked
     for action in [one for one in unconfirmed if one.path in asked and asked[one.path].mine == one.mine]:
-        doubts[action.path] = doubts[action.path] or asked[action.path].doubt
+        doubts[action.path] = asked[action.path].doubt
         unconfirmed.remove(action)
     if not record.is_united:  # the build that wrote the record has judged these texts; a clone knows that, too
         unconfirmed = [one for one in unconfirmed if one.mine not in record.edited]

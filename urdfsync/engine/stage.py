@@ -212,8 +212,13 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
     """Return the record after a build."""
     old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
-    users_texts = {str(action.mine) for action in decision.actions if action.reason in EDITED and action.mine}
-    users_texts |= {text_hash(text) for key, text in decision.texts.items() if key.endswith(".mo")}
+    merged = {key: text_hash(text) for key, text in decision.texts.items() if key.endswith(".mo")}
+    # a merge may wait: then the edit stays on disk
+    edits = (action for action in decision.actions if action.reason in EDITED or action.path in merged)
+    users_texts = {*merged.values(), *(str(action.mine) for action in edits if action.mine)}
+    # the merge of a confirmed text with an export stays confirmed
+    merges = (action for action in decision.actions if action.path in merged and action.mine in old.confirmed)
+    confirmed = frozenset(merged[action.path] for action in merges)
     if not decision.is_complete:
         # keep the model of the last complete build; record renewed files, but none in a former folder
         files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
@@ -238,7 +243,7 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
             files=files,
             imports={**old.imports, **renewed},
             open=open_,
-            confirmed=(old.confirmed - doubtful) | {text_digest(text) for text in contents},
+            confirmed=(old.confirmed - doubtful) | {text_digest(text) for text in contents} | confirmed,
         )
         return old if new == old else msgspec.structs.replace(new, edited=frozenset(users_texts))
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
@@ -253,7 +258,7 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         options=option_values(inputs.robot.options),
         renamed=_brought(inputs, differences.renames),
         former=_former(inputs, generation, differences),
-        confirmed=frozenset(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
+        confirmed=confirmed.union(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
         edited=frozenset(users_texts),
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
