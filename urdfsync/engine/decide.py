@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from urdfsync.engine.fit import Misfit
 
 
-class Decision(msgspec.Struct, frozen=True):
+class Decision(msgspec.Struct, frozen=True, dict=True):
     """All actions of one robot, and the findings about them."""
 
     differences: Differences
@@ -63,7 +63,7 @@ class Decision(msgspec.Struct, frozen=True):
         keys = [action.path for action in self.actions if action.is_conflict]
         return tuple(self.disputed[key] for key in keys if key in self.disputed)
 
-    @property
+    @functools.cached_property  # there are thousands of actions
     def is_complete(self) -> bool:
         """Whether nothing conflicts and nothing waits."""
         return not any(action.is_waiting or action.is_conflict for action in self.actions)

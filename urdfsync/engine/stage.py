@@ -477,11 +477,13 @@ def _replaced(
             continue  # the user's text moves to another file
         if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
             continue
-        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        state = files.state(action.origin or key) if is_moving else files.state_on_disk(key)
         recorded = last.files.get(action.origin or key, FileRecord()).hashes
         # a mesh is no text: bytes that look like line ends count
-        own = last.notes.written.intersection(recorded)
-        if text is None or not own.isdisjoint((text_digest(text), digest(text))):
+        if state is None or not last.notes.written.intersection(recorded).isdisjoint(state):
+            continue
+        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        if text is None:  # somebody has just deleted it
             continue
         former = Former(text, *_bases_given_back(inputs, package, action, text))
         if is_moving:
