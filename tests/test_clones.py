@@ -193,6 +193,14 @@ def test_a_users_own_class_follows_like_an_edit(
     assert brake.read_text() == BRAKE
 
 
+def test_nothing_but_its_new_names_can_be_taken_for_a_users_own_class(brake: Path, execute: Execute) -> None:
+    write_source(elbow="knee")
+    execute("build", code=3)
+    execute("resolve", "--all", "--take")
+    assert followed(brake)
+    assert "MyBrake" not in MODEL.read_text()
+
+
 def test_a_users_own_class_that_is_kept_and_used_makes_the_package_broken(brake: Path, execute: Execute) -> None:
     write_source(elbow="knee")
     execute("build", code=3)

@@ -99,7 +99,7 @@ def test_an_attack_meets_a_build(tmp_path: Path, stale: Path, name: str) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [*sampled(OTHERS, 3), *(pytest.param(name, marks=pytest.mark.large) for name in BIG)])
+@pytest.mark.parametrize("name", [*sampled(OTHERS, 6), *(pytest.param(name, marks=pytest.mark.large) for name in BIG)])
 def test_an_attack_meets_every_other_command(tmp_path: Path, stale: Path, name: str) -> None:
     work = Workplace(tmp_path)
     _attack(work, stale, name, READING[1:], READ, afresh=False)

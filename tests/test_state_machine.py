@@ -1,5 +1,7 @@
 """Exports, edits, builds, answers, undone merges, new names, branches, merges and clones of a project, in any order.
 
+The source is a file, a link to one of two exports, or in a submodule. The user has classes of their own in the package.
+
 After each command, it has not stopped, every edit is in its place or moved with its file, and all verdicts agree. A
 package in step equals a fresh build except for the edits. `URDFSYNC_REPLAYS=2000` makes 2000 steps, with fresh seeds.
 """
@@ -37,15 +39,19 @@ pytestmark = [NEEDS_GIT, pytest.mark.slow]
 STEPS = 25
 """Of one walk."""
 SOURCE, PACKAGE = Path("arm.urdf"), Path("modelica/Arm")
+EXPORTED = "exports/v1/arm.urdf", "exports/v2/arm.urdf"
+SOURCES = SOURCE.name, *EXPORTED, "cad"
+LAYOUTS = "file", "file", "link", "submodule"
 WAYS = ("merge -q --no-edit {other}", "rebase -q {other}", "cherry-pick --keep-redundant-commits {start}..{other}")
 ANSWERS = ("--merge", "--merge --prefer mine", "--merge --prefer generated", "--keep", "--take")
-TAMED = ("comment", "declaration", "equation", "remark", "number", "sensor", "mention")
+TAMED = ("comment", "declaration", "equation", "remark", "number", "sensor", "mention", "own class")
 """Edits that only add text, or change one number."""
 _SHARED = re.compile(r"  // shared mine\d{6}(?:\n(?=[})\]])|$)", re.MULTILINE)
 """A remark; if the last export removed the items behind it, the closing brackets follow in the next line."""
 _OWN = re.compile(r"^.*mine\d{6}.*\n", re.MULTILINE)
 _TAG = re.compile(r"mine\d{6}|7171\.\d{6}")
 _DECLARED = re.compile(r"(?m)^  (?:(?:final|parameter|replaceable|inner|outer) )*[A-Z][\w.]* (\w+)")
+_OWN_CLASS = re.compile(r"\b(Links|Joints)\.(Own\d{6})\b")
 _COMMENT = re.compile(r"(?m)//.*$|\"(?:[^\"\\]|\\.)*\"")
 
 seeds = st.integers(0, 2**32).map(Random)
@@ -138,6 +144,33 @@ def mention(path: Path, random: Random, number: str) -> None:
         path.write_text(text.replace("\nequation\n", f"\n{line}\nequation\n", 1))
 
 
+def add_class(path: Path, random: Random, number: str) -> None:
+    """Add a class of the user's own beside a part that it extends; the model gets a component of it."""
+    text, parts = path.read_text(), [one for one in sorted(PACKAGE.glob("*/*.mo")) if "package" not in one.stem]
+    if "\nequation\n" in text and parts:
+        part = random.choice(parts)
+        place, name = f"{PACKAGE.name}.{part.parent.name}", f"Own{number}"
+        own = f'within {place};\nmodel {name} "mine{number}"\n  extends {part.stem};\nend {name};\n'
+        part.with_name(f"{name}.mo").write_text(own)
+        mark = f"mine9{number[1:]}"
+        line = f"  {part.parent.name}.{name} {mark};  // shared {mark}"
+        path.write_text(text.replace("\nequation\n", f"\n{line}\nequation\n", 1))
+
+
+def use_class(path: Path, random: Random, number: str) -> None:
+    """Give a part of the robot's model a class of the user's own."""
+    model = PACKAGE / "Arm.mo"
+    text = model.read_text() if model.exists() else ""
+    if (uses := [*re.finditer(r"(?m)^  (?:replaceable )?(Links|Joints)\.(\w+) ", text)]) and (
+        use := random.choice(uses)
+    ):
+        folder, part = use.groups()
+        own = f'within Arm.{folder};\nmodel Own{number} "mine{number}"\n  extends {part};\nend Own{number};\n'
+        (PACKAGE / folder).mkdir(exist_ok=True)
+        (PACKAGE / folder / f"Own{number}.mo").write_text(own)
+        model.write_text(f"{text[: use.start(2)]}Own{number}{text[use.end(2) :]}")
+
+
 def by_hand(edit: hand_edits.Edit) -> edits.Edit:
     """An edit as by a person: another type, another name, another style."""
 
@@ -153,13 +186,18 @@ EDITS: Mapping[str, edits.Edit] = {
     **{kind: by_hand(edit) for kind, edit in hand_edits.EDITS.items()},
     "sensor": add_sensor,
     "mention": mention,
+    "own class": add_class,
+    "another class": use_class,
 }
 
 
 def is_but_for_edits(text: str, generated: str) -> bool:
-    """Whether a text is a generated one with added lines, remarks and numbers, all with tags."""
-    mine = [line for line in _OWN.sub("", _SHARED.sub("", text)).splitlines() if line.strip()]
-    other = [line for line in generated.splitlines() if line.strip()]
+    """Whether a text is a generated one with added lines, remarks and numbers, all with tags; indents may differ.
+
+    A new item before a comment in an array gets the comment's indent.
+    """
+    mine = [line.strip() for line in _OWN.sub("", _SHARED.sub("", text)).splitlines() if line.strip()]
+    other = [line.strip() for line in generated.splitlines() if line.strip()]
     patterns = (re.sub(r"7171\\\.\d{6}", r"[-\\w.+]+", re.escape(line)) for line in mine)
     return len(mine) == len(other) and all(map(re.fullmatch, patterns, other))
 
@@ -170,8 +208,12 @@ def texts(package: Path = PACKAGE) -> dict[str, str]:
     return {p: c.decode().replace("\r\n", "\n") for p, c in found.items() if p.endswith((".mo", ".order"))}
 
 
-def missing_names(texts: Mapping[str, str], files: Collection[str]) -> Iterator[str]:
+def missing_names(texts: Mapping[str, str], files: Mapping[str, str]) -> Iterator[str]:
     """Missing links, joints and parts that a text names. This function does not ask urdfsync."""
+    for folder, name in _OWN_CLASS.findall(_COMMENT.sub("", texts.get("Arm.mo", ""))):
+        base = re.search(r"extends (\w+);", files.get(f"{folder}/{name}.mo", ""))
+        if base and not {f"{folder}/{base[1]}.mo", f"{folder}/{base[1]}/package.mo"} & {*files}:
+            yield f"{folder}/{name}.mo: {base[1]}"
     for path, text in texts.items():
         code = _COMMENT.sub("", text) if path.endswith(".mo") else ""
         for folder, name in re.findall(r"(?<![\w.])(Links|Joints)\.(\w+)", code):
@@ -214,6 +256,45 @@ class Expected:
         ]
 
 
+class Project(Repository):
+    """A repository whose source is a file, a link to one of two exports (`link`), or in a submodule (`submodule`)."""
+
+    def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, layout: str) -> None:
+        super().__init__(folder / "project", monkeypatch)
+        self.layout = layout
+        (folder / "gitconfig").write_text('[protocol "file"]\n  allow = always\n')
+        if layout == "link":
+            for place in EXPORTED:
+                (self.folder / place).parent.mkdir(parents=True)
+                (self.folder / place).touch()
+            (self.folder / SOURCE).symlink_to(EXPORTED[0])
+        if layout == "submodule":
+            upstream = Repository(folder / "upstream", monkeypatch)
+            monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(folder / "gitconfig"))
+            (upstream.folder / SOURCE).touch()
+            upstream.commit()
+            self.git("submodule", "--quiet", "add", "../upstream", "cad")
+            (self.folder / SOURCE).symlink_to(f"cad/{SOURCE}")
+
+    def commit(self, message: str = "next") -> None:
+        """Commit all files, also those of the submodule, for clones as well."""
+        if self.layout == "submodule":
+            self.git("-C", "cad", "add", "-A")
+            self.git("-C", "cad", "commit", "-q", "--allow-empty", "-m", message)
+            commit = self.git("-C", "cad", "rev-parse", "HEAD").strip()
+            self.git("-C", "cad", "push", "-q", "origin", f"HEAD:refs/heads/{commit}")
+        super().commit(message)
+
+    def update(self) -> None:
+        """Check out the commit of the submodule that the index names; if git can't merge two commits, one of them."""
+        if self.layout == "submodule":
+            entries = self.git("ls-files", "--stage", "--", "cad").splitlines()
+            if len(entries) > 1:
+                self.git("-C", "cad", "checkout", "-q", entries[-1].split()[1])
+                self.git("add", "cad")
+            self.git("submodule", "--quiet", "update", "--force")
+
+
 class Walk(RuleBasedStateMachine):
     """One project, and the person who works on it."""
 
@@ -225,8 +306,6 @@ class Walk(RuleBasedStateMachine):
     def __init__(self) -> None:
         super().__init__()
         shutil.rmtree(self.root, ignore_errors=True)
-        self.repository = Repository(self.root / "project", self.monkeypatch)
-        os.chdir(self.repository.folder)
         self.count, self.branch, self.other = 0, "main", "other"
         self.expected = Expected()
         self.branches = {"main": self.expected}
@@ -237,11 +316,16 @@ class Walk(RuleBasedStateMachine):
         self.broken: Sequence[str] = ()
         self.replaced = dict[str, str]()
         """Texts that the last command merged or replaced, by path."""
+        self.has_news = True
+        """Whether anything was done since the last clone."""
         self.renews = False
         """Whether the last command renewed the record, or would have."""
 
     @initialize(random=seeds, merging=st.booleans(), driver=st.booleans())
-    def begin(self, random: Random, merging: bool, driver: bool) -> None:
+    def begin(self, random: Random, merging: bool, driver: bool, layout: str = "") -> None:
+        self.repository = Project(self.root, self.monkeypatch, layout or random.choice(LAYOUTS))
+        self.tally[self.repository.layout] += 1
+        os.chdir(self.repository.folder)
         approach = random.choice(['["package"]'] * 4 + ['["record"]', '["package", "record"]'])
         self.configuration = f'[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\napproach = {approach}\n'
         self.configuration += 'on_conflict = "merge"\n' if merging else ""
@@ -279,6 +363,19 @@ class Walk(RuleBasedStateMachine):
             changed = EXPORTS[kind](robot, random)
             export(robot if changed is None else changed)
         self.replaced.clear()
+        self.has_news = True
+
+    @precondition(lambda self: self.repository.layout == "link")
+    @rule(exports=st.lists(st.sampled_from(sorted(EXPORTS)), max_size=2), random=seeds)
+    def retarget(self, exports: Sequence[str], random: Random) -> None:
+        """The next export has its own folder, and the link leads to it."""
+        other = next(place for place in EXPORTED if Path(place).resolve() != SOURCE.resolve())
+        text = SOURCE.read_text()
+        SOURCE.unlink()
+        SOURCE.symlink_to(other)
+        SOURCE.write_text(text)
+        self.change(exports, random)
+        self.tally["retargeted"] += 1
 
     @rule(kind=st.sampled_from(sorted(EDITS.keys() - {*TAMED})), random=seeds)
     def edit_wildly(self, kind: str, random: Random) -> None:
@@ -296,6 +393,7 @@ class Walk(RuleBasedStateMachine):
         """Accept the present edits, after another program than urdfsync has changed them."""
         self.expected.edits = edits.tagged(replay.contents(PACKAGE))
         self.replaced.clear()
+        self.has_news = True
 
     @rule(full=st.booleans())
     def build(self, full: bool) -> None:
@@ -324,6 +422,7 @@ class Walk(RuleBasedStateMachine):
             self.expected.loose |= {*map(inside, asked)}
         if answer.endswith(("take", "generated")):
             self.give_up({*asked.values()})
+        self.has_news = True
         code = self.run(f"resolve {'--all' if all_ else path} {answer}")
         assert self.verdict() == (code == 0)
 
@@ -349,6 +448,12 @@ class Walk(RuleBasedStateMachine):
         for path in [*self.broken]:
             if path not in self.broken:  # an answer has moved the file
                 continue
+            if (own := Path(path)).stem.startswith("Own"):
+                parts = [
+                    one.stem for one in sorted(own.parent.glob("*.mo")) if not one.stem.startswith(("Own", "package"))
+                ]
+                own.write_text(re.sub(r"extends \w+;", f"extends {parts[0]};" if parts else "", own.read_text()))
+                continue
             self.give_up([path])
             if take and path.endswith(".mo"):  # a `package.order` merges by lines
                 self.run(f"resolve {path} --take")
@@ -368,6 +473,7 @@ class Walk(RuleBasedStateMachine):
         self.branches.setdefault(self.other, Expected(loose={*self.expected.loose}))
         self.branch, self.other = self.other, self.branch
         self.git("checkout", "-q", *(["-b"] if is_new else []), self.branch)
+        self.repository.update()
         self.expected = self.branches[self.branch]
         self.look()
         self.verdict()
@@ -381,6 +487,7 @@ class Walk(RuleBasedStateMachine):
         start = self.repository.git("merge-base", "HEAD", self.other).strip()
         self.git(*way.format(start=start, other=self.other).split())
         self.look_at_the_index()
+        self.let_build_merge(random)
         self.settle(random)
         for _ in range(30):
             if Path(".git/rebase-merge").exists():
@@ -406,16 +513,41 @@ class Walk(RuleBasedStateMachine):
     def look_at_the_index(self) -> None:
         """While git has an unmerged file of the robot, nothing is in step."""
         unmerged = self.repository.git("diff", "--name-only", "--diff-filter=U").split()
-        if any(path.startswith((PACKAGE.as_posix(), SOURCE.name)) for path in unmerged):
+        if any(path.startswith((PACKAGE.as_posix(), SOURCE.name, "cad")) for path in unmerged):
             self.tally["unmerged"] += 1
             assert self.execute("status", code=None).code != 0
             assert self.execute("build", "--check", code=None).code != 0
+
+    def let_build_merge(self, random: Random) -> None:
+        """A build merges the versions of unmerged files: it keeps each edit that neither side has removed."""
+        wanted = set[str]()
+        for path in set(self.repository.git("diff", "--name-only", "--diff-filter=U").split()):
+            if not path.startswith(PACKAGE.as_posix()):
+                return  # without a source nothing is built
+            base, ours, theirs = ({*edits.tagged({path: self.stage(number, path)})} for number in (1, 2, 3))
+            wanted |= (ours | theirs) - (base - ours) - (base - theirs)
+        if not wanted or random.random() < 0.5:
+            return
+        code = self.execute("build", "--merge", code=None).code
+        saved = b"".join([*replay.contents(PACKAGE).values(), *replay.contents(Path(".urdfsync")).values()])
+        assert not [tag for tag in wanted if tag.encode() not in saved], "lost in a merge of the index"
+        self.tally[f"index merged: {code}"] += 1
+        if code == 0:
+            self.git("add", "-A")
+
+    def stage(self, number: int, path: str) -> bytes:
+        """The text of one version of an unmerged file."""
+        done = subprocess.run(["git", "show", f":{number}:{path}"], capture_output=True, check=False)
+        return done.stdout
 
     def settle(self, random: Random) -> None:
         """Take one side of each file that git can't merge; recorded states always merge."""
         unmerged = sorted(set(self.repository.git("diff", "--name-only", "--diff-filter=U").split()))
         assert not [path for path in unmerged if path.startswith(".urdfsync/")]
+        self.repository.update()
         for path in map(Path, unmerged):
+            if path.name == "cad":
+                continue
             side = random.choice(["ours", "theirs"])
             if not self.git("checkout", f"--{side}", "--", str(path)):  # that side has deleted the file
                 path.unlink(missing_ok=True)
@@ -425,7 +557,8 @@ class Walk(RuleBasedStateMachine):
             elif texts().get(inside(path)) not in [package.get(inside(path)) for package in self.built.values()]:
                 self.expected.loose.add(inside(path))  # the file may lack additions of the other side's export
         if self.execute("status", code=None).code == 2:
-            self.git("checkout", "-q", self.other, "--", SOURCE.name)
+            self.git("checkout", "-q", self.other, "--", *(path for path in SOURCES if Path(path).exists()))
+            self.repository.update()
         self.git("add", "-A")
 
     def mark_mixtures(self) -> None:
@@ -437,13 +570,15 @@ class Walk(RuleBasedStateMachine):
             if not any(is_but_for_edits(text, base) for base in recorded):
                 self.expected.loose.add(path)
 
+    @precondition(lambda self: self.has_news)
     @rule()
     def clone(self) -> None:
         """A clone, which has only committed files, comes to the same result."""
+        self.has_news = False
         self.repository.commit()
         clone = self.root / "clone"
         shutil.rmtree(clone, ignore_errors=True)
-        self.git("clone", "-q", ".", str(clone))
+        self.git("clone", "-q", "--recurse-submodules", str(self.repository.folder), str(clone))
         built = self.execute("build", "--format=json", "--config", clone / "urdfsync.toml", code=None)
         self.build(full=False)
         here = self.execute("build", "--format=json", code=built.code)
@@ -497,7 +632,10 @@ class Walk(RuleBasedStateMachine):
         ours = [one for one in status["actions"] if one["status"] and one["reason"] != "unknown"]
         reasons = {one["origin"] or one["path"]: one["reason"] for one in ours}
         files = {one["file"] for one in check["diagnostics"] if one["severity"] != "note" and one["file"]}
-        self.broken = sorted(files & reasons.keys()) if check["is_broken"] else []
+        owns = {path for path in files if Path(path).stem.startswith("Own")}
+        waiting = {one["path"] for one in check["actions"] if one["is_waiting"]}  # their texts are urdfsync's own
+        self.broken = sorted(files & reasons.keys() - waiting | owns) if check["is_broken"] else []
+        self.tally["broken by an own class"] += bool(self.broken and owns)
         if check["in_step"]:
             self.compare({inside(path): reason for path, reason in reasons.items()})
         return bool(check["in_step"])
@@ -563,7 +701,7 @@ def test_any_order_of_work_is_right(walks: type[Walk]) -> None:
     run_state_machine_as_test(
         walks,
         settings=settings(
-            max_examples=replay.STEPS // STEPS or 6,
+            max_examples=replay.STEPS // STEPS or 4,
             stateful_step_count=STEPS,
             derandomize=not replay.STEPS,
             suppress_health_check=list(HealthCheck),
@@ -585,7 +723,7 @@ def test_a_lost_edit_would_be_found(walks: type[Walk], execute: Execute) -> None
         return printed
 
     walk = walks()
-    walk.begin(random=Random(1), merging=False, driver=False)
+    walk.begin(random=Random(1), merging=False, driver=False, layout="file")
     walk.make("comment", model, Random(1))
     walk.execute = careless
     with pytest.raises(AssertionError, match="lost"):
@@ -594,7 +732,7 @@ def test_a_lost_edit_would_be_found(walks: type[Walk], execute: Execute) -> None
 
 def test_a_verdict_in_step_of_what_is_broken_would_be_found(walks: type[Walk], monkeypatch: pytest.MonkeyPatch) -> None:
     walk = walks()
-    walk.begin(random=Random(1), merging=False, driver=False)
+    walk.begin(random=Random(1), merging=False, driver=False, layout="file")
     model = PACKAGE / "Arm.mo"
     model.write_text(model.read_text().replace("equation\n", "equation\n  connect(base.frame_a, none.frame_a);\n"))
     monkeypatch.setattr(decide, "_find_misfits", lambda *_: ())

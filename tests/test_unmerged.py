@@ -5,6 +5,7 @@ A merge driver that fails leaves our version alone, without markers; `git checko
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -146,6 +147,64 @@ def test_an_unmerged_source_is_not_in_step(repository: Repository, execute: Exec
     assert "arm.urdf: warning: git has not merged" in execute("build", "--check", "--verbose", code=1).err
     repository.git("add", "-A")
     execute("build", "--check")
+
+
+def test_an_unmerged_file_that_the_source_names_is_not_in_step(repository: Repository, execute: Execute) -> None:
+    """Our version stays without markers: only the index shows that theirs is missing."""
+    text = Path("arm.urdf").read_text().replace("<robot ", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" ')
+    include = '<xacro:include filename="numbers/mass.xacro"/>\n<link'
+    Path("arm.xacro").write_text(text.replace("<link", include, 1).replace('<mass value="1"', '<mass value="${mass}"'))
+    edit(Path("urdfsync.toml"), "arm.urdf", "arm.xacro")
+    write_numbers(1)
+    repository.commit()
+    for name, mass in (("theirs", 2), ("ours", 3)):
+        repository.git("checkout", "-q", "-B", name, "main")
+        write_numbers(mass)
+        execute("build")
+        repository.commit()
+    merge(repository)
+    repository.git("checkout", "--ours", "--", "numbers", "modelica")
+    repository.git("add", "modelica", ".urdfsync")
+    assert "numbers/mass.xacro: warning: git has not merged" in execute("build", "--check", "--verbose", code=1).err
+    repository.git("add", "-A")
+    execute("build", "--check")
+
+
+def write_numbers(mass: float) -> None:
+    macro = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">'
+    Path("numbers").mkdir(exist_ok=True)  # git removes it with its last file
+    Path("numbers/mass.xacro").write_text(f'{macro}<xacro:property name="mass" value="{mass}"/></robot>')
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_an_unmerged_submodule_or_a_file_in_it_is_not_in_step(
+    repository: Repository, execute: Execute, monkeypatch: pytest.MonkeyPatch, inside: bool
+) -> None:
+    cad = Repository(repository.folder / "cad", monkeypatch)
+    for name, mass in (("theirs", 2), ("main", 3)):
+        cad.git("checkout", "-q", "-B", name, *(["theirs~"] if name == "main" else []))
+        cad.commit("before")
+        shutil.copy("arm.urdf", "cad/arm.urdf")
+        edit(Path("cad/arm.urdf"), '<mass value="1"/>', f'<mass value="{mass}"/>')
+        cad.commit()
+    edit(Path("urdfsync.toml"), "arm.urdf", "cad/arm.urdf")
+    execute("build")
+    repository.commit()
+    execute("build", "--check")
+    if inside:
+        cad.merge("theirs")
+        cad.git("merge", "--abort")
+        with pytest.raises(subprocess.CalledProcessError):
+            cad.git("merge", "theirs")
+        shutil.copy("arm.urdf", "cad/arm.urdf")
+        edit(Path("cad/arm.urdf"), '<mass value="1"/>', '<mass value="3"/>')
+    else:
+        commits = [cad.git("rev-parse", name).strip() for name in ("main~", "main", "theirs")]
+        lines = "".join(f"160000 {commit} {stage}\tcad\n" for stage, commit in enumerate(commits, start=1))
+        repository.git("update-index", "--force-remove", "cad")
+        subprocess.run(["git", "update-index", "--index-info"], input=lines.encode(), check=True)
+    assert "cad/arm.urdf: warning: git has not merged" in execute("build", "--check", "--verbose", code=1).err
+    execute("status", code=1)
 
 
 def test_a_file_elsewhere_does_not_count(repository: Repository, execute: Execute) -> None:

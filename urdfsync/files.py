@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.dependencies.facts import Facts, read_unrecorded
 from urdfsync.dependencies.reads import file_type, note_content, read_file, read_stat, unrecorded, walk_files
 from urdfsync.diagnostics import OutputError
 
@@ -134,10 +134,10 @@ class Tree:
         """Whether a path is below the root; a string must be absolute, without `..`."""
         return os.fspath(path).startswith(self._below)
 
-    def read(self, path: str | os.PathLike[str]) -> bytes | None:
+    def read(self, path: str | os.PathLike[str], facts: Facts = ()) -> bytes | None:
         """Read a file below the root; None if there is none.
 
-        A string as path must be absolute, without `..`.
+        A string as path must be absolute, without `..`. `facts` are those of `read_stat`, if they are known.
 
         Raises OutputError for a link, for another irregular file, and for an unreadable one.
         """
@@ -145,7 +145,7 @@ class Tree:
         if not self.check_folder(path.rpartition(os.sep)[0]):
             return None
         try:
-            mode = read_stat(path)[0]
+            mode = (facts or read_stat(path))[0]
             if not mode:
                 return None
             if stat.S_ISREG(mode):

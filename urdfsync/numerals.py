@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 Row: TypeAlias = tuple[int, Sequence[Any]]
 """The line of a row, and its cells."""
+_STATED = re.compile(r"sep=([,;\t])(?=\r?\n)", re.IGNORECASE)
 _QUOTED = re.compile(r'"[^"]*"')
 _NUMBER = re.compile(r"[-+]?[\d.,]+([eE][-+]?\d+)?", re.ASCII)
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}([.,])\d{3}", re.ASCII)
@@ -26,10 +27,15 @@ class MarkError(ValueError):
         self.line, self.message, self.hint = line, message, hint
 
 
-def find_separator(text: str) -> str:
-    """Return the separator of a CSV file."""
+def find_separator(text: str) -> tuple[str, str]:
+    """Return the separator of a CSV file, and the text to read with it, whose lines have the same numbers.
+
+    A first line such as `sep=;` tells Excel the separator and is no row: the text has an empty line there.
+    """
+    if stated := _STATED.match(text):
+        return stated[1], text[stated.end() :]
     header = _QUOTED.sub("", text).lstrip("\r\n").split("\n", 1)[0]
-    return next((mark for mark in "\t;" if mark in header), ",")
+    return next((mark for mark in "\t;" if mark in header), ","), text
 
 
 def with_points(rows: Sequence[Row], columns: Collection[int]) -> Sequence[Row]:

@@ -230,7 +230,7 @@ def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) ->
     assert {each.part for each in (*arm, *cart)} == {*Part} - {Part.LOOPS}
 
 
-@pytest.mark.parametrize("fault_name", sampled((*PACKAGE, *LOOP), 18))
+@pytest.mark.parametrize("fault_name", sampled((*PACKAGE, *LOOP), 36))
 def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
     fault = {**PACKAGE, **LOOP}[fault_name]
     name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
@@ -240,7 +240,7 @@ def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, t
     assert is_seen(fault, found)
 
 
-@pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING, *HELD), 18))
+@pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING, *HELD), 36))
 def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_path: Path) -> None:
     base = "floating" if name in FLOATING else "fixed"
     fault = {**LIBRARY, **FLOATING, **HELD}[name]
@@ -333,7 +333,7 @@ def case_of_laws() -> physics.Case:
     return physics.Case(msgspec.structs.replace(case.experiment, trials=(case.experiment.laws,)), package)
 
 
-@pytest.mark.parametrize("quantity", WRONG_LAWS)
+@pytest.mark.parametrize("quantity", sampled(WRONG_LAWS, 2))
 def test_wrong_laws_are_seen_beside_sound_ones(quantity: Quantity, modelica_library: Path, tmp_path: Path) -> None:
     """The spring of MSL with another stiffness is a fault of the template, the others of the library."""
     factor = "-" if quantity is Quantity.ENERGY else "2*"
@@ -356,7 +356,7 @@ WRONG_NUMBERS: Mapping[tuple[str, ...], Sequence[tuple[str, str, str]]] = {
 """Numbers that no source states, by the joints that they concern."""
 
 
-@pytest.mark.parametrize("joints", WRONG_NUMBERS)
+@pytest.mark.parametrize("joints", sampled(WRONG_NUMBERS, 3))
 def test_other_numbers_of_the_library_are_seen(joints: tuple[str, ...], modelica_library: Path, tmp_path: Path) -> None:
     seen = wrong_laws(case_of_laws(), Quantity.LAW, modelica_library, tmp_path, WRONG_NUMBERS[joints])
     assert seen == {*joints}

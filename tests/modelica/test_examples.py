@@ -68,7 +68,8 @@ def example(library: Path, model: str, stop: float, values: list[str]) -> Series
     return series
 
 
-@pytest.mark.parametrize("model", ["ComputedTorque", pytest.param("ComputedTorquePackage", marks=LONG)])
+@LONG
+@pytest.mark.parametrize("model", ["ComputedTorque", "ComputedTorquePackage"])
 def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) -> None:
     """Gravity, inertia and friction of the arm are all met: the error is a thousandth of the way."""
     errors = [f"controller.error[{i}]" for i in range(1, 7)]

@@ -10,7 +10,6 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from support import physics, recorded_omc
-from support.cases import sampled
 from support.modelica import DRIVES, Run, Task, bench, simulate
 from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
@@ -130,7 +129,8 @@ DRIVEN = {"geared": GEARED, "massless": BARE, "gripper": GRIPPER, "chain": CHAIN
 """Robots in which every joint has an axis."""
 
 
-@pytest.mark.parametrize("names", sampled([("chain", "held", "wrist"), ("geared", "massless", "gripper")], 2))
+@pytest.mark.large  # balls move in the next test, all other types in test_seen_faults
+@pytest.mark.parametrize("names", [("chain", "held", "wrist"), ("geared", "massless", "gripper")])
 def test_joints_move_and_push_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:
     """Some in one process of the compiler. One joint of each type, and free motion, is in test_seen_faults."""
     cases = [physics.prepare(DRIVEN[name].encode(), name.capitalize()).only("motion") for name in names]

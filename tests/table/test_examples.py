@@ -78,6 +78,7 @@ def test_the_temperatures_of_a_house_equal_those_of_a_matrix_exponential(
     assert "1 file written" in execute("build").out
 
 
+@pytest.mark.large  # both readings know a catalogue, see test_catalogue
 def test_a_robot_with_motors_of_a_catalogue_is_right(build: Callable[[str], None], execute: Execute) -> None:
     build("servos")
     found = execute("check", "--physics", "--tool", "rumoca").words

@@ -203,6 +203,9 @@ def test_connections_name_elements(links: str, words: str) -> None:
         ("name;mass [kg];note\na;1.234;x\nb;0.5;x\n", 1.234),
         ("name;mass [kg];note\na;1234;x\n", 1234),
         ('name,"mass; net [kg]",note\na,1.234,x\n', 1.234),
+        ("sep=;\nname;mass [kg];note\na;1,5;x\n", 1.5),
+        ("\ufeffSEP=,\r\nname,mass [kg],note\r\na,1.5,x;y\r\n", 1.5),
+        ("sep=\t\nname\tmass [kg]\tnote\na\t1,5\tx;y\n", 1.5),
     ],
 )
 def test_numbers_of_european_and_english_files(content: str, mass: float) -> None:
@@ -226,6 +229,11 @@ def test_numbers_of_european_and_english_files(content: str, mass: float) -> Non
 def test_a_number_is_never_read_by_another_mark(content: str, finding: str) -> None:
     (found,) = reading(f"name;mass [kg]\n{content}").diagnostics
     assert str(found).startswith(f"parts.csv:{finding}")
+
+
+def test_a_line_that_tells_excel_the_separator_counts_as_a_line() -> None:
+    (found,) = reading("sep=;\nname;mass [kg]\na;x\n").diagnostics
+    assert str(found).startswith("parts.csv:3: error: column `mass`: `x` is no number")
 
 
 def test_numbers_without_a_unit_are_told_with_commas_too() -> None:

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
+import subprocess
+import sys
 from decimal import Decimal
+from typing import Any
 
+import pint
 import pytest
 
 from urdfsync.table.units import find_unit, is_same_kind
@@ -60,6 +65,36 @@ def test_no_unit(unit: str) -> None:
 def test_units_that_mean_something_else_than_a_table_are_refused(unit: str) -> None:
     with pytest.raises(ValueError, match="is not known here"):
         find_unit(unit)
+
+
+UNITS = "m s A K mol rad sr Hz N Pa J W C V F Ohm S Wb T H lm lx Bq Gy kat".split()
+PREFIXED = [f"{prefix}{unit}{power}" for prefix in "numckMG" for unit in UNITS for power in ("", "-1")]
+PRODUCTS = "g mg g.cm2 g.mm2 cm2.g g.cm kg.mm2 N.cm mN.m kW/(m2.K) N/mm2 1/ms m/ms2 kN.mm/(uA.s) kN.mm/uA2".split()
+
+
+def test_units_that_are_read_without_pint_are_those_of_pint() -> None:
+    registry: Any = pint.UnitRegistry(non_int_type=Decimal)
+    registry.define("Ohm = ohm")
+    for unit in (*PREFIXED, *PRODUCTS):
+        found = find_unit(unit)
+        quantities = (
+            registry.Quantity(number, re.sub(r"(?<=[A-Za-z])(-?\d)", r"**\1", text.replace(".", "*")))
+            for number, text in ((Decimal(1), unit), (found.factor, found.si))
+        )
+        one, other = (quantity.to_base_units() for quantity in quantities)
+        assert (one.magnitude, one.units) == (other.magnitude, other.units), unit
+
+
+def test_common_units_do_not_load_pint() -> None:
+    """Loading pint takes longer than reading a table of 10,000 rows."""
+    program = "import sys; from urdfsync.table.units import find_unit; list(map(find_unit, sys.argv[1:]))"
+    program += "; assert 'pint' not in sys.modules"
+    subprocess.run([sys.executable, "-c", program, "N.cm", "g.cm2", "mm", "kW/(m2.K)"], check=True)
+
+
+def test_candelas_are_no_days() -> None:
+    """pint reads `mcd` as a thousandth of a hundredth of a day."""
+    assert find_unit("mcd").si == "cd"
 
 
 def test_kinds_of_units() -> None:

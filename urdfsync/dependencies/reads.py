@@ -181,6 +181,12 @@ def note_content(path: str | os.PathLike[str], content: bytes) -> None:
         reads.add_hash(entry, hash_content(content))
 
 
+def recorded_files() -> list[str]:
+    """Return the paths of the files that the present work has read, or has looked for in vain."""
+    reads = _current.get()
+    return [path for kind, path in reads.entries if kind == PATH] if reads else []
+
+
 def find_unmerged(index: str | os.PathLike[str]) -> set[str]:
     """Return the files in git's index that git could not merge."""
     _look(UNMERGED, index)

@@ -11,7 +11,7 @@ import os
 import time
 
 from urdfsync.dependencies import localfile, places, program
-from urdfsync.dependencies.facts import VARIABLE, hash_file, is_young, look
+from urdfsync.dependencies.facts import MAX_FILE, VARIABLE, hash_file, is_young, look
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 _FORMAT = "1"
 _OLD = "-"
 """Stands for the hash of a file that was old when it was read."""
-_MOST_BYTES = 8_000_000
-"""Longer records are not saved."""
 
 
 class FactList:
@@ -132,7 +130,7 @@ class Record:
         about = "\0".join((_FORMAT, program.identity(folder), program.user()))
         texts = [about, self.key, self.facts.dumps(), "\0".join(self.words)]
         content = b"\0\0".join([*(text.encode("utf-8", "surrogateescape") for text in texts), self.result])
-        if len(content) < _MOST_BYTES and os.path.isdir(folder) and _shows_changes(place):
+        if len(content) < MAX_FILE and os.path.isdir(folder) and _shows_changes(place):
             localfile.replace(os.path.join(place, name), content)
 
 

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from urdfsync.engine.fit import Misfit
 
 
-class Decision(msgspec.Struct, frozen=True):
+class Decision(msgspec.Struct, frozen=True, dict=True):
     """All actions of one robot, and the findings about them."""
 
     differences: Differences
@@ -46,6 +46,8 @@ class Decision(msgspec.Struct, frozen=True):
     actions: Actions
     texts: Mapping[str, str]
     """New texts of every `package.order` and of merged files, by key."""
+    doubts: Mapping[str, Doubt] = {}
+    """Why edited files may belong to other parts, by key."""
     disputed: Mapping[str, Conflict] = {}
     """Texts of files that both sides changed, and of edited files that move, by key."""
     shared: tuple[SharedFile, ...] = ()
@@ -61,7 +63,7 @@ class Decision(msgspec.Struct, frozen=True):
         keys = [action.path for action in self.actions if action.is_conflict]
         return tuple(self.disputed[key] for key in keys if key in self.disputed)
 
-    @property
+    @functools.cached_property  # there are thousands of actions
     def is_complete(self) -> bool:
         """Whether nothing conflicts and nothing waits."""
         return not any(action.is_waiting or action.is_conflict for action in self.actions)
@@ -107,7 +109,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     misfits = [misfit for misfit in misfits if misfit.key not in followed.conflicts or misfit.use is None]
     names = inputs.settled.names or names
     texts = {**orders, **merged}
-    return Decision(differences, all_actions, texts, conflicts, tuple(shared), tuple(misfits), names)
+    return Decision(differences, all_actions, texts, doubts, conflicts, tuple(shared), tuple(misfits), names)
 
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:

@@ -55,6 +55,15 @@ def find_doubts(
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(inputs, generation, differences, action)
+    is_undone = (
+        not is_told and inputs.last.version is not None and generation.now.snapshot == inputs.last.version.snapshot
+    )
+    asked = {} if is_undone or record.open is None else record.open.asked
+    for action in [one for one in unconfirmed if one.path in asked and asked[one.path].mine == one.mine]:
+        doubts[action.path] = asked[action.path].doubt
+        unconfirmed.remove(action)
+    if not record.is_united:  # the build that wrote the record has judged these texts; a clone knows that, too
+        unconfirmed = [one for one in unconfirmed if one.mine not in record.edited]
     if unconfirmed and notes.model == hash_of(record.snapshot):  # otherwise git may have changed the meaning of names
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file

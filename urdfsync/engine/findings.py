@@ -7,6 +7,7 @@ part. So each build warns until the user saves the file. This machine's notes li
 from __future__ import annotations
 
 import itertools
+import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -45,6 +46,8 @@ if TYPE_CHECKING:
     from urdfsync.engine.fit import Misfit
     from urdfsync.modelica.unresolved import Unresolved
 
+UNMERGED = "unmerged"
+"""Code of the warnings about files that git could not merge: with one, no package is in step."""
 CONNECTORS = "connector-changed"
 """Code of the notes on changed connectors."""
 _FEW = 3
@@ -71,9 +74,7 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
-    for key in sorted(inputs.unmerged):
-        message, hint = "git has not merged this file", "if its text is right now, `git add` it"
-        findings.append(Diagnostic(Severity.WARNING, "unmerged", message, shown(inputs.files.path(key)), hint=hint))
+    findings += _unmerged(inputs)
     findings += _left_behind(inputs, decision.actions)
     findings += [inputs.damage] if inputs.damage else []
     effects: Effects | None = inputs.domain.effects
@@ -133,6 +134,24 @@ def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: U
     if use.is_library:
         return f'if `{use.part}` is a library, name it in `uses`: annotation (uses({use.part}(version="…")))'
     return "change or remove this use"
+
+
+def _unmerged(inputs: Inputs) -> Iterator[Diagnostic]:
+    """Yield a warning for each file that git could not merge: of the package, or read by this build.
+
+    A build reads the user's models outside of the package, too, but they change no file. If git could not merge two
+    commits of a submodule, all its files are unmerged.
+    """
+    if not (unmerged := inputs.unmerged_paths):
+        return
+    found = {str(inputs.files.path(key)) for key in inputs.unmerged}
+    for path in (str(inputs.config.file), *reads.recorded_files()):
+        real = os.path.realpath(path)
+        if not path.endswith(".mo") and not unmerged.isdisjoint((real, *map(str, Path(real).parents))):
+            found.add(path)
+    for path in sorted(found):
+        message, hint = "git has not merged this file", "if its text is right now, `git add` it"
+        yield Diagnostic(Severity.WARNING, UNMERGED, message, shown(Path(path)), hint=hint)
 
 
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:

@@ -85,14 +85,17 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return self.folder != self.last.folder
 
     @cached_property
+    def unmerged_paths(self) -> set[str]:
+        """The real paths that git could not merge, in the repositories of the configuration and of the source."""
+        folders = self.config.root, self.robot.source.resolve().parent
+        return {path for folder in folders for path in find_unmerged(folder)}
+
+    @cached_property
     def unmerged(self) -> frozenset[str]:
-        """The keys of the files that git could not merge: of the package, the source and the configuration."""
-        if not (places := find_unmerged(self.config.root)):
-            return frozenset()
+        """The keys of the package's files that git could not merge."""
         below = os.path.join(os.path.realpath(self.robot.folder), "")  # noqa: PTH118 - git's paths are strings
-        inside = (place.removeprefix(below) for place in places if place.startswith(below))
-        others = (path for path in (self.robot.source, self.config.file) if os.path.realpath(path) in places)
-        return frozenset((*map(self.folder.key, inside), *map(self.files.key, others)))
+        inside = (path.removeprefix(below) for path in self.unmerged_paths if path.startswith(below))
+        return frozenset(map(self.folder.key, inside))
 
     @cached_property
     def users_files(self) -> UsersFiles:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import reads
-from urdfsync.dependencies.facts import is_young
+from urdfsync.dependencies.facts import NOTHING, is_young
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
@@ -151,10 +151,10 @@ class PackageFiles:
         if tree is not None and tree.check_folder(folder):
             try:
                 facts = reads.read_stat(path)
-            except OSError:  # which `read` explains
-                facts = (0,)
+            except OSError:
+                facts = ()  # `read` looks again, and explains the error
             state = unchanged_state(path, facts)
-            if state is None and (content := tree.read(path)) is not None:
+            if state is None and facts != NOTHING and (content := tree.read(path, facts)) is not None:
                 state = note_state(path, facts, content)
         self._states[path] = state
         return state

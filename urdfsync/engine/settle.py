@@ -79,8 +79,12 @@ class _Choices:
             if choice is Choice.TAKE:
                 content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())
         elif choice is Choice.TAKE and action.mine is not None and (action.is_conflict or action.reason in _EDITED):
-            path = inputs.folder.path(action.path)
-            content, reason = self._generation.content(path, action.role, mine or b""), Reason.UPDATE
+            path, reason = inputs.folder.path(action.path), Reason.UPDATE
+            if action.generated is None:  # a class of the user's own: its text with new names is proposed
+                text = conflict.merged(None) if conflict else None
+                content = None if text is None else encode(text)
+            else:
+                content = self._generation.content(path, action.role, mine or b"")
             if content is None:
                 return False
         elif not (action.is_conflict or conflict):

@@ -22,7 +22,7 @@ from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.differences import Differences
 from urdfsync.engine.edit_origins import EDITED
-from urdfsync.engine.findings import find_all, find_uses, tell_uses
+from urdfsync.engine.findings import UNMERGED, find_all, find_uses, tell_uses
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Former, Inputs, Settled
@@ -40,7 +40,7 @@ from urdfsync.modelica.files import class_parts
 from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.notes import Notes
-from urdfsync.state.record import FileRecord, Open, Record, as_recorded
+from urdfsync.state.record import FileRecord, Open, Question, Record, as_recorded
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
 
@@ -136,7 +136,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         renews=bool(state),
         stale=inputs.source.stale,
         is_broken=any(misfit.is_broken for misfit in decision.misfits),
-        is_unmerged=bool(inputs.unmerged),
+        is_unmerged=any(finding.code == UNMERGED for finding in findings),
         drawing=drawing,
         changes=news if news and (news.changes or news.generator) else None,
         conflict_texts=versions.conflicts,
@@ -212,6 +212,13 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
     """Return the record after a build."""
     old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
+    merged = {key: text_hash(text) for key, text in decision.texts.items() if key.endswith(".mo")}
+    # a merge may wait: then the edit stays on disk
+    edits = (action for action in decision.actions if action.reason in EDITED or action.path in merged)
+    users_texts = {*merged.values(), *(str(action.mine) for action in edits if action.mine)}
+    # the merge of a confirmed text with an export stays confirmed
+    merges = (action for action in decision.actions if action.path in merged and action.mine in old.confirmed)
+    confirmed = frozenset(merged[action.path] for action in merges)
     if not decision.is_complete:
         # keep the model of the last complete build; record renewed files, but none in a former folder
         files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
@@ -222,7 +229,8 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
             if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
             and entry not in old.imports.get(key, ())
         }
-        asked = frozenset(action.path for action in decision.actions if action.reason is Reason.ASKED)
+        questions = (action for action in decision.actions if action.reason is Reason.ASKED)
+        asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
         renames = differences.renames
         if pending(inputs):  # the user may delete a declaration
             renames = match_with_last(inputs, generation.now.snapshot, {}).renames
@@ -230,13 +238,14 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         contents = (text for text in inputs.settled.contents.values() if text is not None)
         # a decision about an earlier export does not answer this question, not in the next build either
         doubtful = {action.mine for action in decision.actions if action.reason is Reason.ASKED}
-        return msgspec.structs.replace(
+        new = msgspec.structs.replace(
             old,
             files=files,
             imports={**old.imports, **renewed},
             open=open_,
-            confirmed=(old.confirmed - doubtful) | {text_digest(text) for text in contents},
+            confirmed=(old.confirmed - doubtful) | {text_digest(text) for text in contents} | confirmed,
         )
+        return old if new == old else msgspec.structs.replace(new, edited=frozenset(users_texts))
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
     users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
     edited = (one for one in decision.actions if one.reason in users and one.mine)
@@ -249,15 +258,17 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         options=option_values(inputs.robot.options),
         renamed=_brought(inputs, differences.renames),
         former=_former(inputs, generation, differences),
-        confirmed=frozenset(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
+        confirmed=confirmed.union(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
+        edited=frozenset(users_texts),
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
     )
-    if news is None or any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in news.changes):
-        return new
-    # a change without effect on the package, such as an unmodelled part of the source, is not worth a commit
-    silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
+    # an edit is not worth a commit of the record
+    silent = msgspec.structs.replace(new, edited=old.edited)
+    if news is not None and all(change.change_class.rank <= ChangeClass.UNMODELLED.rank for change in news.changes):
+        # nor is a change without effect on the package, such as an unmodelled part of the source
+        silent = msgspec.structs.replace(silent, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
 
 
@@ -466,11 +477,13 @@ def _replaced(
             continue  # the user's text moves to another file
         if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
             continue
-        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        state = files.state(action.origin or key) if is_moving else files.state_on_disk(key)
         recorded = last.files.get(action.origin or key, FileRecord()).hashes
         # a mesh is no text: bytes that look like line ends count
-        own = last.notes.written.intersection(recorded)
-        if text is None or not own.isdisjoint((text_digest(text), digest(text))):
+        if state is None or not last.notes.written.intersection(recorded).isdisjoint(state):
+            continue
+        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        if text is None:  # somebody has just deleted it
             continue
         former = Former(text, *_bases_given_back(inputs, package, action, text))
         if is_moving:

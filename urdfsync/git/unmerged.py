@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from urdfsync import git
@@ -10,8 +11,8 @@ from urdfsync.dependencies.places import is_clone, place
 
 
 def find_unmerged(folder: Path) -> set[str]:
-    """Return the real paths of the unmerged files in the repository around a folder; none without a repository."""
-    if (top := git.find_top(folder)) is None or is_clone():  # a commit has no unmerged files
+    """Return the real paths of the unmerged files and submodules of the repository around a folder, if there is one."""
+    if (top := git.find_top(os.path.realpath(folder))) is None or is_clone():  # a commit has no unmerged files
         return set()
     paths = reads.find_unmerged(find_git_folder(top) / "index")
     if paths:

@@ -99,5 +99,6 @@ def _uses(text: str) -> Iterator[tuple[str, Token]]:
             yield tokens[number - 2].text, token
         else:
             # this includes names of function arguments
-            begins = depth and before in ("(", ",", "each", "final") and tokens[number + 1].text in ("=", "(")
+            after = tokens[number + 1].text if number + 1 < len(tokens) else ""  # a piece of a text may end anywhere
+            begins = depth and before in ("(", ",", "each", "final") and after in ("=", "(")
             yield (_MODIFIER if begins else ""), token

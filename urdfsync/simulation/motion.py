@@ -78,7 +78,7 @@ def _read_rows(file: Path) -> Sequence[Row]:
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
         _refuse(file, "the file is not in UTF-8", line, "save it as UTF-8")
-    separator, rows = find_separator(text), list[Row]()
+    (separator, text), rows = find_separator(text), list[Row]()
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     try:
         for row in reader:

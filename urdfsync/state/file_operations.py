@@ -55,15 +55,16 @@ def read(path: Path) -> bytes | None:
         return None
 
 
-def write(path: Path, content: bytes, like: Path) -> None:
-    """Write a new file, with the permissions of the file `like` if that exists."""
+def write(path: Path, content: bytes, like: Path | None) -> None:
+    """Write a new file, with the permissions of the file `like` if there is one."""
     descriptor = os.open(path, _CREATE, 0o666)
     try:
         while content:
             content = content[os.write(descriptor, content) :]
-        with contextlib.suppress(FileNotFoundError):
-            mode = stat.S_IMODE(like.lstat().st_mode)
-            os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)  # noqa: PTH101
+        if like:
+            with contextlib.suppress(FileNotFoundError):
+                mode = stat.S_IMODE(like.lstat().st_mode)
+                os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)  # noqa: PTH101
     finally:
         os.close(descriptor)
 

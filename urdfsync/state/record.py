@@ -13,6 +13,7 @@ from typing import Any, get_args
 import msgspec
 
 from urdfsync.domain import ElementKey, Import, Role, Snapshot, plain
+from urdfsync.matching import Doubt
 
 RESOURCES = "Resources/"
 """The folder of imported files, below the package."""
@@ -75,14 +76,22 @@ class Generator(msgspec.Struct, frozen=True):
     templates: str
 
 
+class Question(msgspec.Struct, frozen=True):
+    """The question whether an edited file belongs to another part. Each clone asks it until the user answers."""
+
+    mine: str
+    """Hash of the edited text."""
+    doubt: Doubt
+
+
 class Open(msgspec.Struct, frozen=True):
     """The model that the last, incomplete build read."""
 
     seen: Mapping[str, Any] = {}
     renamed: Mapping[ElementKey, str] = {}
     """Names in this model by renamed elements of the last complete build."""
-    asked: frozenset[str] = frozenset()
-    """The keys of edited files that may belong to other parts."""
+    asked: Mapping[str, Question] = {}
+    """The questions that the user has not answered yet, by the file's key."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):
@@ -108,6 +117,9 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     before a rename may come later, by a merge of git."""
     confirmed: frozenset[str] = frozenset()
     """Hashes of the user's texts for which he has confirmed the file."""
+    edited: frozenset[str] = frozenset()
+    """Hashes of the user's texts after the build that changed this record: they belong to its model. A later edit alone
+    does not change the record."""
     imports: Mapping[str, tuple[Import, ...]] = {}
     """The imports by key. A file has several if git has united two states, or if an incomplete build renewed the
     file."""

@@ -19,7 +19,7 @@ from urdfsync import __version__
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Import
 from urdfsync.files import digest
-from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Record
+from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Question, Record
 
 _HEADER = "# What urdfsync built last for this robot. Written by urdfsync: commit it, don't edit it.\n"
 _HASH = re.compile(r"[0-9a-f]{64}")
@@ -41,9 +41,10 @@ _FACTS: Mapping[str, Any] = {
     "declared": tuple[str, str],
     "former": tuple[str, str],
     "confirmed": str,
+    "edited": str,
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
-    "asked": str,
+    "asked": tuple[str, Question],
 }
 """The first words of lines, and the type of the JSON value after each word. After `file` come a hash and a path."""
 _DECODERS = {word: msgspec.json.Decoder(kind) for word, kind in _FACTS.items()}
@@ -78,11 +79,12 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     yield from (("declared", names) for names in record.renamed.items())
     yield from (("former", names) for names in record.former.items())
     yield from (("confirmed", sha256) for sha256 in record.confirmed)
+    yield from (("edited", sha256) for sha256 in record.edited)
     yield from (("import", (key, entry)) for key, entries in record.imports.items() for entry in entries)
     if record.open:
         yield from (("seen", fact) for fact in _elements(record.open.seen))
         yield from (("renamed", (*key, name)) for key, name in record.open.renamed.items())
-        yield from (("asked", key) for key in record.open.asked)
+        yield from (("asked", item) for item in record.open.asked.items())
 
 
 def _elements(snapshot: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
@@ -168,7 +170,7 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         renamed = {(kind, old): new for kind, old, new in values["renamed"]}
         seen = _snapshot(values["seen"])
         is_known = seen is not None and len(renamed) == len(values["renamed"])
-        open_ = Open(seen, renamed, frozenset(values["asked"])) if seen is not None and is_known else Open()
+        open_ = Open(seen, renamed, dict(values["asked"])) if seen is not None and is_known else Open()
     return Record(
         package=package,
         class_=class_,
@@ -180,6 +182,7 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         # two branches may have renamed one element: then its new name is unknown
         former={old: new for old, new in values["former"] if [name for name, _ in values["former"]].count(old) == 1},
         confirmed=frozenset(values["confirmed"]),
+        edited=frozenset(values["edited"]),
         imports=imports,
         files={key: FileRecord(tuple(values)) for key, values in sorted(hashes.items())},
         open=open_,

@@ -10,8 +10,9 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Artifact, Domain, ElementKey, Features, Import, Order, Reading, Role, Target
+from urdfsync.modelica.literals import capitalize_first
 from urdfsync.table.model import FROM, TO, Options, Table, Value, shown_unit
-from urdfsync.table.names import column_name, component_name, type_name
+from urdfsync.table.names import column_name, component_name
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
 
@@ -111,15 +112,28 @@ class TableDomain(Domain):
         options: Options,
     ) -> Iterator[Artifact | Order]:
         """Yield the files that the options choose. Templates decide on the content."""
-        elements = {key: _element(snapshot, key, options) for key in snapshot.elements}
         parent = target.package.rpartition(".")[0]
         folders = {folder: role for folder, role, file in _FOLDERS if file in options.files}
+        of_package: dict[str, Any] = {"within": target.package}
+        elements, units = dict[str, dict[str, Any]](), dict(sorted(snapshot.columns.items()))
+        columns = {column: _column(column, unit) for column, unit in units.items()}
+        # elements first: the artifacts of the first row show nearly each column, so `find_unused` reads no further
+        for key, row in snapshot.elements.items():
+            cells = dict(sorted(row.items()))  # the order of a recorded table
+            element = elements[key] = _element(key, cells, units, options)
+            for folder, role in folders.items():
+                data = {"within": f"{target.package}.{folder}", "root": target.package, **element}
+                template = "record.mo.jinja"
+                if role is Role.MODEL:
+                    template = f"model/{element['kind']}.mo.jinja" if options.kind else "model.mo.jinja"
+                else:
+                    data["columns"] = [columns[column] | {"value": value} for column, value in cells.items()]
+                yield Artifact(f"{folder}/{element['class']}.mo", role, template, data, f"element {key}")
         name, classes = target.package.rpartition(".")[2], tuple(element["class"] for element in elements.values())
         title, uses = f"Made by urdfsync from the table {target.name}", {} if parent else options.uses
         yield _package("", {"within": parent, "name": name, "title": title, "uses": uses})
         system = [target.name] if "system" in options.files else []
         yield Order("package.order", (*system, *options.classes, *folders))
-        of_package: dict[str, Any] = {"within": target.package}
         for name in options.classes:
             yield Artifact(f"{name}.mo", Role.MODEL, f"{name}.mo.jinja", of_package | {"class": name}, "table")
         if system:
@@ -130,17 +144,9 @@ class TableDomain(Domain):
             ]
             data = of_package | {"class": target.name, "elements": [*elements.values()], "connections": connections}
             yield Artifact(f"{target.name}.mo", Role.MODEL, "system.mo.jinja", data, "table")
-        for folder, role in folders.items():
+        for folder in folders:
             yield _package(f"{folder}/", of_package | {"name": folder, "title": _TITLES[folder], "uses": {}})
             yield Order(f"{folder}/package.order", classes)
-            for key, element in elements.items():
-                data = {"within": f"{target.package}.{folder}", "root": target.package, **element}
-                template = "record.mo.jinja"
-                if role is Role.MODEL:
-                    template = f"model/{element['kind']}.mo.jinja" if options.kind else "model.mo.jinja"
-                else:
-                    data["columns"] = _columns(snapshot.elements[key], snapshot.columns)
-                yield Artifact(f"{folder}/{element['class']}.mo", role, template, data, f"element {key}")
 
     def features(self, snapshot: Table) -> Mapping[ElementKey, Features]:
         """Return the cells of elements, and the ends of connections."""
@@ -181,26 +187,16 @@ def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
     return Artifact(f"{folder}package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
 
 
-def _element(snapshot: Table, key: str, options: Options) -> dict[str, Any]:
+def _element(key: str, row: Mapping[str, Value], units: Mapping[str, str], options: Options) -> dict[str, Any]:
     """Return an element for templates; its row has no empty cells."""
-    row = snapshot.elements[key]
-    names: dict[str, Any] = {"name": key, "class": type_name(key), "component": component_name(key)}
-    names["units"] = dict(sorted(snapshot.columns.items()))  # the order of a recorded table
-    return {**names, "kind": row.get(options.kind, ""), "row": dict(sorted(row.items()))}
+    component = component_name(key)
+    names = {"name": key, "class": capitalize_first(component), "component": component}
+    return {**names, "units": units, "kind": row.get(options.kind, ""), "row": row}
 
 
-def _columns(row: Mapping[str, Value], types: Mapping[str, str]) -> list[dict[str, Any]]:
-    """Return the filled cells of a row as parameters of a record, sorted by column."""
-    return [
-        {
-            "name": column_name(column),
-            "title": column,
-            "type": _MODELICA.get(types[column], "Real"),
-            "unit": types[column],
-            "value": value,
-        }
-        for column, value in sorted(row.items())
-    ]
+def _column(column: str, unit: str) -> dict[str, Any]:
+    """Return a column as a parameter of records, without a value."""
+    return {"name": column_name(column), "title": column, "type": _MODELICA.get(unit, "Real"), "unit": unit}
 
 
 _MODELICA = {"text": "String", "integer": "Integer", "boolean": "Boolean"}

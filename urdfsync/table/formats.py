@@ -57,8 +57,7 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
 
 def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
     """Read a CSV."""
-    text = _decode(content, file, first)
-    separator = find_separator(text)
+    separator, text = find_separator(_decode(content, file, first))
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     rows, line = list[tuple[int, Sequence[object]]](), 1
     try:

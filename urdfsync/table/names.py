@@ -26,12 +26,6 @@ def column_name(column: str) -> str:
     return f"{name}_" if name in KEYWORDS else name
 
 
-def type_name(key: str) -> str:
-    """Return the identifier of an element's record and model, with a capital first letter."""
-    name = component_name(key)
-    return name[0].upper() + name[1:]
-
-
 def find_clashes(keys: Iterable[str], noun: str = "element") -> Iterator[tuple[str, str]]:
     """Yield each key that can't become a name in Modelica, with the reason."""
     by_name = defaultdict[str, list[str]](list)

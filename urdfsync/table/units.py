@@ -11,10 +11,15 @@ from urdfsync.diagnostics import SourceError
 from urdfsync.extras import install_command
 
 _COHERENT = frozenset("m kg s A K mol cd rad sr Hz N Pa J W C V F Ohm S Wb T H lm lx Bq Gy kat".split())
-"""The SI units without a prefix: most tables have only these, and loading pint takes longer than a whole build."""
+"""The SI units without a prefix: loading pint takes longer than a whole build."""
 _TERM = rf"(?:{'|'.join(sorted(_COHERENT))})(?:-?[1-9])?"
 _MODELICA = re.compile(rf"(?:1|{_TERM}(?:\.{_TERM})*)(?:/(?:{_TERM}|\({_TERM}(?:\.{_TERM})+\)))?")
 """Matches a product of SI units, or a quotient of two products, in Modelica's spelling."""
+_WORD = re.compile(r"([A-Za-z]+)(-?[1-9])?")
+_POWERS = {"n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+"""Powers of ten of the prefixes that need no pint."""
+_GRAM = re.compile(r"\Ag(?=\Z|\.[cm]?m2\Z)")
+"""Matches the gram of a mass or an inertia; Modelica has kilograms."""
 _UNIT = re.compile(r"(?=.)(?!.*[.*/^]{2})(?!.*\d[\deE])(1/)?[^\W\d_%°]*+[%°]?+[\w.*/()^-]*+")
 _LONGEST = 100
 """The greatest number of characters of a unit."""
@@ -52,12 +57,29 @@ def find_unit(text: str) -> Unit:
     Raises ValueError for an unknown unit, SourceError without pint.
     """
     text = _with_dots(text)
-    if _MODELICA.fullmatch(text):
-        return Unit(Decimal(1), Decimal(0), text)
+    if unit := _find_simple(text):
+        return unit
     registry = _load_registry(text)
     one, zero = (_quantity(registry, number, text).to_base_units() for number in (1, 0))
     factor = one.magnitude - zero.magnitude
     return Unit(factor, zero.magnitude, _si(text, registry) or _as_modelica(one.unit_items(), registry))
+
+
+def _find_simple(text: str) -> Unit | None:
+    """Return a product of SI units with prefixes, such as `N.cm` or `g.cm2`; None for other units: pint knows them."""
+    kilograms, power = _GRAM.subn("kg", text)
+    power *= -3
+
+    def plain(word: re.Match[str]) -> str:
+        nonlocal power
+        symbol, prefix, rest = word[1], word[1][0], word[1][1:]
+        if symbol in _COHERENT or prefix not in _POWERS or rest == "kg":
+            return word[0]
+        power += _POWERS[prefix] * int(word[2] or 1) * (-1 if "/" in kilograms[: word.start()] else 1)
+        return f"{rest}{word[2] or ''}"
+
+    si = _WORD.sub(plain, kilograms)
+    return Unit(Decimal(10) ** power, Decimal(0), si) if _MODELICA.fullmatch(si) else None
 
 
 def is_same_kind(text: str, other: str) -> bool:
