@@ -102,7 +102,7 @@ def tell_all(document: Any, *sections: str, absent: Collection[str] = ()) -> boo
     return True
 
 
-DOCUMENT = {"version", "command", "exit", "results", "diagnostics"}
+DOCUMENT = {"version", "command", "exit", "results", "diagnostics", "shard"}
 OF_DOUBTS = {"former", "aspects", "moved_to"}
 FINDING = {"severity", "code", "message", "file", "line", "column", "hint", "details"}
 
