@@ -363,7 +363,7 @@ class Walk(RuleBasedStateMachine):
             changed = EXPORTS[kind](robot, random)
             export(robot if changed is None else changed)
         self.replaced.clear()
-        self.has_news = True
+        self.has_news, self.broken = True, ()
 
     @precondition(lambda self: self.repository.layout == "link")
     @rule(exports=st.lists(st.sampled_from(sorted(EXPORTS)), max_size=2), random=seeds)
@@ -388,6 +388,7 @@ class Walk(RuleBasedStateMachine):
         self.count += 1
         EDITS[kind](path, random, f"{self.count:06d}")
         self.look()
+        self.broken = ()
 
     def look(self) -> None:
         """Accept the present edits, after another program than urdfsync has changed them."""

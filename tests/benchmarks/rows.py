@@ -11,13 +11,14 @@ import math
 import os
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from support.corpus import REPOSITORY
 from support.daemon import LIMIT, Watch
 
 from benchmarks.measuring import Cost, Measurement, Pair, Reading, UnexpectedError, measure, run
+from benchmarks.motors import Motors
 from benchmarks.published import Published
 from benchmarks.robots import Source, mesh, write_meshes, write_workspace, write_xacro_workspace
 from urdfsync.checks.cache import UserCache
@@ -145,6 +146,32 @@ def growth(tools: Tools) -> Iterator[Pair]:
     yield Pair(*pair, is_slow=True)
 
 
+def table(tools: Tools) -> Iterator[Pair]:
+    """Builds of a table of 10,000 rows, beside rendering its texts and writing its files alone."""
+    motors = Motors(tools.folder / "motors", 10_000)
+    place, alone = motors.folder, motors.render_and_write()
+    against, command = "rendering and writing alone", tools.urdfsync("build")
+
+    def after(edit: Callable[[], None], expected: str) -> Measurement:
+        def measurement() -> Cost:
+            edit()
+            os.sync()
+            return measure(command, place, expected)
+
+        return measurement
+
+    def cpu(at_most: float) -> list[Reading]:
+        return [dataclasses.replace(CPU, at_most=at_most)]
+
+    yield Pair("first build", first(tools, place), against, alone, cpu(2), is_slow=True)
+    yield Pair("one changed row", after(motors.change_row, "1 file written"), against, alone, cpu(1), is_slow=True)
+    exchanged = after(motors.exchange_keys, "2 files written")
+    yield Pair("exchanged keys", exchanged, against, alone, cpu(1), is_slow=True)
+    run(command, place)  # remembers its result, once all files are older than two seconds
+    time.sleep(2.1)
+    yield Pair("nothing to do", _command(command, place, "in step"), against, alone, cpu(0.2), is_slow=True)
+
+
 def daemon(tools: Tools) -> Iterator[Pair]:
     """One mass changed in the daemon, which does not wait for more events (`--settle 0 --sample 0`)."""
     for links, bar in ((11, 30), (133, 80), (1000, 500)):
@@ -240,6 +267,7 @@ TABLES = {
     "edited": ("one mass changed, robot model edited", edited),
     "merge": ("merge of an edited robot model, one link more", merged),
     "growth": ("growth of a first build", growth),
+    "table": ("table of 10,000 rows", table),
     "check": ("check with warm caches", check),
     "simulate": ("simulation", simulate),
 }
