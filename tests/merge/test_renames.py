@@ -27,6 +27,14 @@ def test_what_is_used_in_base_follows() -> None:
     )
 
 
+def test_base_may_be_a_piece_of_a_text() -> None:
+    """The lines that use a name may end within brackets."""
+    assert rename("  connect(elbow", "  connect(elbow.frame_a, hand);", {"elbow": "knee"}) == (
+        "  connect(knee",
+        "  connect(knee.frame_a, hand);",
+    )
+
+
 def test_what_is_not_in_base_does_not() -> None:
     base = BASE.replace(" elbow(", " joint(").replace("elbow.", "joint.")
     mine = base.replace("equation", "  Real elbow = Links.Elbow.m + other.Elbow;\nequation")
