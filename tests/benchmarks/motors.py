@@ -48,7 +48,7 @@ class Motors:
         renderer = Renderer([templates_folder(DOMAIN)], is_trusted=True)
 
         def measurement() -> Cost:
-            folder = tempfile.mkdtemp(dir=self.folder)
+            folder = tempfile.mkdtemp(dir=self.folder.parent)  # not where builds look for models
             for path in {os.path.dirname(artifact.path) for artifact in artifacts}:  # noqa: PTH120
                 Path(folder, path).mkdir(exist_ok=True)
             os.sync()

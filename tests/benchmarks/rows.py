@@ -164,9 +164,9 @@ def table(tools: Tools) -> Iterator[Pair]:
         return [dataclasses.replace(CPU, at_most=at_most)]
 
     yield Pair("first build", first(tools, place), against, alone, cpu(2), is_slow=True)
-    yield Pair("one changed row", after(motors.change_row, "1 file written"), against, alone, cpu(1), is_slow=True)
+    yield Pair("one changed row", after(motors.change_row, "1 file written"), against, alone, cpu(2), is_slow=True)
     exchanged = after(motors.exchange_keys, "2 files written")
-    yield Pair("exchanged keys", exchanged, against, alone, cpu(1), is_slow=True)
+    yield Pair("exchanged keys", exchanged, against, alone, cpu(2), is_slow=True)
     run(command, place)  # remembers its result, once all files are older than two seconds
     time.sleep(2.1)
     yield Pair("nothing to do", _command(command, place, "in step"), against, alone, cpu(0.2), is_slow=True)
