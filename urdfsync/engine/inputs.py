@@ -87,8 +87,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def unmerged_paths(self) -> set[str]:
         """The real paths that git could not merge, in the repositories of the configuration and of the source."""
-        folders = self.config.root, self.robot.source.resolve().parent
-        return {path for folder in folders for path in find_unmerged(folder)}
+        return find_unmerged((self.config.root, self.robot.source.resolve().parent))
 
     @cached_property
     def unmerged(self) -> frozenset[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
 from urdfsync import git
@@ -10,14 +11,15 @@ from urdfsync.dependencies import reads
 from urdfsync.dependencies.places import is_clone, place
 
 
-def find_unmerged(folder: Path) -> set[str]:
-    """Return the real paths of the unmerged files and submodules of the repository around a folder, if there is one."""
-    if (top := git.find_top(os.path.realpath(folder))) is None or is_clone():  # a commit has no unmerged files
+def find_unmerged(folders: Iterable[Path]) -> set[str]:
+    """Return the real paths of the unmerged files and submodules in the repositories around these folders."""
+    if is_clone():  # a commit has no unmerged files
         return set()
-    paths = reads.find_unmerged(find_git_folder(top) / "index")
-    if paths:
+    tops = {top for folder in folders if (top := git.find_top(os.path.realpath(folder)))}
+    found = {f"{top}/{path}" for top in tops for path in reads.find_unmerged(find_git_folder(top) / "index")}
+    if found:
         reads.cannot_record()  # their versions are in git's objects
-    return {f"{top}/{path}" for path in paths}
+    return found
 
 
 def find_git_folder(top: str) -> Path:
