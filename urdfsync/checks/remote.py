@@ -27,7 +27,7 @@ CODE = "remote-cache"
 PATIENCE = 10.0
 """Seconds for one read or write; afterwards this process goes without the remote cache."""
 _LEAST_SECRET = 16  # characters: a shorter one could be guessed from any file of the cache
-_LARGEST = 16 * 2**20  # bytes of a result: those of 42 robots have at most some 100 kB
+_LARGEST = 16 * 2**20  # bytes of a result; without a limit, a stranger's file could fill the memory
 
 _problems: dict[str, str] = {}
 """By address, why this process no longer uses a remote cache: a slow one costs `PATIENCE` once."""

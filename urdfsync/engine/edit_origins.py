@@ -55,13 +55,9 @@ def find_doubts(
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(inputs, generation, differences, action)
-    is_undone = (
-        not is_told and inputs.last.version is not None and generation.now.snapshot == inputs.last.version.snapshot
-    )
-    asked = {} if is_undone or record.open is None else record.open.asked
-    for action in [one for one in unconfirmed if one.path in asked and asked[one.path].mine == one.mine]:
-        doubts[action.path] = asked[action.path].doubt
-        unconfirmed.remove(action)
+    open_doubts = _open_doubts(inputs, generation, unconfirmed)
+    doubts |= open_doubts
+    unconfirmed = [one for one in unconfirmed if one.path not in open_doubts]
     if not record.is_united:  # the build that wrote the record has judged these texts; a clone knows that, too
         unconfirmed = [one for one in unconfirmed if one.mine not in record.edited]
     if unconfirmed and notes.model == hash_of(record.snapshot):  # otherwise git may have changed the meaning of names
@@ -73,6 +69,15 @@ def find_doubts(
         for commit in _commits(inputs):
             doubts |= _look(inputs, generation, commit, edits)
     return {path: doubt for path, doubt in doubts.items() if doubt}
+
+
+def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Action]) -> dict[str, Doubt]:
+    """Return the doubts of recorded questions about these edits, by key, unless an export was undone."""
+    last, now = inputs.last, generation.now.snapshot
+    is_undone = last.seen != now and last.version is not None and last.version.snapshot == now
+    asked = {} if is_undone or last.record.open is None else last.record.open.asked
+    edits = (action for action in actions if action.path in asked and asked[action.path].mine == action.mine)
+    return {action.path: asked[action.path].doubt for action in edits}
 
 
 def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:

@@ -215,37 +215,12 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
     merged = {key: text_hash(text) for key, text in decision.texts.items() if key.endswith(".mo")}
     # a merge may wait: then the edit stays on disk
     edits = (action for action in decision.actions if action.reason in EDITED or action.path in merged)
-    users_texts = {*merged.values(), *(str(action.mine) for action in edits if action.mine)}
+    judged = frozenset((*merged.values(), *(str(action.mine) for action in edits if action.mine)))
     # the merge of a confirmed text with an export stays confirmed
     merges = (action for action in decision.actions if action.path in merged and action.mine in old.confirmed)
     confirmed = frozenset(merged[action.path] for action in merges)
     if not decision.is_complete:
-        # keep the model of the last complete build; record renewed files, but none in a former folder
-        files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
-        files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
-        renewed = {
-            key: (*old.imports.get(key, ()), entry)
-            for key, entry in imports.items()
-            if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
-            and entry not in old.imports.get(key, ())
-        }
-        questions = (action for action in decision.actions if action.reason is Reason.ASKED)
-        asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
-        renames = differences.renames
-        if pending(inputs):  # the user may delete a declaration
-            renames = match_with_last(inputs, generation.now.snapshot, {}).renames
-        open_ = Open(as_recorded(generation.now.snapshot), renames, asked)
-        contents = (text for text in inputs.settled.contents.values() if text is not None)
-        # a decision about an earlier export does not answer this question, not in the next build either
-        doubtful = {action.mine for action in decision.actions if action.reason is Reason.ASKED}
-        new = msgspec.structs.replace(
-            old,
-            files=files,
-            imports={**old.imports, **renewed},
-            open=open_,
-            confirmed=(old.confirmed - doubtful) | {text_digest(text) for text in contents} | confirmed,
-        )
-        return old if new == old else msgspec.structs.replace(new, edited=frozenset(users_texts))
+        return _open_record(inputs, generation, decision, judged, confirmed)
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
     users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
     edited = (one for one in decision.actions if one.reason in users and one.mine)
@@ -259,7 +234,7 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         renamed=_brought(inputs, differences.renames),
         former=_former(inputs, generation, differences),
         confirmed=confirmed.union(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
-        edited=frozenset(users_texts),
+        edited=judged,
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
@@ -270,6 +245,40 @@ def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Recor
         # nor is a change without effect on the package, such as an unmodelled part of the source
         silent = msgspec.structs.replace(silent, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
+
+
+def _open_record(
+    inputs: Inputs, generation: Generation, decision: Decision, judged: frozenset[str], confirmed: frozenset[str]
+) -> Record:
+    """Return the record after an incomplete build: it keeps the model of the last complete build.
+
+    `judged` has the hashes of the user's texts, `confirmed` those of confirmed texts after their merges.
+    """
+    old, imports, inside = inputs.last.record, generation.imported.imports, inputs.folder.key("")
+    # record renewed files, but none in a former folder
+    files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
+    files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
+    renewed = {
+        key: (*old.imports.get(key, ()), entry)
+        for key, entry in imports.items()
+        if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
+        and entry not in old.imports.get(key, ())
+    }
+    questions = (action for action in decision.actions if action.reason is Reason.ASKED)
+    asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
+    # a decision about an earlier export does not answer a question, not in the next build either
+    confirmed |= old.confirmed.difference(question.mine for question in asked.values())
+    renames = decision.differences.renames
+    if pending(inputs):  # the user may delete a declaration
+        renames = match_with_last(inputs, generation.now.snapshot, {}).renames
+    new = msgspec.structs.replace(
+        old,
+        files=files,
+        imports={**old.imports, **renewed},
+        open=Open(as_recorded(generation.now.snapshot), renames, asked),
+        confirmed=confirmed.union(text_digest(text) for text in inputs.settled.contents.values() if text is not None),
+    )
+    return old if new == old else msgspec.structs.replace(new, edited=judged)
 
 
 def _former(inputs: Inputs, generation: Generation, differences: Differences) -> Mapping[str, str]:
