@@ -141,6 +141,16 @@ def test_a_build_that_wrote_is_not_remembered(folder: Path) -> None:
     save(*BUILD)
 
 
+def test_the_result_of_a_table_of_10_000_rows_is_remembered(folder: Path) -> None:
+    """It has 20,000 actions, in 9 MB."""
+    result = os.urandom(9_000_000)
+    time.sleep(0.1)
+    record.Record("key", record.FactList(), ["in step"], result).save(".urdfsync", "motors.robot")
+    found = record.load(".urdfsync", "motors.robot")
+    assert found is not None
+    assert found.result == result
+
+
 def test_packages_that_builds_check_have_to_be_checked(folder: Path) -> None:
     Path("urdfsync.toml").write_text('[defaults]\non_build = "check"\n' + Path("urdfsync.toml").read_text()[11:])
     for _ in range(2):
