@@ -31,6 +31,15 @@ def told(body: str) -> list[str]:
     ]
 
 
+def test_a_nearer_class_hides_a_package_of_the_same_name() -> None:
+    text = "within Plant;\nmodel Plant\nend Plant;\n"
+    user = "within Plant.Links;\nmodel Long\n  extends {}Plant.Links.Boom;\nend Long;\n"
+    (hidden,) = found(PLANT, text, user.format(""))
+    assert hidden.message == "here, `Plant` is Plant.Plant, which has no `Links`"
+    assert hidden.meant == ".Plant.Links.Boom"
+    assert found(PLANT, text, user.format(".")) == []
+
+
 def test_nothing_is_said_of_what_is_right() -> None:
     assert found(PLANT, USER) == []
 

@@ -106,13 +106,18 @@ def test_types_and_units_may_stand_in_the_configuration() -> None:
         ("name,mass [kg],mass [g]\na,1,2\n", "parts.csv:1: error: there are two columns `mass`; rename one"),
         ("name,\na,1\n", "parts.csv:1: error: column 2 has no name; name the column in the header"),
         (HEADER + '"a,1\n', "parts.csv:2: error: this is no CSV"),
-        (HEADER.encode() + b"\xe4,1\n", "parts.csv:2: error: the file is not UTF-8"),
+        (HEADER.encode() + b"\xe4,1\n", "parts.csv:2: error: the file is not UTF-8; save the file as `CSV UTF-8`"),
+        ("name,mass [kg],\na,1,2\n", "parts.csv:1: error: column 3 has no name"),
         ("", "parts.csv: error: the table has no rows"),
     ],
 )  # fmt: skip
 def test_one_finding_for_a_fault_at_its_line(content: str | bytes, finding: str) -> None:
     (found,) = reading(content).diagnostics
     assert str(found).startswith(finding)
+
+
+def test_empty_last_columns_are_none() -> None:
+    assert reading("name,mass [kg],,\na,1,,\nb,2,,\n").snapshot == reading(HEADER + "a,1\nb,2\n").snapshot
 
 
 @pytest.mark.parametrize(

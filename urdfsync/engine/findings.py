@@ -129,7 +129,7 @@ def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: U
     for name in dict.fromkeys((use.part, next(new_names(use.part, renamed), use.part))):
         if advice and (option := advice.option_for(name, snapshot, target, options)):
             return brings_back(option, name if name != use.part else "")
-    if use.near:
+    if use.meant:
         return f"did you mean `{use.meant}`?"
     if use.is_library:
         return f'if `{use.part}` is a library, name it in `uses`: annotation (uses({use.part}(version="…")))'

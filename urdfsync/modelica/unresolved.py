@@ -50,10 +50,14 @@ class Unresolved(NamedTuple):
     """The valid names at this place."""
     is_library: bool = False
     """Whether the part may be the name of a library."""
+    is_hidden: bool = False
+    """Whether the name is that of a class from the top, but its first part means a nearer class here."""
 
     @property
     def message(self) -> str:
         """The fault as a sentence."""
+        if self.is_hidden:
+            return f"here, `{self.name.partition('.')[0]}` is {self.owner}, which has no `{self.part}`"
         if self.kind is UnresolvedKind.ELEMENT and self.owner:
             return f"{self.owner.rpartition('.')[2]} has no `{self.part}`"
         if self.kind is UnresolvedKind.CIRCLE:
@@ -62,7 +66,9 @@ class Unresolved(NamedTuple):
 
     @property
     def meant(self) -> str:
-        """The name with `near` in place of the unresolved part; empty without `near`."""
+        """The name from the top if it is hidden, or with `near` in place of the unresolved part; empty without both."""
+        if self.is_hidden:
+            return f".{self.name}"
         parts = self.name.split(".") if self.near else []
         return ".".join(self.near if part == self.part else part for part in parts)
 
@@ -201,4 +207,10 @@ class _Walk(NamedTuple):
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(meaning.part, sorted(candidates - {meaning.part}), least)
         if near or not is_library or self.all_libraries:  # otherwise a compiler reports a missing library
-            yield Unresolved(kind, str(name), meaning.part, owner, name.line, near, candidates, is_library)
+            is_hidden = meaning.number == 1 and self._is_known_from_the_top(name)
+            found = Unresolved(kind, str(name), meaning.part, owner, name.line, near, candidates, is_library)
+            yield found._replace(is_hidden=is_hidden)
+
+    def _is_known_from_the_top(self, name: Name) -> bool:
+        meaning = self.scopes.lookup(name._replace(is_global=True), None)
+        return isinstance(meaning, Element) and meaning is not ANYTHING

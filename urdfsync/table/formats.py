@@ -69,6 +69,9 @@ def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
         raise SourceError.of("table-file", f"this is no CSV: {error}", file, first + line, hint="correct it") from None
     if not rows:
         return NOTHING, NOTHING
+    if not rows[0][1][-1]:  # spreadsheets write a separator for each column that ever had a cell
+        width = max(len(_without_end(cells)) for _, cells in rows)
+        rows = [(line, cells[:width]) for line, cells in rows]
     return Sheet([str(cell) for cell in rows[0][1]], rows[1:], may_have_commas=separator != ","), NOTHING
 
 
@@ -271,7 +274,7 @@ def _too_many_cells(file: str) -> SourceError:
 
 def _without_end(cells: Sequence[object]) -> Sequence[object]:
     """Return the cells up to the last filled cell."""
-    last = max((number for number, cell in enumerate(cells, 1) if cell is not None), default=0)
+    last = max((number for number, cell in enumerate(cells, 1) if cell not in (None, "")), default=0)
     return cells[:last]
 
 
@@ -286,7 +289,9 @@ def _decode(content: bytes, file: str, first: int = 0) -> str:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = first + error.object.count(b"\n", 0, error.start) + 1
-        message, hint = "the file is not UTF-8", "save the file as UTF-8, then try again"
+        is_csv = PurePath(file).suffix.lower() not in (".json", ".toml", ".yaml", ".yml")
+        hint = f"save the file as {'`CSV UTF-8`, as Excel calls it' if is_csv else 'UTF-8'}, then try again"
+        message = "the file is not UTF-8"
         raise SourceError.of("table-file", message, file, line, hint=hint) from None
 
 

@@ -93,7 +93,7 @@ def test_the_second_reader_and_pinocchio_have_the_same_numbers() -> None:
 @pytest.mark.parametrize(("csv", "columns"), [
     ("name,effort [N.m],effort [N],velocity [rpm],velocity [mm/s]\nS,2,,100,\nL,,5,,20\nN,1,,90,\n", {}),
     ("name,effort [max] [N.m],velocity\nS,5,\nL,6,\nN,7,\n", {"effort": "effort [max]"}),
-    ("name,effort\nS,1\u00a0200\nL,2\u200b0\nN,3\n", {}),
+    ("name,effort [N.m]\nS,1\u00a0200\nL,2\u200b0\nN,3\n", {}),
 ])  # fmt: skip
 def test_rows_are_joined_alike_twice(csv: str, columns: dict[str, str]) -> None:
     """Columns of one name, brackets in a name, and characters that nobody sees."""
@@ -128,7 +128,6 @@ def test_a_wrong_number_of_a_drive_is_found(path: str, monkeypatch: pytest.Monke
 @pytest.mark.parametrize(("old", "new", "message"), [
     ("[N.cm]", "[kg]", "effort of joint `elbow` in the row `S`: kg can't be converted to N.m"),
     ("[N.cm]", "[Nxcm]", "effort of joint `elbow` in the row `S`: `Nxcm` is no unit"),
-    (" [N.cm]", "", "effort of joint `elbow` in the row `S`: the column has no unit, such as N.m"),
     ("[deg/s]", "[1/min]", "velocity of joint `elbow` in the row `S`: write `turn` or `rad` in 1/min"),
     ("410", "x", "effort of joint `elbow` in the row `S`: `x` is no number"),
     ("410", "-1", "effort of joint `elbow` in the row `S`: -1 is too small"),
@@ -148,6 +147,7 @@ def test_a_fault_of_a_row_is_one_diagnostic(old: str, new: str, message: str) ->
     (CSV.replace("410", "4,10"), 2, "the row `S` has 10 cells, but the header has 9"),
     (f"{CSV}S,1,,,,,,,\n", 5, "the row `S` stands in line 2, too"),
     (CSV.replace("torque", "tork"), 1, "there is no column `torque`"),
+    (CSV.replace(" [N.cm]", ""), 1, "the column `torque` has no unit"),
     ("", 0, "the table has no rows"),
 ])  # fmt: skip
 def test_a_fault_of_the_table_has_its_line(csv: str, line: int, message: str) -> None:
@@ -155,6 +155,14 @@ def test_a_fault_of_the_table_has_its_line(csv: str, line: int, message: str) ->
         joined(csv)
     (found,) = error.value.diagnostics
     assert (found.file, found.line, found.message) == ("motors.csv", line, message)
+
+
+def test_a_cell_that_other_rows_fill_is_not_left_empty_in_silence() -> None:
+    assert read_robot(joined(), "a.urdf").diagnostics == ()
+    findings = read_robot(joined(CSV.replace("N,5", "N,")), "a.urdf").diagnostics
+    (found,) = (one for one in findings if one.severity is Severity.NOTE)
+    assert found.code == "empty-cell"
+    assert found.message == "the row `N` has no effort: that of joint `wheel` in the source counts"
 
 
 def test_a_joint_without_limits_of_position_keeps_its_freedom() -> None:

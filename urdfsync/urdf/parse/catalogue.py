@@ -97,6 +97,9 @@ def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str
         for key, alternatives in columns.items():
             if column := next(filter(filled.__contains__, alternatives), ""):
                 found[key] = filled.pop(column)
+                if found[key].endswith(" []"):
+                    message, hint = f"the column `{column}` has no unit", f"write `{column} [{_PLACES[key][1]}]`"
+                    raise SourceError.of("bad-row", message, file, 1, hint=hint)
         unused = [column for column, unit in header if column in filled and unit not in ("", "text")]
         found |= {"unused": ", ".join(unused)} if unused else {}
         if name in rows:
@@ -126,7 +129,18 @@ def read_rows(reader: Reader, root: Element) -> Mapping[str, Row]:
         hint = "name a column in `motor_columns` if it is a number of a drive"
         line = reader.element_lines[next(row for row in rows if row.get("unused"))]
         reader.diagnostics.append(Diagnostic(Severity.NOTE, "unused", message, "", line, hint=hint))
+    reader.diagnostics += _find_empty_cells({name: (joints[name].get("type"), row) for name, row in found.items()})
     return found
+
+
+def _find_empty_cells(rows: Mapping[str, tuple[str | None, Row]]) -> Iterator[Diagnostic]:
+    """Yield a note for each row without an effort or a velocity, if a row of another such joint has one."""
+    for number in ("effort", "velocity"):
+        kinds = {MOTION_KINDS.get(kind) for kind, row in rows.values() if number in row.motor.numbers}
+        for name, (kind, row) in rows.items():
+            if MOTION_KINDS.get(kind) in kinds and number not in row.motor.numbers:
+                message = f"the row `{row.motor.row}` has no {number}: that of joint `{name}` in the source counts"
+                yield Diagnostic(Severity.NOTE, "empty-cell", message, "", row.line, hint="fill the cell")
 
 
 def _read_row(reader: Reader, element: Element, joint: Element, line: int) -> Row:
@@ -163,8 +177,6 @@ def _in_si(number: MotorNumber, text: str, expected: str) -> float:
     from urdfsync.table.units import find_unit, is_same_kind
 
     cell, unit = name_and_unit(text)
-    if not unit:
-        raise ValueError(f"the column has no unit, such as {expected}")
     unit = "1" if unit == "integer" else unit
     if not is_same_kind(unit, expected):
         raise ValueError(f"{unit} can't be converted to {expected}")
