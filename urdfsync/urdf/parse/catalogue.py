@@ -129,16 +129,17 @@ def read_rows(reader: Reader, root: Element) -> Mapping[str, Row]:
         hint = "name a column in `motor_columns` if it is a number of a drive"
         line = reader.element_lines[next(row for row in rows if row.get("unused"))]
         reader.diagnostics.append(Diagnostic(Severity.NOTE, "unused", message, "", line, hint=hint))
-    reader.diagnostics += _find_empty_cells({name: (joints[name].get("type"), row) for name, row in found.items()})
+    motions = {name: MOTION_KINDS[joints[name].get("type")] for name in found}  # type: ignore[index] # see `joints`
+    reader.diagnostics += _find_empty_cells(found, motions)
     return found
 
 
-def _find_empty_cells(rows: Mapping[str, tuple[str | None, Row]]) -> Iterator[Diagnostic]:
+def _find_empty_cells(rows: Mapping[str, Row], motions: Mapping[str, str]) -> Iterator[Diagnostic]:
     """Yield a note for each row without an effort or a velocity, if a row of another such joint has one."""
     for number in ("effort", "velocity"):
-        kinds = {MOTION_KINDS.get(kind) for kind, row in rows.values() if number in row.motor.numbers}
-        for name, (kind, row) in rows.items():
-            if MOTION_KINDS.get(kind) in kinds and number not in row.motor.numbers:
+        filled = {motions[name] for name, row in rows.items() if number in row.motor.numbers}
+        for name, row in rows.items():
+            if motions[name] in filled and number not in row.motor.numbers:
                 message = f"the row `{row.motor.row}` has no {number}: that of joint `{name}` in the source counts"
                 yield Diagnostic(Severity.NOTE, "empty-cell", message, "", row.line, hint="fill the cell")
 
