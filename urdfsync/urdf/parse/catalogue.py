@@ -72,7 +72,7 @@ def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str
     sheet, _ = read_sheets(content, file)
     header = [name_and_unit(cell) for cell in sheet.header]
     sheet = with_decimal_points(sheet, [n for n, (_, unit) in enumerate(header) if unit not in ("", "text")], file)
-    names, columns = [name for name, _ in header], dict[str, Sequence[str]]()
+    names, columns = [name for name, _ in header], dict[MotorNumber, Sequence[str]]()
     for number in _PLACES:
         named = options.motor_columns.get(number, number)
         columns[number] = (named,) if isinstance(named, str) else named
