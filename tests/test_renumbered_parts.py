@@ -17,6 +17,7 @@ from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
 from support.renumbering import Renumbering, renumberings
+from support.replay import contents
 from support.urdfs import joint, limit, link, robot
 from test_unions import WAYS
 
@@ -253,6 +254,25 @@ def test_a_clone_asks_nothing_about_words_in_a_remark(repository: Repository, ex
     repository.commit()
     repository.git("clone", "-q", ".", "clone")
     execute("build", "--config", "clone/urdfsync.toml")
+
+
+@NEEDS_GIT
+def test_a_clone_asks_what_the_original_asks(repository: Repository, execute: Execute) -> None:
+    """And a second build asks the same in the same words; the answer counts in each clone."""
+    unclear(execute)
+    first, second = (execute("build", code=Exit.CONFLICT).out for _ in range(2))
+    assert first.partition("conflict  ")[2] == second.partition("conflict  ")[2] != ""
+    repository.commit()
+    repository.git("clone", "-q", ".", "clone")
+    recorded = contents(Path(".urdfsync/robots"))
+    words = execute("build", "--config", "clone/urdfsync.toml", code=Exit.CONFLICT).words
+    assert "`link_1` may be another part now" in words
+    assert contents(Path("clone/.urdfsync/robots")) == recorded
+    execute("resolve", LINK.format(1), "--keep")
+    repository.commit()
+    shutil.rmtree("clone")
+    repository.git("clone", "-q", ".", "clone")
+    execute("build", "--check", "--config", "clone/urdfsync.toml")
 
 
 def test_the_same_part_gets_what_is_new(folder: Path, execute: Execute) -> None:
