@@ -10,6 +10,7 @@ import support.urdfs as urdfs
 from support.commands import Execute
 from support.git import Repository
 from support.networks import edit
+from support.replay import contents
 
 ARM = Path("modelica/Arm")
 ELBOW, MODEL = ARM / "Joints/Elbow.mo", ARM / "Arm.mo"
@@ -247,6 +248,19 @@ def test_package_order_may_name_what_is_there(arm: Path, execute: Execute) -> No
     write_source("wrist")
     edit(ARM / "package.order", "Own\n", "")
     assert "order-unknown" not in execute("build").err
+
+
+def test_an_old_fault_stops_no_merge_if_the_package_file_is_missing(arm: Path, execute: Execute) -> None:
+    """Without `package.mo` no name is looked up: the fault seemed to be new, and a second build merged."""
+    edit(MODEL, "\nequation", "\n  Real mine = missing.x;\nequation")
+    assert execute("build", code=3).words.startswith("arm: broken")
+    (ARM / "package.mo").unlink()
+    write_source("wrist")
+    printed = execute("build", "--merge", code=3)
+    assert "1 restored because you deleted it, 2 deleted, 1 merged with your edits" in printed.words
+    built = contents(arm)
+    assert "Arm has no `missing`" in execute("build", "--merge", code=3).words
+    assert contents(arm) == built
 
 
 def test_a_class_that_became_a_folder_is_listed_by_its_path(arm: Path, execute: Execute) -> None:

@@ -291,7 +291,9 @@ def _without_misfits(
         planned = keep_needed(files_after(planned, merged), origins)
         misfits = _find_misfits(files_after(planned, merged, is_open=True), merged.keys())
         if misfits and before is None:
-            waiting = [msgspec.structs.replace(one, is_waiting=True) for one in actions]
+            # names in a folder without its `package.mo` are not looked up: the faults there would seem to be new
+            restored = {one.path for one in actions if one.reason is Reason.RESTORE and one.base == one.generated}
+            waiting = [msgspec.structs.replace(one, is_waiting=one.path not in restored) for one in actions]
             paths = {one.origin or one.path for one in conflicts.values()}
             before = {(one.key, one.fault) for one in _find_misfits(files_after(waiting, {}), paths)}
         for key in {one.key for one in misfits} & tried.keys():
