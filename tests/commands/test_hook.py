@@ -204,6 +204,14 @@ def test_a_link_to_a_folder_is_judged_as_it_is_staged(
     assert said(capsys, "check", code=0) == []
 
 
+def test_a_link_to_itself_in_the_working_copy_is_not_in_the_commit(repo: Repository, capsys: Capture) -> None:
+    """Following it ended in an internal error, even with git told not to look at it."""
+    make_links(repo)
+    relink("current", "current")
+    repo.git("update-index", "--assume-unchanged", "current")
+    assert said(capsys, "check", code=0) == []
+
+
 def make_workspace(repo: Repository) -> None:
     """Add a robot with a mesh in a ROS package, which only a search finds."""
     write_all({

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
+from pathlib import Path
 from typing import NamedTuple
 
 import msgspec
 
 from urdfsync import __version__, registry
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.places import real
 from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine import parents, source
@@ -87,7 +89,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def unmerged_paths(self) -> set[str]:
         """The real paths that git could not merge, in the repositories of the configuration and of the source."""
-        return find_unmerged((self.config.root, self.robot.source.resolve().parent))
+        return find_unmerged((self.config.root, Path(real(self.robot.source)).parent))
 
     @cached_property
     def unmerged(self) -> frozenset[str]:

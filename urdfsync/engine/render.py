@@ -221,8 +221,13 @@ def _mark_lines() -> type[Extension]:
 class _Loader(jinja2.FileSystemLoader):
     """Reads templates, perhaps in a clone; their file names are those of the user's repository."""
 
+    def __init__(self, folders: Sequence[Path]) -> None:
+        super().__init__(folders)
+        self._folders = folders
+
     def get_source(self, environment: jinja2.Environment, template: str) -> tuple[str, str, Callable[[], bool]]:
         """Return the text of a template, its file, and a function that returns whether it is unchanged."""
+        self.searchpath = [*map(place, self._folders)]  # a renderer may outlive a clone
         text, file, is_unchanged = super().get_source(environment, template)
         return text, named(file), is_unchanged
 
@@ -242,7 +247,7 @@ class Renderer:
         self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
         kind = _Environment if is_trusted else _Sandbox
         self._environment = kind(
-            loader=_Loader([place(folder) for folder in folders]),
+            loader=_Loader(folders),
             variable_start_string="<<",
             variable_end_string=">>",
             block_start_string="<%",
