@@ -262,6 +262,8 @@ class Project(Repository):
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, layout: str) -> None:
         super().__init__(folder / "project", monkeypatch)
         self.layout = layout
+        for name in ("AUTHOR_DATE", "COMMITTER_DATE"):  # the same steps make the same commits
+            monkeypatch.setenv(f"GIT_{name}", "2026-01-01T00:00:00Z")
         (folder / "gitconfig").write_text('[protocol "file"]\n  allow = always\n')
         if layout == "link":
             for place in EXPORTED:
