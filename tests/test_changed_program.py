@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from support.cases import sampled
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
 from support.urdfs import ELBOW_ARM
@@ -47,7 +48,7 @@ def call(program: Path, *arguments: str) -> int:
 
 @NEEDS_GIT
 @pytest.mark.slow
-@pytest.mark.parametrize("part", CHANGES)
+@pytest.mark.parametrize("part", sampled(CHANGES, len(CHANGES)))
 def test_every_verdict_sees_a_changed_line(
     program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, part: str
 ) -> None:

@@ -159,6 +159,7 @@ def test_every_nasty_name_is_in_its_record(nasty_package: Package) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.large  # every name is in its record, and compiles, in the test before
 def test_nasty_names_compile(nasty_package: Package, modelica_library: Path, tmp_path: Path) -> None:
     nasty_package.write(tmp_path)
     (tmp_path / "Plant" / "package.mo").write_text("within;\npackage Plant\nend Plant;\n")

@@ -60,7 +60,7 @@ def _is_compiler(process: psutil.Process) -> bool:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signals")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("number", [pytest.param(signal.SIGINT, marks=pytest.mark.large), signal.SIGKILL])
 def test_no_process_is_left_by_an_end_in_the_midst(arm: Path, number: signal.Signals) -> None:
     with psutil.Popen(COMMAND, cwd=arm, stdout=subprocess.PIPE) as process:
         compilers: list[psutil.Process] = []

@@ -65,6 +65,7 @@ def test_each_edit_is_told_with_what_it_changes(
 
 
 @pytest.mark.slow
+@pytest.mark.large  # test_seen_faults has many such faults
 def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, modelica_library: Path) -> None:
     """A template of the user's turns origins about axes that turn along; an assertion ends each simulation."""
     templates = Path("templates")

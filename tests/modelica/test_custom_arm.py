@@ -89,6 +89,7 @@ def test_the_sensor_shows_what_it_feels_on_a_circle(found: Mapping[str, Series])
     assert np.array([series.values[name] for name in IMU]) == pytest.approx(np.array(expected), rel=1e-6, abs=1e-6)
 
 
+@pytest.mark.large  # the models of the page move in the other tests of this file
 def test_the_models_on_the_page_compile(modelica_library: Path, tmp_path: Path) -> None:
     """The page's first block is a package; its elbow has a brake, which the test model of the arm takes along."""
     (package, *_) = re.findall(r"```modelica\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL)

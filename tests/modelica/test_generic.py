@@ -145,6 +145,7 @@ def free(
     return bench(body, runs, values, packages=[name], classes=classes)
 
 
+@pytest.mark.large  # the other tests of this file move the same equations
 def test_a_free_joint_without_inertia_is_named(modelica_library: Path, tmp_path: Path) -> None:
     """Also where there is mass, but on the axis, and where what slides has moments of inertia only."""
     inertial, slid = "robot.data.tip.inertial", "robot.data.box.inertial.mass"

@@ -137,6 +137,7 @@ def test_joints_move_and_push_as_pinocchio_says(names: Sequence[str], modelica_l
     assert [physics.fault(found) for found in physics.compare(modelica_library, tmp_path, cases)] == [None] * len(cases)
 
 
+@pytest.mark.large  # the recorded answers of OpenModelica move them, too
 def test_balls_move_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
     """Prescribed, free, in a loop; damping has an effect, and a lost origin is found."""
     cases = [physics.prepare(PENDULUM.encode(), "Pendulum").only("motion")]

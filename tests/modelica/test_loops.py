@@ -94,8 +94,9 @@ def test_two_compilers_keep_a_loop_closed_and_move_it_alike(
 
 
 @pytest.mark.slow
+@pytest.mark.large  # loops of two compilers are in the test above
 @pytest.mark.parametrize("tool", ["rumoca", OPENMODELICA])
-@pytest.mark.parametrize("name", sampled([name for name in ROBOTS if name not in RECORDED], 6))
+@pytest.mark.parametrize("name", [name for name in ROBOTS if name not in RECORDED])
 def test_a_loop_stays_closed_and_keeps_its_energy(name: str, tool: str, tmp_path: Path, modelica_library: Path) -> None:
     package = generate_robot(ROBOTS[name], Target(name, name)).write(tmp_path)
     assert_right(name, *simulate(modelica_library, [package], [fall(name)], tool=tool))

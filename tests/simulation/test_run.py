@@ -128,6 +128,7 @@ def test_a_motion_comes_back(arm: Path, modelica_library: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.large  # the next tests set parameters, too
 def test_parameters_change_what_they_should(arm: Path, modelica_library: Path) -> None:
     name = "robot.elbow.parameters.dynamics.damping"
     variables = ("robot.elbow.friction.*",)

@@ -222,7 +222,7 @@ def compilers(watch: Watch) -> list[psutil.Process]:
     ("signals", "code"),
     [
         pytest.param([signal.SIGTERM], 0, marks=pytest.mark.large),
-        ([signal.SIGKILL], -9),
+        pytest.param([signal.SIGKILL], -9, marks=pytest.mark.large),
         pytest.param([signal.SIGINT], 130, marks=pytest.mark.large),
         ([signal.SIGINT, signal.SIGINT], 130),
     ],

@@ -56,6 +56,7 @@ class Soak:
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="folders that are watched can't be replaced there")
+@pytest.mark.large  # the walks show the same, without a daemon
 def test_nothing_is_lost_and_nothing_stale(tmp_path: Path) -> None:
     soak, project = Soak(), tmp_path / "project"
     for robot, place in ROBOTS.items():
