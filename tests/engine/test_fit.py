@@ -125,6 +125,21 @@ def test_a_class_whose_file_waits_is_no_misspelled_one(arm: Path, execute: Execu
     execute("resolve", "--all", "--merge", "--prefer", "mine")
 
 
+@pytest.mark.parametrize(("class_", "meant"), [("", "Arm8.Arm8"), ('class = "Bot"\n', "Arm8.Bot")])
+def test_a_renamed_package_is_told_in_models_until_they_are_saved(
+    arm: Path, execute: Execute, class_: str, meant: str
+) -> None:
+    """Also after two new names; later builds were silent."""
+    Path("Mine.mo").write_text(f"model Mine\n  Arm.{'Bot' if class_ else 'Arm'} robot;\nend Mine;\n")
+    for package in ("Arm", "Arm7", "Arm8"):
+        Path("urdfsync.toml").write_text(f"{CONFIG.replace('Arm', package)}{class_}")
+        execute("build")
+    for command in ("build", "status", "diff", "build --check"):
+        assert f"use `{meant}` instead [unresolved]" in execute(*command.split()).words
+    Path("Mine.mo").write_text(f"model Mine\n  {meant} robot;\nend Mine;\n")
+    assert "unresolved" not in execute("build").words
+
+
 def test_a_finding_holds_nothing_back(arm: Path, execute: Execute) -> None:
     edit(ELBOW, "\nequation", "\n  Real mine = wrong;\n\nequation")
     write_source(mass=3)

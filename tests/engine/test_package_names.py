@@ -38,4 +38,4 @@ def test_a_package_that_moves_into_another_one_is_told_with_its_whole_name(folde
     Path("Cell.mo").write_text(CELL)
     moved = '[robots.arm]\nsource = "arm.urdf"\npackage = "Plant.Robot"\ncreate_parents = true\n'
     Path("urdfsync.toml").write_text(moved)
-    assert "use `Plant.Robot` instead" in execute("build").words
+    assert "use `Plant.Robot.Robot` instead" in execute("build").words

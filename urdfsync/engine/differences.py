@@ -175,7 +175,7 @@ def _find_identifiers(inputs: Inputs, now: Snapshot, differences: Differences) -
     if last.version is None or differences.changes is None:
         return {}
     old, new = inputs.domain.names(last.version.snapshot, last.target), inputs.domain.names(now, target)
-    renamed = {last.target.name: target.name}
+    renamed = {last.folder.rpartition("/")[2]: inputs.robot.folder.name, last.target.name: target.name}
     for kind, identifiers in old.items():
         for name, identifier in identifiers.items():
             new_name = differences.renames.get((kind.removesuffix("s"), name), name)

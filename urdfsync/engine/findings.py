@@ -121,8 +121,9 @@ def _diagnose(
 def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: Unresolved) -> str:
     """Return a hint for an unresolved name; `renamed` has new identifiers by old identifiers."""
     target, options = inputs.robot.target, inputs.robot.options
-    if use.part == inputs.last.target.package != target.package and target.name not in use.candidates:
-        return f"use `{target.package}` instead"
+    first, *rest = use.name.split(".")
+    if first == use.part and renamed.get(first) == inputs.robot.folder.name:  # the package has another name
+        return f"use `{'.'.join((target.package, *(renamed.get(part, part) for part in rest)))}` instead"
     if name := new_name(use.part, renamed, use.candidates):
         return f"use `{name}` instead"
     advice: Advice | None = inputs.domain.advice

@@ -100,9 +100,10 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def users_files(self) -> UsersFiles:
-        """The user's models outside of the package, and which of them mention the package's present or former name."""
+        """The user's models outside of the package, and which of them mention the package's present or former names."""
         former = self.files.path(self.last.folder) if self.has_moved else None
         names = {folder.name for folder in (self.robot.folder, former) if folder}
+        names |= {old for old, new in self.last.record.former.items() if new in names}
         return find_users_files(self.config, self.robot, names, former)
 
 

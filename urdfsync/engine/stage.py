@@ -282,9 +282,10 @@ def _open_record(
 
 
 def _former(inputs: Inputs, generation: Generation, differences: Differences) -> Mapping[str, str]:
-    """Return the present identifiers of elements by former identifiers that name no element now."""
+    """Return present identifiers by former ones that name nothing now: of package, main model and elements."""
     names = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
-    present = {inputs.robot.target.name, *(identifier for kind in names.values() for identifier in kind.values())}
+    elements = (identifier for kind in names.values() for identifier in kind.values())
+    present = {inputs.robot.folder.name, inputs.robot.target.name, *elements}
     return {old: new for old, new in differences.former.items() if new in present and old not in present}
 
 
