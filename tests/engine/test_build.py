@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -66,6 +67,22 @@ def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(pro
     ]
     assert run().in_step
     assert run().diagnostics == ()
+
+
+def test_what_stays_in_a_former_output_folder_is_told_as_long_as_it_is_there(project: Path) -> None:
+    run()
+    mine = project / LADDER / "Mine.mo"
+    mine.write_text("within Ladder;\nmodel Mine\nend Mine;\n")
+    configure(output='"lib"')
+    assert "these files stay there" in said(run())[0]
+    for _ in range(2):
+        assert said(run()) == [
+            f"{LADDER}: warning: there is another class `Ladder`; move the files that you need, then delete it "
+            "[left-behind]"
+        ]
+    shutil.move(mine, project / "lib/Ladder/Mine.mo")
+    shutil.rmtree(project / LADDER)
+    assert said(run()) == []
 
 
 def test_a_package_that_cant_move_stays(project: Path, snapshot_of: Snapshot) -> None:

@@ -581,7 +581,7 @@ def test_a_record_that_a_model_of_the_users_needs_stays_as_long_as_it_does(proje
     ("path", "old", "new", "words"),
     [
         ("ladder.json", '"C1"', '"Tank"', "use `Tank` instead"),
-        ("urdfsync.toml", '"Ladder"', '"Rungs"', "use `Rungs` instead"),
+        ("urdfsync.toml", '"Ladder"', '"Rungs"', "use `Rungs.Rungs` instead"),
     ],
 )
 def test_uses_of_what_has_another_name_get_the_new_one(

@@ -158,6 +158,8 @@ def _unmerged(inputs: Inputs) -> Iterator[Diagnostic]:
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """Return a warning if files stay in the package's former folder."""
     files, old, new = inputs.files, inputs.files.path(inputs.last.folder), inputs.files.path(inputs.folder)
+    if not inputs.has_moved:
+        yield from _twin(inputs)
     if not inputs.has_moved or any(action.is_waiting for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.is_deletion}
@@ -175,6 +177,15 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
         hint = "move the files that you need, then delete the old folder"
     file, line = shown(inputs.config.file), inputs.robot.lines[""]
     yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
+
+
+def _twin(inputs: Inputs) -> Iterator[Diagnostic]:
+    """Yield a warning if the project has another class of the package's name, such as files in the former folder."""
+    name = inputs.robot.target.package.partition(".")[0]
+    other = inputs.users_files.tops.get(name)
+    if other and other != inputs.robot.output / name:
+        message, hint = f"there is another class `{name}`", "move the files that you need, then delete it"
+        yield Diagnostic(Severity.WARNING, "left-behind", message, shown(other), hint=hint)
 
 
 def _first(names: Sequence[str], most: int) -> str:

@@ -38,6 +38,9 @@ class _Files(Mapping[Path, bytes]):
             self._size += len(content)
         return content
 
+    def __contains__(self, path: object) -> bool:
+        return path in self._paths
+
     def __iter__(self) -> Iterator[Path]:
         return iter(self._paths)
 

@@ -128,6 +128,13 @@ class Scopes:
                 meaning = meaning._replace(number=number)
         return meaning
 
+    def is_top_level(self, name: Name) -> bool:
+        """Return whether a name means a class from the top; this look is no request (see `StoredClasses.seen`)."""
+        requested = {**self._sources.seen}
+        meaning = self.lookup(name._replace(is_global=True), None)
+        self._sources.seen = requested
+        return isinstance(meaning, Element) and meaning is not ANYTHING
+
     def lookup_base(self, name: Name, node: Node) -> Element | Missing:
         """Return the meaning of a name after `extends` in a class: inherited elements do not count."""
         with self._without_bases(node):

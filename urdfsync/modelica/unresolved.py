@@ -207,10 +207,6 @@ class _Walk(NamedTuple):
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(meaning.part, sorted(candidates - {meaning.part}), least)
         if near or not is_library or self.all_libraries:  # otherwise a compiler reports a missing library
-            is_hidden = meaning.number == 1 and self._is_known_from_the_top(name)
+            is_hidden = meaning.number == 1 and not name.is_global and self.scopes.is_top_level(name)
             found = Unresolved(kind, str(name), meaning.part, owner, name.line, near, candidates, is_library)
             yield found._replace(is_hidden=is_hidden)
-
-    def _is_known_from_the_top(self, name: Name) -> bool:
-        meaning = self.scopes.lookup(name._replace(is_global=True), None)
-        return isinstance(meaning, Element) and meaning is not ANYTHING
