@@ -342,6 +342,23 @@ def test_edits_change_places_once_while_a_number_conflicts(edited: Path, execute
     execute("build", "--check")
 
 
+def test_a_part_that_one_export_forgot_is_the_same_part(folder: Path, execute: Execute) -> None:
+    """If it comes back with all its numbers; with others, the user is asked."""
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(arm(1.1, 2.2))
+    execute("build")
+    edit(LINK.format(2), "\nequation", MINE)
+    edit(JOINT.format(2), "effort = 10", "effort = 12")
+    edited = contents(Path("modelica"))
+    for mass, code in ((2.2, Exit.IN_STEP), (2.5, Exit.CONFLICT)):
+        Path("arm.urdf").write_text(arm(1.1))
+        execute("build")
+        Path("arm.urdf").write_text(arm(1.1, mass))
+        printed = execute("build", code=code)
+        assert ("is another part now" in printed.words) == (code is Exit.CONFLICT)
+        assert (contents(Path("modelica")) == edited) == (code is Exit.IN_STEP)
+
+
 def test_a_new_part_does_not_inherit_the_edit_of_one_that_is_gone(folder: Path, execute: Execute) -> None:
     Path("urdfsync.toml").write_text(CONFIGURATION)
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))

@@ -94,9 +94,17 @@ def _doubt(inputs: Inputs, generation: Generation, differences: Differences, act
     is_new_element = last.version is not None and differences.is_structural and element not in last.elements
     is_orphan = is_new_element and action.path in last.files
     is_new = last.record.open is not None and action.path not in last.record.open.asked  # a later build wrote the file
-    if is_orphan and not (is_new or last.record.is_united or differences.respelled):
+    is_united = last.record.is_united or bool(differences.respelled)
+    if is_orphan and not (is_new or is_united or _is_back(inputs, generation, action)):
         return Doubt(" ".join(element), is_certain=True)  # the user edited the file for an element that is gone
     return None
+
+
+def _is_back(inputs: Inputs, generation: Generation, action: Action) -> bool:
+    """Whether earlier builds have written all texts of a file's element, with the same numbers."""
+    package = generation.package
+    own = (path for path, owner in package.owners.items() if owner == action.owner)
+    return all(inputs.last.has_written(package.hash(path)) for path in own)
 
 
 def _commits(inputs: Inputs) -> Iterator[Revision]:
