@@ -143,7 +143,7 @@ def differences(content: bytes, work: Path, random: Random, tally: collections.C
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("robot", ["twig.urdf", "menagerie.urdf"])
+@pytest.mark.parametrize("robot", ["twig.urdf", pytest.param("menagerie.urdf", marks=pytest.mark.large)])
 def test_an_addition_meets_any_export(robot: str, tmp_path: Path) -> None:
     found = list(differences((GOLDEN / robot).read_bytes(), tmp_path, Random(5), collections.Counter()))
     assert found == []

@@ -258,6 +258,7 @@ HEIGHTS = {f"robot.{wheel}.frame_a.r_0[3]": RADIUS for wheel in ("left", "right"
 TURNED = [f"robot.drive_{wheel}Axis.phi" for wheel in ("left", "right")]
 
 
+@pytest.mark.large  # other tests of this file roll
 def test_the_wheels_of_a_cart_stand_on_their_shapes_and_take_it_as_far_as_they_roll(
     modelica_library: Path, tmp_path: Path
 ) -> None:

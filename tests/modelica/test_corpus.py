@@ -8,8 +8,6 @@ import pytest
 from support import corpus as corpora
 from support.commands import Execute
 
-IN_CI = {"random-schunk_pw70"}
-"""Two axes; an arm is in test_custom_histories, wheels on the ground are in test_seen_faults."""
 FAULTY = {
     "robots/random/spot_ros/spot_description/urdf/spot_arm.urdf",
     # loops, or a mass in no link: with `allow` they are built, and not compared
@@ -18,10 +16,9 @@ FAULTY = {
 }
 """Without a package: see the tests of the reader."""
 LABELS = {corpora.label(file): file for file in corpora.moving_joints() if file not in FAULTY}
-CASES = [
-    pytest.param(file, "package", id=label, marks=pytest.mark.slow if label in IN_CI else pytest.mark.large)
-    for label, file in LABELS.items()
-] + [pytest.param(file, "record", id=f"{label} (record)", marks=pytest.mark.large) for label, file in LABELS.items()]
+CASES = [pytest.param(file, "package", id=label, marks=pytest.mark.large) for label, file in LABELS.items()] + [
+    pytest.param(file, "record", id=f"{label} (record)", marks=pytest.mark.large) for label, file in LABELS.items()
+]
 
 
 @pytest.mark.parametrize(("file", "approach"), CASES)

@@ -108,6 +108,7 @@ def in_form(name: str, form: str) -> physics.Case:
 
 
 @pytest.mark.parametrize("case", sampled(FREE, 3))
+@pytest.mark.large  # the other tests of this file move the same equations
 def test_free_motion_agrees_with_pinocchio(case: tuple[str, str, bool], modelica_library: Path, tmp_path: Path) -> None:
     name, form, is_floating = case
     own = generic.prepare(generic.ROBOTS[name].encode(), name.title())

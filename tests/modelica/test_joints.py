@@ -263,6 +263,7 @@ COMMANDED = robot(
 )
 
 
+@pytest.mark.large  # golden texts have the vector
 def test_run_takes_what_ros2_control_commands_as_a_vector(modelica_library: Path, tmp_path: Path) -> None:
     """A position, two speeds, and a force of 4 N on 2 kg; joints begin at their start positions."""
     package = generate(COMMANDED.encode(), Target("Carts", "Carts"), inputs="vector")
@@ -287,6 +288,7 @@ CART = robot(
 )
 
 
+@pytest.mark.large  # `check` compares casters
 def test_a_caster_turns_by_itself_in_test(modelica_library: Path, tmp_path: Path) -> None:
     """Its mass lies beside its axis: it falls with m*g*l/(I + m*l^2), while the sweep of Test moves the wheel."""
     package = generate(CART.encode(), Target("Cart", "Cart"))

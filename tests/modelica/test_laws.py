@@ -123,6 +123,7 @@ OPENMODELICA = pytest.param("omc", marks=pytest.mark.skipif(omc.program("") is N
 
 
 @pytest.mark.parametrize("tool", ["rumoca", OPENMODELICA])
+@pytest.mark.large  # the other tests of this file have the same laws
 def test_an_arm_under_gravity_holds_still_or_creeps(tool: str, modelica_library: Path, tmp_path: Path) -> None:
     """The arm of the option: 1e-9 rad in 10 s by stiction, likewise by LuGre once its bristles have settled."""
     values = ["robot.shoulder.revolute.phi", "robot.elbow.revolute.phi"]

@@ -169,6 +169,7 @@ def test_passing_a_limit_is_noticed_and_nothing_else(modelica_library: Path, tmp
         assert found[1].strip() == f"Bench.robot{between}{joint_message}"
 
 
+@pytest.mark.large  # `check` provokes each limit, see test_seen_faults
 def test_later_passings_are_told_from_the_results(modelica_library: Path, tmp_path: Path) -> None:
     """Speed, acceleration and deceleration of the wheel of a robot in either approach."""
     brake = f'<limit velocity="{VELOCITY}" effort="{EFFORT}" acceleration="4" deceleration="{SLOW_DOWN}"/>'

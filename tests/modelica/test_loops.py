@@ -104,6 +104,7 @@ def test_a_loop_stays_closed_and_keeps_its_energy(name: str, tool: str, tmp_path
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tool", ["rumoca", OPENMODELICA])
+@pytest.mark.large  # loops of two compilers are in the test above
 def test_joints_follow_the_pose_that_they_come_from(tool: str, tmp_path: Path, modelica_library: Path) -> None:
     """Through two turns of a crank, and where a crank that is too long to turn stops and the rocker goes on."""
     pivot, pin, rocker = FOUR_BAR.joints

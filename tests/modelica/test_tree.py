@@ -114,6 +114,7 @@ def test_what_is_known_hides_no_fault_beside_it() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("below", ["Mechanics/**", pytest.param("**", marks=pytest.mark.large)])
+@pytest.mark.large  # random edits show the same of generated texts
 def test_the_standard_library_and_ours_are_kept(below: str) -> None:
     folders = [Path(entry) for entry in os.environ.get("MODELICAPATH", "").split(os.pathsep) if entry]
     files = [path for folder in (*folders, STANDARD) for path in folder.glob(f"Modelica*/{below}/*.mo")]
