@@ -16,12 +16,11 @@ FAULTY = {
 }
 """Without a package: see the tests of the reader."""
 LABELS = {corpora.label(file): file for file in corpora.moving_joints() if file not in FAULTY}
-CASES = [pytest.param(file, "package", id=label, marks=pytest.mark.large) for label, file in LABELS.items()] + [
-    pytest.param(file, "record", id=f"{label} (record)", marks=pytest.mark.large) for label, file in LABELS.items()
-]
 
 
-@pytest.mark.parametrize(("file", "approach"), CASES)
+@pytest.mark.large
+@pytest.mark.parametrize("approach", ["package", "record"])
+@pytest.mark.parametrize("file", LABELS.values(), ids=LABELS)
 def test_robots_are_right(
     file: str, approach: str, corpus: Path, modelica_library: Path, folder: Path, execute: Execute
 ) -> None:
@@ -33,7 +32,3 @@ def test_robots_are_right(
     (found,) = execute("check", "--physics", "--format=json", code=1).json["results"]
     assert not found["built"]
     assert (found["failed"], found["gaps"], found["agrees"]) == (False, [], True), found
-
-
-def test_the_robots_of_each_run_are_in_the_corpus(corpus: Path) -> None:
-    assert LABELS.keys() >= IN_CI
