@@ -1,4 +1,8 @@
-"""All that the shipped templates write is in golden texts, so each changed statement of a template changes one."""
+"""All that the shipped templates write is in golden texts, so each changed statement of a template changes one.
+
+`tests/urdf/second/test_comparison.py` has faults in numbers and facts, `tests/checks/test_seen_faults.py` faults in
+motion, and `tests/modelica/test_visualizers.py` faults in the library's drawings.
+"""
 
 from __future__ import annotations
 

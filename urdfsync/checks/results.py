@@ -238,8 +238,8 @@ class CheckResult(msgspec.Struct):
             return CheckStatus.DIFFERS
         if not self.in_step:
             return CheckStatus.OUT_OF_STEP if self.built else CheckStatus.NOT_BUILT
-        is_complete = not self.gaps and not (self.strict and self.uncompared_edits)
-        return CheckStatus.RIGHT if is_complete else CheckStatus.INCOMPLETE
+        has_unknown_effects = self.strict and self.numbers and self.uncompared_edits  # tables have no comparison at all
+        return CheckStatus.INCOMPLETE if self.gaps or has_unknown_effects else CheckStatus.RIGHT
 
     @property
     def summary(self) -> str:

@@ -1,4 +1,4 @@
-"""The numbers of packages against the second reading: real robots agree, and each fault is found in its file."""
+"""The numbers of packages, and the first reading, against the second one: real robots agree, each fault is found."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_real_robots_agree(file: str, corpus: Path) -> None:
     assert numbers.total > 10
 
 
-# Each fault is what a wrong reader would read, or what a wrong template would write
+# Each fault is what a wrong reader would read, or a number that a wrong template would write
 
 BOX = '<geometry><box size="0.1 0.2 0.3"/></geometry>'
 RED = '<material name="red"><color rgba="1 0.5 0.25 0.75"/></material>'
