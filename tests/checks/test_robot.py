@@ -192,7 +192,6 @@ def test_what_own_templates_drop_is_told_and_their_models_are_not_called_compare
     shutil.copytree(REPOSITORY / "templates" / "urdf", "templates")
     with Path("urdfsync.toml").open("a") as file:
         file.write('templates = "templates"\n')
-    replace(Path("templates/robot/run.mo.jinja"), "exact = false", "exact = false, f_crit = 0.5")
     rebuild()
     result = check()
     assert result.unchecked[0] == "the models of your own `templates`, except their motion with `--physics`"
