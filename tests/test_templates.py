@@ -1,7 +1,7 @@
 """All that the shipped templates write is in golden texts, so each changed statement of a template changes one.
 
-`tests/urdf/second/test_comparison.py` has faults in numbers and facts, `tests/checks/test_seen_faults.py` faults in
-motion, and `tests/modelica/test_visualizers.py` faults in the library's drawings.
+`tests/urdf/second/test_comparison.py` has faults in numbers and attributes, `tests/checks/test_seen_faults.py` has
+those in motion, and `tests/modelica/test_visualizers.py` those in the library's drawings.
 """
 
 from __future__ import annotations
@@ -31,19 +31,17 @@ def marked(text: str, marks: list[str]) -> str:
         marks.append(f"{match[0]} in {line.strip()}")
         return f'{match[0][:-1]}§{len(marks) - 1}§"'
 
-    lines, tags = [], [tag.span() for tag in _TAG.finditer(text)]
-    begin = 0
+    lines, tags, begin = list[str](), [tag.span() for tag in _TAG.finditer(text)], 0
     for line in text.split("\n"):
         end = begin + len(line)
-        is_within = any(first < begin < last or first < end < last for first, last in tags)
-        begin = end + 1
-        if line.strip() and not is_within:
+        new = line
+        if not any(first < begin < last or first < end < last for first, last in tags):  # of several lines
             new = _ALTERNATIVE.sub(mark, line)
             if _TAG.sub("", line).strip():
                 marks.append(line)
                 new += f"§{len(marks) - 1}§"
-            line = new
-        lines.append(line)
+        lines.append(new)
+        begin = end + 1
     return "\n".join(lines)
 
 

@@ -49,7 +49,7 @@ VARIANTS: Mapping[str, Variant] = {
             "commands": {"lift": "velocity", "push": "effort", "tilt": "velocity"},
             "start": {"waist": 0.5},
         },
-        "Rig|Joints/(?!Caster)|package|Links/Base",
+        "Rig|Joints/(?!Caster|Fan|Flex|Rack)|package|Links/Base",
     ),
     "motors": Variant(
         "rig",
@@ -62,7 +62,7 @@ VARIANTS: Mapping[str, Variant] = {
             "start": {"lift": 0.25, "tilt": 0.5},
             "approach": ("package", "record"),
         },
-        "Rig|Joints/(?!Caster)|Links/Base",
+        "Rig|Joints/(?!Caster|Fan|Flex|Rack)|Links/Base",
     ),
     "loops": Variant(
         "mill",

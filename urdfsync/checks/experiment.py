@@ -115,7 +115,7 @@ class Difference(msgspec.Struct, frozen=True):
 
     element: str
     quantity: str
-    """The path of the number or name in the record, such as `limits.effort`, or a fact, such as `parent`."""
+    """The path of the number or name in the record, such as `limits.effort`, or an attribute, such as `parent`."""
     expected: str
     """The source's value."""
     given: str

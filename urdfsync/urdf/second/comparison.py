@@ -1,7 +1,7 @@
-"""Compares the numbers of a package and the facts of the first reading with the second reading of the source.
+"""Compares the records of a package, and the first reading of the source, with the second reading.
 
-Numbers are in the package's records. Facts, such as the parent of a joint, are in the `Robot` of the first reading.
-How models are written is no matter here: golden texts show it, and Pinocchio shows how the models move.
+The first reading has attributes that no record has, such as the parent of a joint. The statements of models are not
+compared: golden texts hold them, and Pinocchio shows how the models move.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from urdfsync.modelica.literals import string
 from urdfsync.modelica.values import Value, literals, read_values
 from urdfsync.spelling import counted
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.second.facts import first_facts, second_facts
+from urdfsync.urdf.second.attributes import first_attributes, second_attributes
 from urdfsync.urdf.second.reading import (
     INF,
     MOVES,
@@ -113,7 +113,7 @@ class _Comparison:
                 if kind in ("link", "joint") or "package" in self.sample.options.approach:
                     element = f"{kind} {name}"
                     self._compare(f"{self.name}.mo", element, (), {"name": Stated(name, elements[name].line)})
-        self._facts()
+        self._attributes()
         for contradiction in self.reading.contradictions:
             place = Value("elements", "", "", 0)
             self._differ(f"{self.name}.mo", "robot", place, Stated(contradiction, 0), "another one by yourdfpy")
@@ -338,14 +338,14 @@ class _Comparison:
 
     # The first reading
 
-    def _facts(self) -> None:
-        """Compare the facts that no record has; a difference has the place of the element's name in its record."""
-        first = dict(first_facts(self.robot, self.sample.options))
+    def _attributes(self) -> None:
+        """Compare the attributes that no record has; a difference has the place of the element's name in its record."""
+        first = dict(first_attributes(self.robot, self.sample.options))
         for key, (file, line) in self.places.items():
             element = self.elements[key[0]].get(key[1])
             if element is None or key not in first:
                 continue
-            expected = second_facts(key[0], element)
+            expected = second_attributes(key[0], element)
             given = [Value(path, "", string(first[key][path] or "nothing"), line) for path in expected]
             stated = {path: Stated(word or "nothing", element.line) for path, word in expected.items()}
             self._compare(file, " ".join(key), given, stated)

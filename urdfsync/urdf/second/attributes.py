@@ -1,6 +1,6 @@
-"""Facts of the source that no record has: how elements hang together, what Run drives, how sensors measure.
+"""Attributes that no record has: how elements hang together, what Run drives, how sensors measure.
 
-The first reading has them as a `Robot`, the second one as elements. Both give the same words, or one has misread them.
+The first reading has them in a `Robot`, the second one in elements. If one has misread an attribute, the words differ.
 """
 
 from __future__ import annotations
@@ -13,29 +13,27 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot, effective
 from urdfsync.urdf.second.reading import Element
 
-Facts: TypeAlias = Mapping[str, str]
-"""Facts of an element by their names; an empty fact is absent."""
+Attributes: TypeAlias = Mapping[str, str]
+"""Attributes of an element by their names, as words; an empty word stands for a missing attribute."""
 
 
-def first_facts(robot: Robot, options: Options) -> Iterator[tuple[tuple[str, str], Facts]]:
-    """Yield the facts of each joint, loop and sensor of the first reading, by kind and name."""
+def first_attributes(robot: Robot, options: Options) -> Iterator[tuple[tuple[str, str], Attributes]]:
+    """Yield the attributes of each joint, loop and sensor of the first reading, by kind and name."""
     wanted = wanted_joints(robot.joints, options)
     for joint in map(effective, robot.joints):
         named = joint.actuated or joint.name in options.commands
         if options.driven is not None:
             named = joint.name in options.driven
-        yield (
-            ("joint", joint.name),
-            {
-                "parent": joint.parent,
-                "child": joint.child,
-                "leader": joint.mimic.joint if joint.mimic else "",
-                "command": (joint.command or "position") if joint.name in wanted else "",
-                "drive": "stated" if named else "",
-                "start": "" if joint.start is None else repr(joint.start),
-                "otherJoint": (joint.transmission.joint if joint.transmission else None) or "",
-            },
-        )
+        attributes = {
+            "parent": joint.parent,
+            "child": joint.child,
+            "leader": joint.mimic.joint if joint.mimic else "",
+            "command": (joint.command or "position") if joint.name in wanted else "",
+            "drive": "stated" if named else "",
+            "start": _number(joint.start),
+            "otherJoint": (joint.transmission.joint if joint.transmission else None) or "",
+        }
+        yield ("joint", joint.name), attributes
     for loop in robot.loops:
         yield ("loop", loop.name), {"parent": loop.parent, "child": loop.child, "kind": loop.kind}
     for sensor in robot.sensors:
@@ -43,11 +41,11 @@ def first_facts(robot: Robot, options: Options) -> Iterator[tuple[tuple[str, str
         yield ("sensor", sensor.name), {"at": sensor.at, "kind": sensor.kind, "axes": axes}
 
 
-def second_facts(kind: str, element: Element) -> Facts:
-    """Return the facts of an element of the second reading."""
+def second_attributes(kind: str, element: Element) -> Attributes:
+    """Return the attributes of an element of the second reading."""
     match kind:
         case "joint":
-            facts = {
+            attributes = {
                 "parent": element.parent,
                 "child": element.child,
                 "leader": element.leader,
@@ -55,9 +53,9 @@ def second_facts(kind: str, element: Element) -> Facts:
                 "drive": "stated" if element.is_named else "",
                 "otherJoint": element.shares,
             }
-            # elsewhere the record of starts has this number; in a loop, it has a position that closes the loop
-            start = element.number("start") if element.in_loop and "start" in element.values else None
-            return facts | {"start": "" if start is None else repr(start)} if element.in_loop else facts
+            if element.in_loop:  # the record of starts has a position that closes the loop instead
+                attributes["start"] = _number(element.number("start") if "start" in element.values else None)
+            return attributes
         case "loop":
             return {"parent": element.parent, "child": element.child, "kind": element.type}
         case "sensor":
@@ -65,6 +63,10 @@ def second_facts(kind: str, element: Element) -> Facts:
             axes = _axes(in_parent=in_parent, on_child=on_child)
             return {"at": element.parent, "kind": element.type, "axes": axes}
     return {}
+
+
+def _number(number: float | None) -> str:
+    return "" if number is None else repr(number + 0.0)  # 1 is 1.0, and -0.0 is 0.0
 
 
 def _axes(*, in_parent: bool, on_child: bool) -> str:
