@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from support import packages
-from support.golden import TEMPLATES, VARIANTS, golden, kept
+from support.golden import TEMPLATES, VARIANTS, kept, rendered
 from support.packages import record_text
 from support.urdfs import link, parsed, robot
 
@@ -53,8 +53,7 @@ def test_each_line_of_each_template_is_in_a_golden_text(tmp_path: Path, monkeypa
         own.parent.mkdir(parents=True, exist_ok=True)
         own.write_text(marked(path.read_text("utf-8"), marks), "utf-8")
     monkeypatch.setattr(packages, "RENDERER", Renderer([tmp_path]))
-    rendered = {name: golden(name).texts for name in VARIANTS}
-    texts = [rendered[name][path] for name in VARIANTS for path in kept(name)]
+    texts = [text for name in VARIANTS for text in rendered(name, packages.RENDERER).values()]
     texts.append(record_text(parsed(robot(link("base")))))  # tests/commands/test_record.py has its text
     found = {int(number) for text in texts for number in re.findall("§([0-9]+)§", text)}
     assert [line for number, line in enumerate(marks) if number not in found and line not in ELSEWHERE] == []
@@ -146,13 +145,9 @@ def test_most_faults_can_be_planted() -> None:
 
 
 @pytest.mark.parametrize("fault", PLANTED)
-def test_a_fault_in_a_template_changes_a_golden_text(
-    fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_fault_in_a_template_changes_a_golden_text(fault: str, tmp_path: Path) -> None:
     variant, file, old, new = FAULTS[fault]
     own = tmp_path / template(file).relative_to(TEMPLATES)
     own.parent.mkdir(exist_ok=True)
     own.write_text(template(file).read_text("utf-8").replace(old, new), "utf-8")
-    monkeypatch.setattr(packages, "RENDERER", Renderer([tmp_path, TEMPLATES]))
-    texts, expected = golden(variant).texts, kept(variant)
-    assert {path for path in expected if texts[path] != expected[path]}
+    assert rendered(variant, Renderer([tmp_path, TEMPLATES])).items() - kept(variant).items()

@@ -5,13 +5,15 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from support.corpus import REPOSITORY
 from support.packages import Package, generate
-from urdfsync.domain import Target
+from urdfsync.domain import Artifact, Target
+from urdfsync.engine.render import Renderer
 
 GOLDEN = REPOSITORY / "tests" / "golden"
 TEMPLATES = REPOSITORY / "templates" / "urdf"
@@ -78,6 +80,7 @@ VARIANTS: Mapping[str, Variant] = {
 """Later variants of a source have only the texts that differ from its first one."""
 
 
+@functools.cache
 def golden(variant: str) -> Package:
     """The package of a variant."""
     source, options, _ = VARIANTS[variant]
@@ -91,6 +94,13 @@ def texts_to_keep(variant: str) -> dict[str, str]:
     common = {} if variant == first else golden(first).texts
     texts = golden(variant).texts.items()
     return {path: text for path, text in texts if common.get(path) != text and re.match(files, path)}
+
+
+def rendered(variant: str, renderer: Renderer) -> dict[str, str]:
+    """The golden texts of a variant, by other templates."""
+    wanted = kept(variant).keys()
+    artifacts = (each for each in golden(variant).artifacts if isinstance(each, Artifact) and each.path in wanted)
+    return {each.path: renderer.render(each.template, each.data) for each in artifacts}
 
 
 def kept(variant: str) -> dict[str, str]:
