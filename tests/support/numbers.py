@@ -24,7 +24,7 @@ def compare(
 
 def of_package(package: Package, content: bytes, texts: Mapping[str, str], parts: tuple[bytes, ...] = ()) -> Numbers:
     sample = Sample(content, "a.urdf", package.target, package.options, package.facts, parts=parts)
-    (numbers,) = compare_numbers(sample, [{path: text.encode() for path, text in texts.items()}])
+    (numbers,) = compare_numbers(sample, package.robot, [{path: text.encode() for path, text in texts.items()}])
     return numbers
 
 

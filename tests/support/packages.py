@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
 from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Import, Lookup, Order, Reading, Role, Target
+from urdfsync.domain import Artifact, Import, Lookup, Order, Reading, Role, Target
 from urdfsync.engine.render import Renderer
 from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.artifacts import record
@@ -39,6 +39,7 @@ class Package:
     """Imported meshes by path below the package's folder."""
     facts: Mapping[str, Import]
     """The facts about the meshes, by the meshes' keys."""
+    artifacts: Sequence[Artifact | Order]
 
     @property
     def models(self) -> Mapping[str, str]:
@@ -108,17 +109,16 @@ def scaled(package: Package, factor: float) -> Package:
 def _render(
     snapshot: Robot, imports: Mapping[str, Import], contents: Mapping[str, bytes], target: Target, options: Options
 ) -> Package:
-    texts, roles = {}, {}
-    for artifact in DOMAIN.artifacts(snapshot, imports, target, options):
+    texts, roles, artifacts = {}, {}, tuple(DOMAIN.artifacts(snapshot, imports, target, options))
+    for artifact in artifacts:
         if isinstance(artifact, Order):
             texts[artifact.path] = "".join(f"{name}\n" for name in artifact.names)
             roles[artifact.path] = Role.ORDER
         else:
             texts[artifact.path] = RENDERER.render(artifact.template, artifact.data)
             roles[artifact.path] = artifact.role
-    return Package(
-        target, options, snapshot, KinematicTree.of(snapshot, (target.name,)), texts, roles, contents, imports
-    )
+    tree = KinematicTree.of(snapshot, (target.name,))
+    return Package(target, options, snapshot, tree, texts, roles, contents, imports, artifacts)
 
 
 def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, Import], dict[str, bytes]]:

@@ -1,15 +1,13 @@
-"""The files of a generated package: the text of a robot with one of everything, and what holds for every robot.
+"""The files of a generated package: the golden texts, and what holds for every robot.
 
-`tests/golden/fixed` holds the package of `tests/golden/menagerie.urdf`, the other folders what their options change in
-it; `record` holds what the record approach makes of `tests/golden/twig.urdf`. `python tests/urdf/test_artifacts.py`
-writes them anew; review what changed before you commit it.
+`support.golden` lists the sources and options of the golden texts. `python tests/urdf/test_artifacts.py` writes them
+anew; review what changed before you commit it.
 """
 
 from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +18,7 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from support import urdfs
+from support.golden import GOLDEN, TARGETS, TEMPLATES, VARIANTS, golden, kept, texts_to_keep
 from support.loops import FOUR_BAR
 from support.modelica import compile_task, execute
 from support.packages import Package, generate
@@ -30,43 +29,7 @@ from urdfsync.urdf.artifacts import artifacts
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Dynamics, Joint, Link, Robot
 
-GOLDEN = Path(__file__).resolve().parents[1] / "golden"
-TEMPLATES = Path(__file__).resolve().parents[2] / "templates" / "urdf"
-MENAGERIE = Target("Zoo.Menagerie", "Menagerie")
-VARIANTS: Mapping[str, Mapping[str, Any]] = {
-    "fixed": {},
-    "floating": {"base": "floating"},
-    "visualization2": {"visualizer": "visualization2"},
-    "no-collisions": {"collisions": False},
-}
-
-TWIG = Target("Zoo.Twig", "Twig")
-
-every_golden_folder = pytest.mark.parametrize("variant", [*VARIANTS, "record"])
-
-
-def menagerie(variant: str, target: Target = MENAGERIE) -> Package:
-    return generate(GOLDEN / "menagerie.urdf", target, **VARIANTS[variant])
-
-
-def twig(*approach: str, **options: Any) -> Package:
-    return generate(GOLDEN / "twig.urdf", TWIG, approach=approach, **options)
-
-
-def golden(variant: str) -> Package:
-    return twig("record") if variant == "record" else menagerie(variant)
-
-
-def texts_to_keep(variant: str) -> dict[str, str]:
-    """The golden files of a variant: all of `fixed` and `record`, of the others those that differ from `fixed`."""
-    common = {} if variant in ("fixed", "record") else menagerie("fixed").texts
-    return {path: text for path, text in golden(variant).texts.items() if common.get(path) != text}
-
-
-def kept(variant: str) -> dict[str, str]:
-    folder = GOLDEN / variant
-    files = (path for path in folder.rglob("*") if path.is_file())
-    return {path.relative_to(folder).as_posix(): path.read_bytes().decode() for path in files}
+every_golden_folder = pytest.mark.parametrize("variant", VARIANTS)
 
 
 def package_of(*elements: str, package: str = "Own", **options: Any) -> Package:
@@ -97,7 +60,8 @@ def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
 def test_one_of_everything_compiles(tmp_path: Path, modelica_library: Path) -> None:
     """Run of the one on a fixed base, Test of the one that can go anywhere."""
     targets = {"fixed": Target("Bolted", "Bolted"), "floating": Target("Free", "Free")}
-    folders = [menagerie(variant, target).write(tmp_path) for variant, target in targets.items()]
+    packages = {name: generate(GOLDEN / "menagerie.urdf", target, base=name) for name, target in targets.items()}
+    folders = [package.write(tmp_path) for package in packages.values()]
     tasks = [compile_task(model) for model in ("Bolted.BoltedRun", "Free.FreeTest")]
     assert [outcome.error for outcome in execute(modelica_library, folders, tasks)] == ["", ""]
 
@@ -110,11 +74,11 @@ def test_every_template_is_in_use() -> None:
         (begun, both),
         (Robot("r", begun.links, (Joint("a", "ball", "a", "b", dynamics=Dynamics(1.0)),)), both),
         (FOUR_BAR, Options()),
-        (menagerie("fixed").robot, both),
-        (twig("record").robot, both),
-        (twig("record").robot, mobile),
+        (golden("fixed").robot, both),
+        (golden("record").robot, both),
+        (golden("record").robot, mobile),
     )
-    made = [each for robot, options in robots for each in artifacts(robot, {}, MENAGERIE, options)]
+    made = [each for robot, options in robots for each in artifacts(robot, {}, TARGETS["menagerie"], options)]
     used = {each.template for each in made if isinstance(each, Artifact)}
     for path in TEMPLATES.rglob("*.jinja"):
         used.update(re.findall(r'<%-? (?:import|include) "([^"]+\.jinja)"', path.read_text(encoding="utf-8")))
@@ -181,7 +145,7 @@ def test_a_robot_without_any_mass_has_a_body_in_its_root_link() -> None:
 
 
 def _write_golden_files() -> None:
-    for variant in [*VARIANTS, "record"]:
+    for variant in VARIANTS:
         for path in kept(variant):
             (GOLDEN / variant / path).unlink()
         for path, text in texts_to_keep(variant).items():

@@ -111,17 +111,17 @@ class Deviation(msgspec.Struct, frozen=True):
 
 
 class Difference(msgspec.Struct, frozen=True):
-    """A number or name of the package that differs from an independent reading of the source."""
+    """A number or name of the package or the snapshot that differs from an independent reading of the source."""
 
     element: str
     quantity: str
-    """The path of the number or name in the record, such as `limits.effort`."""
+    """The path of the number or name in the record, such as `limits.effort`, or an attribute, such as `parent`."""
     expected: str
     """The source's value."""
     given: str
-    """The package's value."""
+    """The value of the package, or of the snapshot."""
     file: str
-    """Path below the package's folder; absolute for a file of the library."""
+    """Path below the package's folder."""
     line: int
     source: str
     """The source's file."""
@@ -237,8 +237,8 @@ class Sample(msgspec.Struct, frozen=True):
 class Checks(Protocol):
     """The functions that `check` needs of a domain; a domain's attribute `checks`."""
 
-    def numbers(self, sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
-        """Compare the numbers in the texts of each package with another reading of the source.
+    def numbers(self, sample: Sample, snapshot: Snapshot, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
+        """Compare the numbers in the texts of each package, and the snapshot, with another reading of the source.
 
         This may take a second. Raises SourceError if the other reader fails.
         """

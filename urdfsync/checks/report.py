@@ -64,8 +64,8 @@ def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:
     numbers, advice = result.numbers or Numbers(), _ADVICE
     for each, more in _by_file(numbers.differences):
         fault = f"{each.quantity} of {each.element} is {each.given}, and {each.expected} in {_place(each)}"
-        file = PurePath(result.folder, each.file).as_posix()  # a file of the library is absolute
-        yield f"{file}:{each.line}: {fault}{more}{advice}", "bold red"
+        file = f"{PurePath(result.folder, each.file).as_posix()}{f':{each.line}' if each.line else ''}"
+        yield f"{file}: {fault}{more}{advice}", "bold red"
         advice = ""
     for each, more in _by_file(numbers.edits):
         change = f"changes {each.quantity} of {each.element}: {each.expected} in {_place(each)}"

@@ -231,14 +231,15 @@ class CheckResult(msgspec.Struct):
 
     @property
     def status(self) -> CheckStatus:
-        """The verdict; if `strict`, effects of edits count as differences."""
+        """The verdict; if `strict`, effects of edits count as differences, and unknown effects as a gap."""
         if self.failed:
             return CheckStatus.FAILED
         if self.differs or (self.strict and self.is_changed_by_edits):
             return CheckStatus.DIFFERS
         if not self.in_step:
             return CheckStatus.OUT_OF_STEP if self.built else CheckStatus.NOT_BUILT
-        return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
+        has_unknown_effects = self.strict and self.numbers and self.uncompared_edits  # tables have no comparison at all
+        return CheckStatus.INCOMPLETE if self.gaps or has_unknown_effects else CheckStatus.RIGHT
 
     @property
     def summary(self) -> str:

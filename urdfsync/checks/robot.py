@@ -133,15 +133,10 @@ def _check(
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
     """Compare the numbers of a package with its source. A difference only on disk is the user's edit."""
     tell(f"{package.robot.name}: reading the source again")
-    source = package.inputs.source
+    source, snapshot = package.inputs.source, package.generation.now.snapshot
     on_disk = package.on_disk if package.in_step else package.generated
-    model = f"{package.models[0]}.mo"
-    models = {path for path, text in package.generated.items() if b"\nmodel " in text} - {model}
-    # the user's templates may change all models but the robot's
-    hidden = models if package.robot.templates is not None else set()
-    packages = [{path: texts[path] for path in texts.keys() - hidden} for texts in (package.generated, on_disk)]
     try:
-        generated, present = checks.numbers(_sample(package), *packages)
+        generated, present = checks.numbers(_sample(package), snapshot, package.generated, on_disk)
     except UrdfsyncError as error:
         result.gaps += (f"numbers were not compared: {error.diagnostics[0].message}",)
         return
@@ -152,15 +147,13 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
             yield msgspec.structs.replace(each, source=place.file, source_line=place.line)
 
     faults = {(each.file, each.element, each.quantity) for each in generated.differences}
-    if hidden:  # the user's templates may add components to the robot's model
-        added = {each for each in generated.differences if each.file == model and each.expected == "nothing"}
-        others = tuple(each for each in generated.differences if each not in added)
-        generated = msgspec.structs.replace(generated, differences=others)
     edits = (each for each in present.differences if (each.file, each.element, each.quantity) not in faults)
     result.numbers = msgspec.structs.replace(
         present, differences=tuple(located(generated.differences)), edits=tuple(located(edits))
     )
     result.unchecked += present.uncompared
+    if package.robot.templates is not None:
+        result.unchecked += ("the models of your own `templates`, except their motion with `--physics`",)
 
 
 def _sample(package: RobotPackage) -> Sample:

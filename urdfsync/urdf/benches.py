@@ -109,11 +109,11 @@ def _acceleration(joint: Joint, variable: str, limits: str) -> Signal | None:
     return Signal(variable, _UNITS[MOTION_KINDS[joint.type]][3], (f"{limits}.deceleration", f"{limits}.acceleration"))
 
 
-def numbers(sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
-    """Return the numbers of packages, compared with the second reading of the source."""
+def numbers(sample: Sample, robot: Robot, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
+    """Return the numbers of packages and the first reading `robot`, compared with the second reading of the source."""
     from urdfsync.urdf.second.comparison import compare_numbers  # a late import saves builds most of a second
 
-    return compare_numbers(sample, packages)
+    return compare_numbers(sample, robot, packages)
 
 
 def models(robot: Robot, target: Target, options: Options) -> Sequence[str]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import dataclasses
 
 import pytest
-from support.numbers import BOT, compare, differences, of_package
+from msgspec.structs import replace
+from support.numbers import BOT, differences, of_package
 from support.packages import generate
 from support.urdfs import joint, links, parsed, robot
 
@@ -79,16 +80,17 @@ def test_gears_that_are_read_otherwise_are_found(old: str, new: str, quantity: s
     package = generate(PAIR.decode().replace(old, new).encode(), BOT)
     found = of_package(package, PAIR, package.texts).differences
     assert quantity in {each.quantity for each in found}
-    lines = {each.source_line for each in found if each.file != "Bot.mo"}
+    lines = {each.source_line for each in found if each.quantity != "otherJoint"}
     assert lines == {PAIR[: PAIR.index(b"<transmission")].count(b"\n") + 1}
 
 
 def test_a_gear_at_another_joint_is_found() -> None:
-    def change(texts: Mapping[str, str]) -> Mapping[str, str]:
-        return {**texts, "Bot.mo": texts["Bot.mo"].replace("elbowGear.flange_c, wrist", "elbowGear.flange_c, elbow")}
-
-    (found,) = compare(PAIR, change).differences
-    assert (found.element, found.quantity, found.given) == (
-        *("joint elbow", "elbowGear.flange_c"),
-        "elbow.axis,elbowAxis,elbowGear.flange_b",
+    elbow, wrist = parsed(PAIR.decode()).joints
+    assert elbow.transmission is not None
+    wrong = replace(elbow, transmission=replace(elbow.transmission, joint="elbow"))
+    own = generate(PAIR, BOT)
+    package = dataclasses.replace(own, robot=replace(own.robot, joints=(wrong, wrist)))
+    (found,) = of_package(package, PAIR, package.texts).differences
+    assert (found.element, found.quantity, found.expected, found.given) == (
+        *("joint elbow", "otherJoint", "wrist", "elbow"),
     )

@@ -17,6 +17,7 @@ from urdfsync.checks.experiment import Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.second.comparison import compare_numbers
 from urdfsync.urdf.second.reading import read_again
 
@@ -111,7 +112,7 @@ def test_what_yourdfpy_does_not_read_is_told_and_the_rest_compared(
     urdf: str, reason: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     sample = Sample(urdf.encode(), "a.urdf", Target("Bot", "Bot"), Options(), {})
-    (numbers,) = compare_numbers(sample, [{}])
+    (numbers,) = compare_numbers(sample, Robot("r"), [{}])
     (sentence,) = numbers.uncompared
     assert sentence.startswith("the reading by yourdfpy, which can't read a.urdf (")
     assert reason in sentence
@@ -123,7 +124,7 @@ def test_what_yourdfpy_does_not_read_is_told_and_the_rest_compared(
 def test_a_source_that_can_not_be_read_again_is_an_error() -> None:
     sample = Sample(b'<robot name="r"><joint/></robot>', "a.urdf", Target("Bot", "Bot"), Options(), {})
     with pytest.raises(SourceError, match=r"a\.urdf: error: the second reader fails: "):
-        compare_numbers(sample, [{}])
+        compare_numbers(sample, Robot("r"), [{}])
 
 
 @pytest.mark.parametrize("head", [

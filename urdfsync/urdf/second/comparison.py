@@ -1,4 +1,8 @@
-"""Compares the texts of a package with the second reading of its source."""
+"""Compares the records of a package, and the first reading of the source, with the second reading.
+
+The first reading has attributes that no record has, such as the parent of a joint. The statements of models are not
+compared: golden texts hold them, and Pinocchio shows how the models move.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +20,8 @@ from urdfsync.domain import further_key
 from urdfsync.modelica.literals import string
 from urdfsync.modelica.values import Value, literals, read_values
 from urdfsync.spelling import counted
-from urdfsync.urdf.second.classes import Classes, RobotModel, Texts, groups
-from urdfsync.urdf.second.models import FREE
+from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.second.attributes import first_attributes, second_attributes
 from urdfsync.urdf.second.reading import (
     INF,
     MOVES,
@@ -31,7 +35,7 @@ from urdfsync.urdf.second.reading import (
     read_again,
     same,
 )
-from urdfsync.urdf.second.tables import expected_tables
+from urdfsync.urdf.second.tables import SHAPES, expected_tables
 
 _RECORDS = "UrdfSync.Records."
 _SHAPE = re.compile(r"((?:visual|collision)\d+)(?:_\d+)?(\.|Corners)")
@@ -44,8 +48,8 @@ _CLOSED = 1e-6
 """The greatest gap of a closed loop, in m."""
 
 
-def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> list[Numbers]:
-    """Compare records, robot model and benches of packages. Raises SourceError if the second reader fails."""
+def compare_numbers(sample: Sample, robot: Robot, packages: Sequence[Mapping[str, bytes]]) -> list[Numbers]:
+    """Compare the records of packages, and the first reading `robot`. Raises SourceError if the second reader fails."""
     with np.errstate(all="ignore"):  # source or edits may have infinite numbers
         try:
             content = sample.content
@@ -54,9 +58,11 @@ def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> 
 
                 content = join_again(sample.parts, sample.options)
             reading = read_again(content, sample.options)
-            first = _Comparison(packages[0], reading, sample).numbers()
-            others = packages[1:]  # equal if there are no edits: saves 0.1 s with 70 links
-            return [first, *[first if o == packages[0] else _Comparison(o, reading, sample).numbers() for o in others]]
+            first = _Comparison(packages[0], reading, robot, sample).numbers()
+            return [  # equal if there are no edits: saves 0.1 s with 70 links
+                first if texts == packages[0] else _Comparison(texts, reading, robot, sample).numbers()
+                for texts in packages
+            ]
         except (
             ArithmeticError,
             AttributeError,
@@ -73,64 +79,44 @@ def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> 
 class _Comparison:
     """Counts the values of a package's texts in `right`, `total` and `uncompared`, and lists `differences`."""
 
-    def __init__(self, texts: Mapping[str, bytes], reading: Reading, sample: Sample) -> None:
-        self.reading, self.sample, self.name = reading, sample, sample.target.name
-        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance", "Generic")
-        needed = {f"{self.name}{suffix}.mo" for suffix in suffixes}
-        needed |= {path for path in texts if path.startswith("Links/") and path != "Links/package.mo"}
-        needed |= {path for path in texts if path.startswith("Joints/") and path.endswith("Parameters.mo")}
-        joints = reading.joints.values()
-        # Pinocchio compares joints with one axis, smooth friction and rigid drives, the second reading all others
-        self.has_laws = any(joint.friction not in ("", "smooth") or joint.is_elastic for joint in joints)
-        if self.has_laws or reading.loops or any(joint.type in FREE for joint in joints):
-            needed |= {path for path in texts if path.startswith("Joints/") and path != "Joints/package.mo"}
-        self.read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
-        self.values = {path: each.values for path, each in self.read.items()}
-        self.titles = {path: each.titles for path, each in self.read.items()}
-        self.classes = Classes(self.read, reading, sample)
-        self.elements, self.components = self.classes.elements, self.classes.components
+    def __init__(self, texts: Mapping[str, bytes], reading: Reading, robot: Robot, sample: Sample) -> None:
+        self.reading, self.robot, self.sample, self.name = reading, robot, sample, sample.target.name
+        elements = reading.links, reading.joints, reading.loops, reading.sensors
+        self.elements = dict(zip(("link", "joint", "loop", "sensor"), elements, strict=True))
+        self.components = dict[tuple[str, str], str]()
+        """Components of links, joints, loops and sensors, by kind and name."""
+        self.places = dict[tuple[str, str], tuple[str, int]]()
+        """Files and lines of their names."""
+        whole = [f"{self.name}{suffix}.mo" for suffix in ("Parameters", "Start", "Sensors", "Stance")]
+        parts = [path for path in texts if path.startswith(("Links/", "Joints/")) and path.endswith("Parameters.mo")]
+        needed = sorted(texts.keys() & {*whole, *parts})
+        self.values = {path: read_values(texts[path].decode(errors="replace")) for path in needed}
         self.right = self.total = 0
         self.differences, self.uncompared = list[Difference](), Counter[str]()
-        roots = reading.links.keys() - {joint.child for joint in joints}
+        roots = reading.links.keys() - {joint.child for joint in reading.joints.values()}
         has_masses = any("inertial.mass" in link.values for link in reading.links.values())
         self.massless_root = None if has_masses else reading.links[next(iter(roots))]
 
     def numbers(self) -> Numbers:
-        """Compare all files."""
-        model = f"{self.name}.mo"
+        """Compare all records, then the first reading."""
         for path, values in self.values.items():
-            if path.startswith(("Links/", "Joints/")) and path.endswith("Parameters.mo"):
+            if path.startswith(("Links/", "Joints/")):
                 type_ = next((value.type for value in values if value.path == "name"), "").removeprefix(_RECORDS)
                 stem = path.rpartition("/")[2].removesuffix("Parameters.mo")
                 self._element(path, stem[:1].lower() + stem[1:], type_, values)
-        for suffix, compare in (
-            *(("Parameters", self._whole), ("Sensors", self._sensors), ("Start", self._starts)),
-            *(("Stance", self._stance), ("", self._model)),
-        ):
-            if f"{self.name}{suffix}.mo" in self.values or suffix == "Start":
+        for suffix, compare in (("Parameters", self._whole), ("Sensors", self._sensors), ("Stance", self._stance)):
+            if f"{self.name}{suffix}.mo" in self.values:
                 compare(f"{self.name}{suffix}.mo")
-        own = self.classes
-        for suffix in ("Run", "Test", "Generic"):
-            if (file := f"{self.name}{suffix}.mo") in self.values:
-                self._complete(file, own.texts(file), own.generic() if suffix == "Generic" else own.bench(file))
-        for kind, part, component in own.parts():
-            if kind == "link":
-                self._complete(*own.shapes(part, component))
-            elif kind == "joint" and part.type in MOVES and self.has_laws:
-                self._complete(*own.laws(part, component))
-            elif kind == "joint" and part.type in FREE:
-                self._complete(*own.free(part, component))
-            elif kind == "loop":
-                self._complete(*own.closing(part, component))
-        for class_ in own.library():
-            self._complete(*class_)
+        self._starts(f"{self.name}Start.mo")
         for kind, elements in self.elements.items():
             for name in sorted(elements.keys() - {name for of, name in self.components if of == kind}):
                 if kind in ("link", "joint") or "package" in self.sample.options.approach:
-                    self._compare(model, f"{kind} {name}", (), {"name": Stated(name, elements[name].line)})
+                    element = f"{kind} {name}"
+                    self._compare(f"{self.name}.mo", element, (), {"name": Stated(name, elements[name].line)})
+        self._attributes()
         for contradiction in self.reading.contradictions:
             place = Value("elements", "", "", 0)
-            self._differ(model, "robot", place, Stated(contradiction, 0), "another one by yourdfpy")
+            self._differ(f"{self.name}.mo", "robot", place, Stated(contradiction, 0), "another one by yourdfpy")
         uncompared = [f"{path} of records ({counted(n, 'number')})" for path, n in sorted(self.uncompared.items())]
         if unread := self.reading.unread:
             uncompared.insert(0, f"the reading by yourdfpy, which can't read {self.sample.file} ({unread})")
@@ -167,6 +153,7 @@ class _Comparison:
             self._compare(file, f"{kind} {name}", [named], {"name": Stated("nothing", 0)})
             return
         self.components[kind, name] = component
+        self.places.setdefault((kind, name), (file, named.line))
         shapes = [(value, _SHAPE.match(value.path)) for value in values]
         given = [value._replace(path=f"{s[1]}{s[2]}{value.path[s.end() :]}") if s else value for value, s in shapes]
         forms = {f"{s[1]}.shape": value for value, s in shapes if s and s[2] == "."}
@@ -220,23 +207,25 @@ class _Comparison:
             component, _, path = value.path.partition(".")
             parts[component].append(value._replace(path=path))
         for component, values in parts.items():
-            name = next((str(literals(value.text)) for value in values if value.path == "name"), "")
-            self.components["sensor", name] = component
+            named = next((value for value in values if value.path == "name"), Value("name", "", '""', 0))
+            name = str(literals(named.text))
+            self.components["sensor", name], self.places["sensor", name] = component, (file, named.line)
             sensor = self.reading.sensors.get(name)
             self._compare(file, f"sensor {name}", values, sensor.values if sensor else {})
 
     def _whole(self, file: str) -> None:
         """Compare the record of the whole robot: first its elements, then its tables."""
         parts, types, owner = defaultdict[str, list[Value]](list), dict[str, str](), ""
-        own, shapes, titles = list[Value](), dict[str, tuple[str, int]](), self.titles[file]
+        own, shapes = list[Value](), dict[str, tuple[str, int]]()
         for value in self.values[file]:
             component, _, path = value.path.partition(".")
-            type_, number = value.type.removeprefix(_RECORDS), re.match(r"Visual (\d+)", titles.get(component, ""))
+            type_ = value.type.removeprefix(_RECORDS)
             if type_ == "Robot" or type_.startswith("constant"):
                 own.append(value)
-            elif number:
+            elif type_ in SHAPES:
+                number = re.match(r"Visual(\d+)", component.removeprefix(owner))
                 shapes.setdefault(component, (type_, [*types.values()].count("Link")))
-                parts[owner].append(value._replace(path=f"visual{number[1]}.{path}"))
+                parts[owner].append(value._replace(path=f"visual{number[1] if number else 0}.{path}"))
             else:
                 owner = component
                 types.setdefault(component, type_)
@@ -244,22 +233,20 @@ class _Comparison:
         for component, type_ in types.items():
             self._element(file, component, type_, parts[component], whole=True)
         elements = {component: self.elements[kind][name] for (kind, name), component in self.components.items()}
-        tables = expected_tables([(elements[c], c) for c in types if c in elements], shapes)
+        tables = expected_tables([(elements[c], c) for c in types if c in elements], shapes.values())
         for value in own:
-            expected = {"name": Stated(self.reading.name, 0)}
-            if value.path == "standingHeight":
-                expected[value.path] = self._height(value)
-            if value.path in ("name", "standingHeight"):
-                self._compare(file, "robot", [value], {value.path: expected[value.path]})
-                continue
-            items = [item for item in re.split("[,;]", re.sub(r"[\s{}]|^\[|\]$|fill.*", "", value.text)) if item]
-            match = re.match('Number of joint "(.*)" in', titles.get(value.path, ""))
-            column = tables.get(f"{self.components.get(('joint', match[1]))}Axis" if match else value.path)
-            places = [f"{value.path}[{k}]" for k in range(1, max(len(items), len(column or ())) + 1)]
-            texts = (*(column or ()), *["nothing"] * len(items))
-            expected = {place: Stated(_read(text), 0) for place, text in zip(places, texts, strict=False)}
-            given = [value._replace(path=place, text=item) for place, item in zip(places, items, strict=False)]
-            self._compare(file, "robot", given, expected if column is not None else {})
+            # the name of a constant may have a number; tables without a column refer to the numbers of elements
+            column = tables.get(re.sub(r"(?<=Axis)_\d+$", "", value.path))
+            if value.path == "name":
+                self._compare(file, "robot", [value], {"name": Stated(self.reading.name, 0)})
+            elif value.path == "standingHeight":
+                self._compare(file, "robot", [value], {value.path: self._height(value)})
+            elif column is not None:
+                items = [item for item in re.split("[,;]", re.sub(r"[\s{}]|^\[|\]$|fill.*", "", value.text)) if item]
+                given = [value._replace(path=f"{value.path}[{k}]", text=item) for k, item in enumerate(items, 1)]
+                expected = {each.path: Stated("nothing", 0) for each in given}
+                expected |= {f"{value.path}[{k}]": Stated((float(n),), 0) for k, n in enumerate(column, 1)}
+                self._compare(file, "robot", given, expected)
 
     # Values that follow from others
 
@@ -297,17 +284,14 @@ class _Comparison:
     def _starts(self, file: str) -> None:
         """Compare the start positions of joints. Joints in loops must close the loops."""
         values, gap = {value.path: value for value in self.values.get(file, ())}, 0.0
-        model = self.classes.statements(f"{self.name}.mo") if f"{self.name}.mo" in self.read else {}
         placed = poses(self.reading, self._positions()) if self.reading.loops else {}
         for loop in self.reading.loops.values():
             between = placed[loop.parent] @ origin(loop) - placed[loop.child] @ origin(loop, "childOrigin")
             gap = max(gap, float(np.linalg.norm(between[:3, 3])))
         for name, joint in self.reading.joints.items():
-            value = values.pop(component := self.classes.of("joint", name), None)
+            value = values.pop(self.components.get(("joint", name), ""), None)
             expected = {"start": joint.values["start"]} if "start" in joint.values else {}
-            fixed = model.get(f"{component}.fixedStart")
-            is_chosen = joint.command and expected and not (fixed and fixed.text == "false")
-            if value and joint.in_loop and not is_chosen:
+            if value and joint.in_loop:
                 closed = literals(value.text) or value.text
                 opened = f"a position that closes the loops, open by {1000 * gap:.3g} mm"
                 expected = {"start": Stated(closed if gap < _CLOSED else opened, joint.line)}
@@ -352,39 +336,19 @@ class _Comparison:
         is_near = isinstance(number, tuple) and np.allclose(number, [-lowest], rtol=0, atol=1e-9)
         return Stated(number if is_near else (float(-lowest),), 0)
 
-    # The robot model, Run and Test
+    # The first reading
 
-    def _model(self, file: str) -> None:
-        """Compare the robot model: first its parts, then its connections in any order."""
-        given = self.classes.statements(file)
-        model = RobotModel(self.classes, given)
-        self._complete(file, given, model.texts)
-        ends = self.classes.ends
-        sets = groups((end, other) for end, others in ends.items() for other, _ in others)
-        stated = groups((edge.end, edge.other) for edge in model.edges)
-        moved = set[str]()
-        for edge in model.edges:
-            joined = sets.get(edge.end, set()) - {edge.end}
-            if edge.other not in joined:
-                moved.add(edge.end)
-            text = edge.other if edge.other in joined else ", ".join(sorted(joined)) or "nothing"
-            value = Value(edge.end, "", text, next((line for _, line in ends[edge.end]), 0))
-            self._compare(file, edge.element, [value], {edge.end: Stated(edge.other, edge.line)})
-        for end, other, line in ((end, *place) for end, others in ends.items() for place in others):
-            if end < other and other not in stated.get(end, ()) and moved.isdisjoint((end, other)):
-                self._compare(file, "robot", [Value(end, "", other, line)], {end: Stated("nothing", 0)})
-
-    def _complete(self, file: str, texts: Mapping[str, Value], every: Texts) -> None:
-        """Compare the texts of a class with the expected texts of each element. Unexpected texts are differences."""
-        known = {path for _, expected in every.values() for path in expected}
-        owner = next(iter(every), "robot")  # the first element: of several, it is the robot
-        for element, (line, expected) in every.items():
-            given = [texts.get(path, Value(path, "", "nothing", 0)) for path in expected]
-            self._compare(file, element, given, {path: Stated(_read(text), line) for path, text in expected.items()})
-        for path, value in texts.items():
-            is_other_end = value.text in texts and texts[value.text].text == path
-            if path not in known and not (is_other_end and (value.text in known or value.text < path)):
-                self._compare(file, owner, [value], {path: Stated("nothing", 0)})
+    def _attributes(self) -> None:
+        """Compare the attributes that no record has; a difference has the place of the element's name in its record."""
+        first = dict(first_attributes(self.robot, self.sample.options))
+        for key, (file, line) in self.places.items():
+            element = self.elements[key[0]].get(key[1])
+            if element is None or key not in first:
+                continue
+            expected = second_attributes(key[0], element)
+            given = [Value(path, "", string(first[key][path] or "nothing"), line) for path in expected]
+            stated = {path: Stated(word or "nothing", element.line) for path, word in expected.items()}
+            self._compare(file, " ".join(key), given, stated)
 
 
 def _read(text: str) -> Any:

@@ -1,0 +1,91 @@
+within Rig.Joints;
+
+model Lift "Prismatic joint \"lift\" from link \"trunk\" to link \"fork\""
+  extends UrdfSync.Icons.PrismaticJoint;
+  extends UrdfSync.Interfaces.PartialPrismaticJoint(
+    redeclare LiftParameters parameters);
+
+  Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
+    animation = false,
+    r = parameters.origin.xyz,
+    rotationType = Modelica.Mechanics.MultiBody.Types.RotationTypes.PlanarRotationSequence,
+    sequence = {3, 2, 1},
+    angles = Modelica.Units.Conversions.to_deg({parameters.origin.rpy[3], parameters.origin.rpy[2], parameters.origin.rpy[1]}))
+    "From the frame of the parent link to the joint frame"
+    annotation (Placement(transformation(extent={{-80, -10}, {-60, 10}})));
+
+  Modelica.Mechanics.MultiBody.Joints.Prismatic prismatic(
+    animation = false,
+    useAxisFlange = true,
+    n = parameters.axis,
+    stateSelect = stateSelect,
+    s(start = s_start, fixed = true),
+    v(start = v_start, fixed = true))
+    "Motion along the axis"
+    annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
+
+  replaceable model FrictionLaw = UrdfSync.Friction.TranslationalStiction
+    constrainedby UrdfSync.Friction.PartialTranslational
+    "Law of damping and dry friction"
+    annotation (choicesAllMatching=true);
+
+  FrictionLaw friction(parameters = parameters.dynamics)
+    "Damping and dry friction"
+    annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
+
+  UrdfSync.Drives.TranslationalSpring elasticity(
+    parameters = parameters.transmission,
+    limits = parameters.limits,
+    stateSelect = StateSelect.default,
+    s_rel(fixed = fixedStart),
+    v_rel(fixed = fixedStart))
+    "Gives way between drive and joint"
+    annotation (Placement(transformation(extent={{10, 70}, {30, 90}})));
+
+  Modelica.Mechanics.Translational.Components.Mass inertia(
+    m = parameters.dynamics.armature + parameters.transmission.rotorInertia*parameters.transmission.reduction^2,
+    stateSelect = StateSelect.avoid)
+    "What the drive adds to the inertia"
+    annotation (Placement(transformation(extent={{76, 30}, {96, 50}})));
+
+equation
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(parameters.limits.lower, prismatic.s)),
+    getInstanceName() + " (joint " + parameters.name + ") is below its lower position limit", AssertionLevel.warning);
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(prismatic.s, parameters.limits.upper)),
+    getInstanceName() + " (joint " + parameters.name + ") is above its upper position limit", AssertionLevel.warning);
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(prismatic.v), parameters.limits.velocity)),
+    getInstanceName() + " (joint " + parameters.name + ") is faster than its velocity limit", AssertionLevel.warning);
+  assert(noEvent(not (checkLimits and checkEffort) or UrdfSync.Functions.isAtMost(abs(axis.f), parameters.limits.effort)),
+    getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
+  assert(noEvent(not checkLimits or prismatic.a*prismatic.v < 0 or UrdfSync.Functions.isAtMost(abs(prismatic.a), parameters.limits.acceleration)),
+    getInstanceName() + " (joint " + parameters.name + ") speeds up faster than its acceleration limit", AssertionLevel.warning);
+  assert(noEvent(not checkLimits or prismatic.a*prismatic.v >= 0 or UrdfSync.Functions.isAtMost(abs(prismatic.a), parameters.limits.deceleration)),
+    getInstanceName() + " (joint " + parameters.name + ") slows down faster than its deceleration limit", AssertionLevel.warning);
+  connect(frame_a, origin.frame_a)
+    annotation (Line(points={{-100, 0}, {-80, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(origin.frame_b, prismatic.frame_a)
+    annotation (Line(points={{-60, 0}, {0, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(prismatic.frame_b, frame_b)
+    annotation (Line(points={{20, 0}, {100, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(prismatic.axis, elasticity.flange_b)
+    annotation (Line(points={{18, 6}, {40, 6}, {40, 80}, {30, 80}}, color={0, 127, 0}));
+  connect(elasticity.flange_a, axis)
+    annotation (Line(points={{10, 80}, {0, 80}, {0, 100}}, color={0, 127, 0}));
+  connect(prismatic.support, support)
+    annotation (Line(points={{6, 6}, {6, 20}, {-60, 20}, {-60, 100}}, color={0, 127, 0}));
+  connect(prismatic.support, friction.flange_a)
+    annotation (Line(points={{6, 6}, {6, 20}, {-14, 20}, {-14, 40}, {0, 40}}, color={0, 127, 0}));
+  connect(prismatic.axis, friction.flange_b)
+    annotation (Line(points={{18, 6}, {40, 6}, {40, 40}, {20, 40}}, color={0, 127, 0}));
+  connect(axis, inertia.flange_a)
+    annotation (Line(points={{0, 100}, {0, 94}, {46, 94}, {46, 40}, {76, 40}}, color={0, 127, 0}));
+
+  annotation (
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
+      Text(extent={{-130, -100}, {130, -70}}, textString="n=%{parameters.axis}")}),
+    Documentation(info="<html>
+<p>
+The URDF joint <code>lift</code>: link <code>fork</code> relative to link <code>trunk</code> slides within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+</p>
+</html>"));
+end Lift;

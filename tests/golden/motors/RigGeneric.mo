@@ -1,0 +1,89 @@
+within Rig;
+
+model RigGeneric "Robot Rig from its record alone: every axis moves inside its limits"
+  extends UrdfSync.Robots.PartialBench;
+  extends Modelica.Icons.Example;
+
+  parameter RigStart startPositions
+    "Where joints begin"
+    annotation (Placement(transformation(extent={{-20, -100}, {0, -80}})));
+
+  UrdfSync.Robots.FreeBase base(r_start = {0, 0, robot.data.standingHeight})
+    "The robot moves freely"
+    annotation (Placement(transformation(extent={{-60, -60}, {-40, -40}})));
+
+  UrdfSync.Robots.GenericRobot robot(
+    redeclare parameter RigParameters data,
+    phi_start = {
+      UrdfSync.Functions.closestToZero(robot.phi_min[1], robot.phi_max[1]),
+      UrdfSync.Functions.closestToZero(robot.phi_min[2], robot.phi_max[2]),
+      UrdfSync.Functions.closestToZero(robot.phi_min[3], robot.phi_max[3]),
+      UrdfSync.Functions.closestToZero(robot.phi_min[4], robot.phi_max[4]),
+      startPositions.tilt,
+      UrdfSync.Functions.closestToZero(robot.phi_min[6], robot.phi_max[6]),
+      UrdfSync.Functions.closestToZero(robot.phi_min[7], robot.phi_max[7])},
+    s_start = {
+      startPositions.lift,
+      UrdfSync.Functions.closestToZero(robot.s_min[2], robot.s_max[2])},
+    fixedStart = false)
+    "The robot"
+    annotation (Placement(transformation(extent={{20, -60}, {60, -20}})));
+
+  Modelica.Mechanics.Rotational.Sources.Position rotationalDrive[7](
+    each useSupport = true,
+    each exact = true)
+    "Moves each axis that turns as asked"
+    annotation (Placement(transformation(extent={{-20, 20}, {0, 40}})));
+
+  UrdfSync.Robots.AxisSweeps rotationalSweep(
+    n = 7,
+    start = robot.phi_start,
+    lower = robot.phi_min,
+    upper = robot.phi_max,
+    velocity = robot.w_max,
+    reach = 1)
+    "There and back, by up to 1 rad"
+    annotation (Placement(transformation(extent={{-60, 20}, {-40, 40}})));
+
+  Modelica.Mechanics.Translational.Sources.Position translationalDrive[2](
+    each useSupport = true,
+    each exact = true)
+    "Moves each axis that slides as asked"
+    annotation (Placement(transformation(extent={{-20, 60}, {0, 80}})));
+
+  UrdfSync.Robots.AxisSweeps translationalSweep(
+    n = 2,
+    start = robot.s_start,
+    lower = robot.s_min,
+    upper = robot.s_max,
+    velocity = robot.v_max,
+    reach = 0.1)
+    "There and back, by up to 0.1 m"
+    annotation (Placement(transformation(extent={{-60, 60}, {-40, 80}})));
+
+equation
+  connect(world.frame_b, base.frame_a)
+    annotation (Line(points={{-80, -50}, {-60, -50}}, color={95, 95, 95}, thickness=0.5));
+  connect(base.frame_b, robot.frame_a)
+    annotation (Line(points={{-40, -50}, {0, -50}, {0, -40}, {20, -40}}, color={95, 95, 95}, thickness=0.5));
+  connect(rotationalDrive.flange, robot.rotationalAxis)
+    annotation (Line(points={{0, 30}, {28, 30}, {28, -20}}, color={0, 0, 0}));
+  connect(rotationalDrive.support, robot.rotationalSupport)
+    annotation (Line(points={{-10, 20}, {-10, 10}, {34, 10}, {34, -20}}, color={0, 0, 0}));
+  connect(rotationalSweep.y, rotationalDrive.phi_ref)
+    annotation (Line(points={{-39, 30}, {-22, 30}}, color={0, 0, 127}));
+  connect(translationalDrive.flange, robot.translationalAxis)
+    annotation (Line(points={{0, 70}, {46, 70}, {46, -20}}, color={0, 127, 0}));
+  connect(translationalDrive.support, robot.translationalSupport)
+    annotation (Line(points={{-10, 60}, {-10, 50}, {52, 50}, {52, -20}}, color={0, 127, 0}));
+  connect(translationalSweep.y, translationalDrive.s_ref)
+    annotation (Line(points={{-39, 70}, {-22, 70}}, color={0, 0, 127}));
+
+  annotation (
+    experiment(StopTime=1, Interval=0.02, Tolerance=1e-6),
+    Documentation(info="<html>
+<p>
+Robot Rig as <code>UrdfSync.Robots.GenericRobot</code> reads it from its record. It simulates without inputs: every axis moves inside its limits and comes back. The generic robot touches nothing, so nothing holds it: it falls. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+</p>
+</html>"));
+end RigGeneric;
