@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import RECORD, edit, rename
+from support.networks import LADDER, RECORD, edit, rename
 
 ROBOT_MODEL = "modelica/Ladder/Ladder.mo"
 
@@ -48,6 +48,16 @@ def test_verbose_shows_the_lines(execute: Execute, edited: Path) -> None:
         f"-{text.format(100)}",
         f"+{text.format(101)}",
     ]
+
+
+def test_a_class_that_became_a_folder_is_edited(execute: Execute, edited: Path) -> None:
+    folder = Path(f"{LADDER}/Elements/R2")
+    folder.mkdir()
+    folder.with_suffix(".mo").rename(folder / "package.mo")
+    edit(folder / "package.mo", "end R2;", "  // mine\nend R2;")
+    lines = execute("diff", "--edits").lines
+    assert lines[0] == "ladder: 3 files edited"
+    assert lines[3:5] == [f"  {folder}/package.mo  element R2", "    comments: changed"]
 
 
 def test_nothing_is_edited(execute: Execute, project: Path) -> None:

@@ -16,6 +16,7 @@ from urdfsync.engine.decide import decide_package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.rules import CLASS_FOLDER
 from urdfsync.merge import edits as merge_edits
 
 
@@ -65,7 +66,12 @@ def find_edited(
         key = action.origin or action.path
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY
         is_users = action.base is None and action.generated is None  # a class of the user's own is no edit
-        if is_text and not is_users and action.mine not in (None, action.base, action.generated):
+        # a class that the user turned into a folder has no hash
+        if is_text and action.mine is None and files.on_disk(key, action.role) is CLASS_FOLDER:
+            key, is_edited = f"{key.removesuffix('.mo')}/package.mo", True
+        else:
+            is_edited = action.mine not in (None, action.base, action.generated)
+        if is_text and not is_users and is_edited:
             base = inputs.last.base(action.base) if action.base else None
             if action.base == action.generated:  # before `adopt` the base is not stored yet
                 base = generation.package.content(inputs.folder.path(action.path)).decode()
