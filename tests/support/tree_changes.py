@@ -43,7 +43,8 @@ def _insert(robot: Robot, random: Random) -> bool:
     if not joints:
         return False
     joint = random.choice(joints)
-    name = f"between{random.randrange(1000)}"
+    taken = {element.get("name") for element in robot}
+    name = random.choice([name for name in map("between{}".format, range(1000)) if name not in taken])
     ends = f'<parent link="{_parent(joint)}"/><child link="{name}"/>'
     for element in (
         urdfs.link(name, 1),
