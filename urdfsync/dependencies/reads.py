@@ -225,8 +225,9 @@ def recorded_files() -> list[str]:
 
 def find_unmerged(index: str | os.PathLike[str]) -> set[str]:
     """Return the files in git's index that git could not merge."""
-    _look(UNMERGED, index)
-    return unmerged_paths(index)
+    found = unmerged_paths(index)
+    _record(UNMERGED, index, checksum(found))
+    return found
 
 
 def read_stat(path: str | os.PathLike[str]) -> Facts:
