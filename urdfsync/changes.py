@@ -147,7 +147,7 @@ class Changes(msgspec.Struct, frozen=True):
     package: str = ""
     """The former and the present name of the package, if its name changed, and templates and options did not."""
     unshown: tuple[Change, ...] = ()
-    """The changes of parts that no template uses; among `changes`, they are unmodelled."""
+    """The changes that no text shows, of parts that templates use; among `changes`, they are unmodelled."""
 
     @property
     def change_class(self) -> ChangeClass:

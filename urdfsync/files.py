@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from urdfsync.dependencies.facts import Facts, read_unrecorded
-from urdfsync.dependencies.reads import file_type, note_content, read_file, read_stat, unrecorded, walk_files
+from urdfsync.dependencies.reads import depend_on, file_type, note_content, read_file, read_stat, unrecorded, walk_files
 from urdfsync.diagnostics import OutputError
 
 TEMPORARY = ".urdfsync-tmp"
@@ -143,6 +143,7 @@ class Tree:
         """
         path = os.fspath(path)
         if not self.check_folder(path.rpartition(os.sep)[0]):
+            depend_on(path)  # a build may make the folder
             return None
         try:
             mode = (facts or read_stat(path))[0]
@@ -167,7 +168,8 @@ class Tree:
             return self._checked[folder]
         if not self.covers(folder):
             raise _refusal("outside", folder, f"the path leaves {shown(self.root)}")
-        mode = file_type(folder, follow=False) if self.check_folder(os.path.dirname(folder)) else 0  # noqa: PTH120
+        self.check_folder(os.path.dirname(folder))  # noqa: PTH120
+        mode = file_type(folder, follow=False)
         if mode and not stat.S_ISDIR(mode):
             what = "a symbolic link" if stat.S_ISLNK(mode) else "a file"
             raise _refusal("output-in-the-way", folder, f"{what} is where a folder is needed", "move it away")

@@ -14,6 +14,7 @@ import shutil
 import subprocess
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from support import crashes, meshes, urdfs
@@ -231,6 +232,16 @@ def write_all(texts: Mapping[str, str]) -> None:
     for path, text in texts.items():
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).write_text(text)
+
+
+def test_the_next_commit_is_judged_without_a_plan(repo: Repository, capsys: Capture) -> None:
+    run("urdfsync build --quiet")  # notes its work: the notes of a copied repository are not believed
+    assert said(capsys, "check", code=0) == []
+    Path("notes.txt").write_text("other notes\n")
+    repo.git("add", "notes.txt")
+    with mock.patch("urdfsync.engine.build.plan_robot") as plan:
+        assert said(capsys, "check", code=0) == []
+    assert not plan.called
 
 
 @pytest.mark.parametrize("mark", ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -59,6 +60,7 @@ def test_texts_are_compared_whatever_is_recorded(project: Path, monkeypatch: pyt
         return real(self, msgspec.structs.replace(model, elements=elements), *others)
 
     monkeypatch.setattr(domain, "artifacts", artifacts)
+    shutil.rmtree(".urdfsync/deps")
     assert kinds(run(dry=True))["Elements/R1Parameters.mo"] is Reason.UPDATE
 
 

@@ -11,6 +11,7 @@ import pytest
 
 from urdfsync import config
 from urdfsync.dependencies import facts
+from urdfsync.dependencies.facts import hash_content
 from urdfsync.dependencies.reads import Reads, file_type, list_folder, read_file, read_variable, scan_modelica
 from urdfsync.dependencies.record import FactList
 from urdfsync.files import Tree
@@ -81,7 +82,7 @@ def test_what_a_build_wrote_has_not(robot: WatchedRobot, folder: Path) -> None:
     reads = read(folder)
     for name in ("New.mo", "Arm.mo"):
         Path(name).write_text("written")
-    reads.renew({str(folder / name): b"written" for name in ("New.mo", "Arm.mo")})
+    reads.renew({str(folder / name): hash_content(b"written") for name in ("New.mo", "Arm.mo")}, str(folder / "Arm"))
     robot.take(FactList.of(reads), FactList())
     robot.look()
     assert not robot.has_changed

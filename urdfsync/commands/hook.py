@@ -170,7 +170,7 @@ class _Places:
             places = map(clone.inside, clone.trail(path)) if kind not in (VARIABLE, UNMERGED) else ()
             inside = [place for place in places if place is not None]
             self.files.update(inside)
-            if kind in LISTINGS:
+            if kind.startswith(LISTINGS):
                 self._listed.update(inside)
         # a link or a submodule may take the place of a folder
         self._around = {

@@ -32,7 +32,8 @@ _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 PATH = "path"
 """The fact of a path: the `Stat` of a regular file, the type of anything else; for a link, both of link and target."""
 NAMES, MODELICA = "names", "modelica"
-"""The fact of a folder: all names in it, or the names of visible folders and Modelica files."""
+"""The fact of a folder: all names in it, or the names of visible folders and Modelica files. After `MODELICA` and a
+slash, a kind may have the names of folders that do not count, with a slash between two of them."""
 LISTINGS = (NAMES, MODELICA)
 VARIABLE = "variable"
 """The fact of an environment variable: its value."""
@@ -40,8 +41,8 @@ UNMERGED = "unmerged"
 """The fact of git's index: its unmerged files. Other changes of the index change no result."""
 Entry = tuple[str, str]
 """A kind of fact, and the path or the variable's name."""
-NOTHING = (0,)
-"""The fact of a path without a file."""
+NOTHING, FOLDER = (0,), (stat.S_IFDIR,)
+"""The facts of a path without a file, and of one with a folder."""
 
 
 def facts_of(kind: str, path: str | os.PathLike[str]) -> Facts:
@@ -53,8 +54,7 @@ def facts_of(kind: str, path: str | os.PathLike[str]) -> Facts:
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
     if kind == UNMERGED:
         return checksum(unmerged_paths(path))
-    with os.scandir(place(path)) as entries:
-        return names_in(kind, entries)
+    return checksum(list_names(kind, path))
 
 
 def look(kind: str, path: str | os.PathLike[str]) -> Facts:
@@ -117,14 +117,19 @@ def stat_of(status: os.stat_result) -> Stat:
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
-def names_in(kind: str, entries: Iterable[os.DirEntry[str]]) -> Facts:
-    """Return number and checksum of a folder's names; for `MODELICA`, only of Modelica files and visible folders."""
-    return checksum(
-        entry.name
-        for entry in entries
-        if kind == NAMES
-        or (not entry.name.startswith(".") and (entry.name.endswith(".mo") or entry.is_dir(follow_symlinks=False)))
-    )
+def list_names(kind: str, folder: str | os.PathLike[str]) -> set[str]:
+    """Return the names in a folder that count for a kind of listing. Raises OSError."""
+    with os.scandir(place(folder)) as entries:
+        return counting(kind, ((entry.name, entry.is_dir(follow_symlinks=False)) for entry in entries))
+
+
+def counting(kind: str, names: Iterable[tuple[str, bool]]) -> set[str]:
+    """Return the names that count for a kind of listing; each name comes with whether it is that of a folder."""
+    if kind == NAMES:
+        return {name for name, _ in names}
+    left_out = set(kind.split("/")[1:])
+    visible = (each for each in names if not each[0].startswith("."))
+    return {name for name, is_folder in visible if name.endswith(".mo") or (is_folder and name not in left_out)}
 
 
 def unmerged_paths(index: str | os.PathLike[str]) -> set[str]:

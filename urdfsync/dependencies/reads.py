@@ -11,23 +11,27 @@ import contextlib
 import os
 import stat
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextvars import ContextVar, Token
 
 from urdfsync.dependencies.facts import (
+    FOLDER,
     MODELICA,
     NAMES,
+    NOTHING,
     PATH,
     UNMERGED,
     VARIABLE,
     Entry,
     Facts,
+    checksum,
+    counting,
     facts_of,
     failed,
     hash_content,
     is_young,
+    list_names,
     look,
-    names_in,
     read_unrecorded,
     unmerged_paths,
 )
@@ -74,17 +78,49 @@ class Reads:
             self.complete = False  # the file changed between two reads, and its stat values did not
         self.hashes[entry] = self.hashes.get(entry) or sha256
 
-    def renew(self, written: Mapping[str, bytes | None]) -> None:
-        """Renew the facts of written files (None for a deleted file), and of the folders around them."""
-        changed = set(written)
+    def renew(self, written: Mapping[str, str | None], package: str) -> None:
+        """Renew the facts of written files, and of the folders around them; add lists of new folders of the package.
+
+        `written` has the hash of each file by path, None for a deleted file. The list becomes incomplete if anybody
+        else has changed one of these files or folders since the plan looked at it, or if it lacks a new folder.
+        """
+        before, inside = dict(self.entries), dict[str, set[str]]()
         for path in written:
-            while (path := os.path.dirname(path)) not in changed:
-                changed.add(path)
-        for entry in {(PATH, path) for path in written} | {entry for entry in self.entries if entry[1] in changed}:
-            self.entries[entry], content = look(*entry), written.get(entry[1])
-            self.hashes.pop(entry, None)
-            if content is not None and entry[0] == PATH:
-                self.hashes[entry] = hash_content(content)
+            folder, name = os.path.split(path)
+            while name and name not in inside.setdefault(folder, set()):
+                inside[folder].add(name)
+                folder, name = os.path.split(folder)
+        for path, sha256 in written.items():
+            self.entries[PATH, path] = look(PATH, path)
+            self.hashes.pop((PATH, path), None)
+            if sha256 is not None:
+                self.hashes[PATH, path] = sha256
+            elif self.entries[PATH, path] != NOTHING:
+                self.complete = False
+        for folder in inside:
+            if f"{folder}/".startswith(f"{package}/") and before.get((PATH, folder)) == NOTHING:
+                before.setdefault((MODELICA, folder), NOTHING)
+        listed = {(kind.partition("/")[0], path) for kind, path in before}
+        for (kind, path), facts in before.items():
+            if path not in inside:
+                continue
+            if kind == PATH:
+                now = look(kind, path)
+                self.complete &= now == facts or {now, facts} == {NOTHING, FOLDER}
+            else:
+                try:
+                    present = list_names(kind, path)
+                    now = checksum(present)
+                except OSError as error:
+                    present, now = set(), failed(error)
+                places = {name: os.path.join(path, name) for name in inside[path]}
+                new = {name for name, at in places.items() if before.get((PATH, at), NOTHING) == NOTHING}
+                old = counting(kind, ((name, places[name] in inside) for name in places.keys() - new))
+                former = present - places.keys() | old
+                self.complete &= facts == checksum(former) or (facts[0] <= 0 and not former)
+                folders = counting(kind, ((name, True) for name in new if places[name] in inside))
+                self.complete &= all((kind.partition("/")[0], places[name]) in listed for name in folders)
+            self.entries[kind, path] = now
 
 
 _current: ContextVar[Reads | None] = ContextVar("reads", default=None)
@@ -189,8 +225,9 @@ def recorded_files() -> list[str]:
 
 def find_unmerged(index: str | os.PathLike[str]) -> set[str]:
     """Return the files in git's index that git could not merge."""
-    _look(UNMERGED, index)
-    return unmerged_paths(index)
+    found = unmerged_paths(index)
+    _record(UNMERGED, index, checksum(found))
+    return found
 
 
 def read_stat(path: str | os.PathLike[str]) -> Facts:
@@ -208,12 +245,13 @@ def scan_folder(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
     return _scan(NAMES, folder)
 
 
-def scan_modelica(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
+def scan_modelica(folder: str | os.PathLike[str], left_out: Iterable[str] = ()) -> list[os.DirEntry[str]]:
     """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError.
 
-    Use the names of the entries: their paths may lead into a clone.
+    Folders with a name in `left_out` may come and go: they are not recorded. Use the names of the entries: their paths
+    may lead into a clone.
     """
-    return _scan(MODELICA, folder)
+    return _scan("/".join((MODELICA, *left_out)), folder)
 
 
 def _scan(kind: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
@@ -223,7 +261,8 @@ def _scan(kind: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
     except OSError as error:
         _record(kind, folder, failed(error))
         raise
-    _record(kind, folder, names_in(kind, entries))
+    named = ((entry.name, entry.is_dir(follow_symlinks=False)) for entry in entries)
+    _record(kind, folder, checksum(counting(kind, named)))
     return entries
 
 

@@ -7,14 +7,13 @@ until all robots are built.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
-from urdfsync.dependencies import localfile
 from urdfsync.dependencies.facts import Entry, Facts
 from urdfsync.dependencies.reads import Reads
 from urdfsync.dependencies.record import FactList
@@ -134,10 +133,10 @@ class _Builder:
                 plan = self.pool.plan(robot) if self.pool else plan_robot(self._config, robot, self._options)
             if self._options.dry:
                 if self._is_current(plan):
-                    return self._finish(robot, plan)
+                    return self._finish(robot, plan, {})
                 continue
             if not (plan.result.writes or plan.writes or self._transactions.is_pending()):
-                return self._finish(robot, plan)
+                return self._finish(robot, plan, {})
             self._lock.acquire(self._wait)
             if not self._is_current(plan):
                 continue
@@ -146,22 +145,28 @@ class _Builder:
             applied = self._transactions.apply(robot.name, [*shared, *plan.writes], plan.emptied)
             self.notes += applied.diagnostics
             if not applied.not_done:  # empty unless somebody saved a file meanwhile
-                self._reads.renew({str(change.path): change.content for change in (*shared, *plan.writes)})
-                return self._finish(robot, plan)
+                return self._finish(robot, plan, applied.written)
             saved = applied.not_done[0]
         message = "it keeps changing during the build"
         hint = "close the program that writes it, then build again"
         raise OutputError.of("restless", message, shown(saved), hint=hint)
 
-    def _finish(self, robot: RobotConfig, plan: Plan) -> Result:
-        """Save this machine's notes; remember the result of a plan without any write. Returns it with its reads."""
+    def _finish(self, robot: RobotConfig, plan: Plan, written: Mapping[str, str | None]) -> Result:
+        """Save this machine's notes; remember the result of the next plan. Returns the plan's result with its reads.
+
+        `written` has the hashes of the written files by path.
+        """
         if plan.notes:
-            notes.save(self._state_folder, robot.name, plan.notes)
-            file = notes.place(self._state_folder, robot.name)
-            self._reads.renew({str(file): localfile.read_whole(file)})
+            written = {**written, **notes.save(self._state_folder, robot.name, plan.notes)}
+        self._reads.renew(written, str(robot.folder))
         result = msgspec.structs.replace(plan.result, reads=FactList.of(self._reads))
-        if self._options.renews and self._reads.complete and not (result.writes or plan.writes):
-            remembered.remember(self._config, robot, self._keys.key(robot), result)
+        if plan.writes:
+            next_result = None if self._options.dry else plan.next_result
+        else:  # without `renews`, a plan writes less than the next one may
+            next_result = result if self._options.renews and not result.writes else None
+        if next_result and self._reads.complete:
+            next_result = msgspec.structs.replace(next_result, reads=result.reads)
+            remembered.remember(self._config, robot, self._keys.key(robot), next_result)
         return result
 
     def _is_current(self, plan: Plan) -> bool:

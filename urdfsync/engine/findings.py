@@ -60,23 +60,29 @@ _MAYBE = "?"
 """Stands for the new name of a part if the old name may still mean this part."""
 
 
-def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
-    """Return all findings of a build, except the findings of `tell_uses`."""
+def find_lasting(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
+    """Return the findings that a build repeats if nobody changes a file, except those of `tell_uses`."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
     if decision.misfits:
         findings += _diagnose(inputs, generation.now.snapshot, decision, decision.differences.former)
-    if inputs.former_name:
-        message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
-        place = shown(inputs.config.file), inputs.robot.lines[""]
-        findings.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} continues under the new name", *place))
     if inputs.users_files.is_too_wide:
         message = "your models were not checked: there are too many folders to search"
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
     findings += _unmerged(inputs)
-    findings += _left_behind(inputs, decision.actions)
-    findings += [inputs.damage] if inputs.damage else []
+    findings += () if inputs.has_moved else _twin(inputs)
+    findings += tell_unused(decision.differences.unused, (), shown(inputs.robot.source), generation.lines)
+    return list(map(inputs.source.locate, findings))
+
+
+def find_news(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
+    """Return the findings about changes since the last complete build."""
+    findings = [*_left_behind(inputs, decision.actions), *([inputs.damage] if inputs.damage else [])]
+    if inputs.former_name:
+        message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
+        place = shown(inputs.config.file), inputs.robot.lines[""]
+        findings.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} continues under the new name", *place))
     effects: Effects | None = inputs.domain.effects
     changes, last = decision.differences.changes, inputs.last.version
     if effects and changes is not None and last is not None and changes.changes:
@@ -84,8 +90,7 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
             line = generation.lines.get(path, 0)
             findings.append(msgspec.structs.replace(finding, file=shown(inputs.robot.source), line=line))
     unshown = changes.unshown if changes else ()
-    file, lines = shown(inputs.robot.source), generation.lines
-    findings += tell_unused(inputs.domain, decision.differences.unused, unshown, file, lines)
+    findings += tell_unused((), unshown, shown(inputs.robot.source), generation.lines)
     if decision.is_complete:
         findings += _changed_connectors(inputs, generation, changes)
     return list(map(inputs.source.locate, findings))
@@ -158,8 +163,6 @@ def _unmerged(inputs: Inputs) -> Iterator[Diagnostic]:
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """Return a warning if files stay in the package's former folder."""
     files, old, new = inputs.files, inputs.files.path(inputs.last.folder), inputs.files.path(inputs.folder)
-    if not inputs.has_moved:
-        yield from _twin(inputs)
     if not inputs.has_moved or any(action.is_waiting for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.is_deletion}

@@ -13,6 +13,7 @@ import msgspec
 from urdfsync import __version__, registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.places import real
+from urdfsync.dependencies.reads import unrecorded
 from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine import parents, source
@@ -118,7 +119,8 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     if record and record.folder in others:  # another robot has this folder now: its files must not be deleted
         record = None
     if record is None:  # the folder may have the package of a robot that is no longer configured
-        name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
+        with unrecorded():  # this build gives the robot a record, and the next one does not look
+            name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
         record = store.load(name)[0] if name != robot.name else None
     damage, notes = damage or store.find_damaged_base(name), store.notes(name)
     if options.adopts and record and (record.snapshot is not None or record.is_united):
@@ -146,7 +148,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
     """Yield robots with a record but no configuration, and the key of their folder; None for an unreadable record."""
     # a robot counts if its record file exists: if the disk ignores case, `arm` and `Arm` share one
-    names = store.names()  # also records which files there are
+    names = store.names()
     configured = {robot.name.casefold() for robot in config.robots if os.path.lexists(store.path(robot.name))}
     for name in names:
         if name.casefold() not in configured:

@@ -63,17 +63,15 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
 
     Raises OutputError at the line of the configuration if the package can't be there.
     """
-    if is_folder(robot.output):
-        if is_file(robot.output / "package.mo"):
-            message = f"the output folder {shown(robot.output)} is a Modelica package itself"
-            hint = "name the folder above it as output, and the package with its full name"
-            raise _refusal(config, robot, "output-is-package", message, hint, "output")
-    elif not is_folder(
-        existing := next(folder for folder in (robot.output, *robot.output.parents) if file_type(folder, follow=False))
-    ):
+    if is_file(robot.output / "package.mo"):
+        message = f"the output folder {shown(robot.output)} is a Modelica package itself"
+        hint = "name the folder above it as output, and the package with its full name"
+        raise _refusal(config, robot, "output-is-package", message, hint, "output")
+    existing = next(folder for folder in (robot.output, *robot.output.parents) if file_type(folder, follow=False))
+    if not is_folder(existing):
         message = f"the output folder {shown(robot.output)} can't be created: {shown(existing)} is not a folder"
         raise _refusal(config, robot, "output-is-file", message, "name another folder", "output")
-    elif config.root not in robot.output.parents:
+    if existing != robot.output and config.root not in robot.output.parents:
         message = f"the output folder {shown(robot.output)} does not exist"
         hint = "create it: urdfsync creates folders only beside or below its configuration"
         raise _refusal(config, robot, "no-output", message, hint, "output")

@@ -47,8 +47,9 @@ class Keys:
     """The keys of the robots of one configuration: each holds all that decides about a robot and is no file."""
 
     def __init__(self, config: Config, options: BuildOptions) -> None:
-        self._folders = [(robot.name, str(robot.folder), robot.on_conflict) for robot in config.robots]
-        self._shared = repr((config.file, config.check, options.package_paths, record.surroundings()))
+        folders = [(robot.name, str(robot.folder), robot.on_conflict) for robot in config.robots]
+        shared = repr((folders, config.file, config.check, options.package_paths, record.surroundings()))
+        self._shared = digest(shared.encode(errors="surrogateescape"))
         self._is_plain = not (options.full or options.draw or options.choices or options.adopts or options.removes)
 
     def key(self, robot: RobotConfig) -> str:
@@ -56,9 +57,8 @@ class Keys:
         if not self._is_plain:
             return ""
         own = _plain(msgspec.structs.replace(robot, lines={}))
-        others = [entry for entry in self._folders if entry[0] != robot.name]
         code = "" if registry.is_own(robot.domain) else registry.program(robot.domain)
-        return digest(f"{own}{others}{self._shared}{code}".encode(errors="surrogateescape"))
+        return digest(f"{own}{self._shared}{code}".encode(errors="surrogateescape"))
 
 
 def _plain(value: Any) -> str:

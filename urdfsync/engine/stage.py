@@ -22,7 +22,8 @@ from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.differences import Differences
 from urdfsync.engine.edit_origins import EDITED
-from urdfsync.engine.findings import UNMERGED, find_all, find_uses, tell_uses
+from urdfsync.engine.findings import UNMERGED, find_lasting, find_news, find_uses, tell_uses
+from urdfsync.engine.foresight import foresee_actions
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Former, Inputs, Settled
@@ -77,20 +78,23 @@ class Plan(msgspec.Struct, frozen=True):
     """The folders that become empty, innermost first."""
     notes: Notes | None = None
     """This machine's notes after the build, if they change."""
+    next_result: Result | None = None
+    """The result of the next plan, if nobody changes a file after this build; None if it is not certain."""
 
 
 def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
     """Return the plan with all its writes. A dry run gets the same plan, so it reports the same as a build."""
     store, robot, old, differences = inputs.store, inputs.robot, inputs.last.notes, decision.differences
     uses = find_uses(inputs, generation, decision)
-    findings = [*find_all(inputs, generation, decision), *tell_uses(uses)]
+    lasting = [*find_lasting(inputs, generation, decision), *tell_uses(uses)]
+    findings = [*lasting, *find_news(inputs, generation, decision)]
     actions = _actions_after(decision.actions, inputs.settled)
     files, versions = _file_changes(inputs, generation, decision), _save_versions(inputs, decision.conflicts)
     is_writing = bool(files) or any(action.writes for action in actions)
     picture = draw_model(inputs, generation, decision) if inputs.options.draw else None
     drawing = None if picture is None else store.drawing(robot.name)
     changes = [*files.values(), *(store.save(drawing, picture.encode()) if picture and drawing else ())]
-    notes: Notes | None = None
+    notes, after = None, None
     contents = {key: one.content for key, one in files.items()}
     index, texts = _put_aside(inputs, generation.package, decision, contents)
     findings += _tell_aside(inputs, actions, index, texts)
@@ -99,6 +103,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
     else:
         record = _record(inputs, generation, decision)
+        after = foresee_actions(inputs, decision, record)
         changes += versions.changes
         state = []
         # without other writes, `status` and some other commands leave a complete state
@@ -114,7 +119,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
             _notes(inputs, generation, record),
             proposals=old.proposals if inputs.options.dry else versions.noted,
             versions=old.versions if inputs.options.dry else versions.written,
-            edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
+            edited={one.path: one.mine for one in after or decision.actions if one.reason in EDITED and one.mine},
             uses=uses,
         )
         if notes == old and not (inputs.former_name or inputs.options.choices):
@@ -130,7 +135,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         robot.folder,
         inputs.config.root,
         actions,
-        tuple(sorted((*findings, *versions.diagnostics), key=lambda found: (found.file, found.line))),
+        _sorted((*findings, *versions.diagnostics)),
         dry=inputs.options.dry,
         writes=is_writing,
         renews=bool(state),
@@ -142,7 +147,15 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         conflict_texts=versions.conflicts,
         settled=frozenset(inputs.settled.keys),
     )
-    return Plan(result, store.hashes(), decision.shared, tuple(changes), _emptied(inputs, changes), notes)
+    following = None
+    if after is not None:
+        silent: dict[str, Any] = {"writes": False, "renews": False, "changes": None}
+        following = msgspec.structs.replace(result, actions=after, diagnostics=_sorted(lasting), **silent)
+    return Plan(result, store.hashes(), decision.shared, tuple(changes), _emptied(inputs, changes), notes, following)
+
+
+def _sorted(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(sorted(findings, key=lambda found: (found.file, found.line)))
 
 
 def draw_model(inputs: Inputs, generation: Generation, decision: Decision) -> str | None:

@@ -94,8 +94,11 @@ def with_unshown(
     elements = set(news.by_element())
     is_whole = any(owner not in elements or " " not in owner for owner in changed - {IMPORTS})
 
+    def is_unused(change: Change) -> bool:
+        return bool(domain.parts and domain.parts.part_of(change.path) in unused)
+
     def is_shown(change: Change) -> bool:
-        if domain.parts and domain.parts.part_of(change.path) in unused:
+        if is_unused(change):
             return False
         return is_whole or change.element in changed or (bool(changed) and change.element not in owners)
 
@@ -105,18 +108,18 @@ def with_unshown(
         msgspec.structs.replace(change, change_class=ChangeClass.UNMODELLED) if change in unshown else change
         for change in news.changes
     ]
-    return msgspec.structs.replace(news, changes=tuple(changes), unshown=tuple(unshown))
+    told = (change for change in unshown if not is_unused(change))
+    return msgspec.structs.replace(news, changes=tuple(changes), unshown=tuple(told))
 
 
 def tell_unused(
-    domain: Domain, unused: Iterable[str], unshown: Iterable[Change], file: str, lines: Mapping[str, int]
+    unused: Iterable[str], unshown: Iterable[Change], file: str, lines: Mapping[str, int]
 ) -> Iterator[Diagnostic]:
     """Yield a warning for each part that no template uses, and for each change of other parts that no text shows."""
     places = {f"no template uses {part}": part for part in sorted(unused)}
-    rest = (change for change in unshown if not (domain.parts and domain.parts.part_of(change.path) in unused))
     verbs = {ChangeKind.ADDED: "is new", ChangeKind.REMOVED: "is gone"}
     places |= {
-        f"{change} {verbs.get(change.kind, 'changed')}, but no template uses it": change.element for change in rest
+        f"{change} {verbs.get(change.kind, 'changed')}, but no template uses it": change.element for change in unshown
     }
     hint = f'use it in a template, or set `ignore = ["{CODE}"]`'
     for message, place in places.items():

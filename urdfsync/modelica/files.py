@@ -41,7 +41,10 @@ def modelica_files(
     Folders in `left_out`, and folders with a file of a name in `others`, are left out, too. Everything that this reads
     is recorded as a dependency. Unreadable folders are left out. Raises TooManyFoldersError beyond `most` folders.
     """
-    tops, seen = [*map(str, folders)], set[str]()
+    tops, seen, names_left_out = [*map(str, folders)], set[str](), dict[str, list[str]]()
+    for path in sorted(left_out):
+        around, name = os.path.split(path)
+        names_left_out.setdefault(around, []).append(name)
     waiting = tops[::-1]
     while waiting:
         current = waiting.pop()
@@ -52,7 +55,7 @@ def modelica_files(
             raise TooManyFoldersError
         inside: list[os.DirEntry[str]] = []
         with contextlib.suppress(OSError):
-            inside = sorted(scan_modelica(current), key=lambda entry: entry.name)
+            inside = sorted(scan_modelica(current, names_left_out.get(current, ())), key=lambda entry: entry.name)
         if current not in tops and any(entry.name in others for entry in inside):
             continue
         for entry in inside:

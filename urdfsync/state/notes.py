@@ -13,6 +13,7 @@ import msgspec
 from urdfsync.dependencies import localfile
 from urdfsync.dependencies.places import is_clone
 from urdfsync.dependencies.reads import depend_on, note_content
+from urdfsync.files import digest
 
 
 class Use(msgspec.Struct, frozen=True):
@@ -65,13 +66,17 @@ def load(state_folder: Path, robot: str) -> Notes:
     return notes
 
 
-def save(state_folder: Path, robot: str, notes: Notes) -> None:
-    """Write the notes on a robot, if there is a state folder.
+def save(state_folder: Path, robot: str, notes: Notes) -> dict[str, str | None]:
+    """Write the notes on a robot, if there is a state folder; return the hash of the file by its path.
 
-    If writing fails, the next build repeats the work.
+    If writing fails, the next build repeats the work. A clone has no notes.
     """
-    if state_folder.is_dir() and not is_clone():
-        localfile.replace(str(place(state_folder, robot)), msgspec.json.encode(notes, order="sorted"))
+    if not state_folder.is_dir() or is_clone():
+        return {}
+    file = str(place(state_folder, robot))
+    localfile.replace(file, msgspec.json.encode(notes, order="sorted"))
+    content = localfile.read_whole(file)
+    return {file: None if content is None else digest(content)}
 
 
 def place(state_folder: Path, robot: str) -> Path:

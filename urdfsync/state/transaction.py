@@ -19,7 +19,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 import os
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -81,6 +81,8 @@ class Applied(msgspec.Struct, frozen=True):
     not_done: tuple[Path, ...] = ()
     """Targets that somebody saved meanwhile; if there are any, also the files of the recorded state, which stay."""
     diagnostics: tuple[Diagnostic, ...] = ()
+    written: Mapping[str, str | None] = {}
+    """The hash of each target by path; None for a deleted file."""
 
 
 class Transactions:
@@ -226,7 +228,7 @@ class Transactions:
         for key in build.emptied:
             file_operations.remove_folder(Path(placed(self._prefix, key)))
         file_operations.remove(self._planned)
-        return Applied(tuple(not_done), tuple(notes))
+        return Applied(tuple(not_done), tuple(notes), {str(target.path): target.new for target in targets})
 
     def _missing_folders(self, changes: Iterable[FileChange]) -> list[Path]:
         """The folders to create, outermost first."""

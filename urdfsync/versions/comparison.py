@@ -262,7 +262,7 @@ def _with_version(
     unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
     owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
     differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
-    told_unused = tell_unused(domain, unused, differences.unshown, shown(robot.source), {})
+    told_unused = tell_unused(unused, differences.unshown, shown(robot.source), {})
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored((*new_findings, *told_unused)))
     changed = packages[1].changed_since(packages[0])
     older, newer = (_files_of(*pair, changed) for pair in zip(packages, (old, new), strict=True))

@@ -37,9 +37,9 @@ def find_watched_folders(
     ways, places, listed = dict[str, list[str]](), set[str](), set[str]()
     for check, path in entries:
         folder, _, name = path.rpartition(os.sep)
-        if check in LISTINGS or not folder or os.path.islink(path):  # noqa: PTH114
+        if check.startswith(LISTINGS) or not folder or os.path.islink(path):  # noqa: PTH114
             way = ways[path] = _way_to(path)
-            listed.update(way[-1:] if check in LISTINGS else ())
+            listed.update(way[-1:] if check.startswith(LISTINGS) else ())
             continue
         if folder not in ways:
             ways[folder] = _way_to(folder)
@@ -71,7 +71,7 @@ def find_places(entries: Mapping[str, Collection[Entry]]) -> Mapping[str, set[st
     for robot, read in entries.items():
         for kind, path in read:
             folder, _, name = path.rpartition(os.sep)
-            if kind in LISTINGS:
+            if kind.startswith(LISTINGS):
                 on_the_way = _way_to(path)[-1:]
             elif not folder or os.path.islink(path):  # noqa: PTH114
                 on_the_way = _way_to(path)
