@@ -21,6 +21,7 @@ _CHOSEN = {
     Choice.MERGE: "both sides' changes",
     Choice.MERGE_MINE: "both sides' changes, yours where they contradict",
     Choice.MERGE_GENERATED: "both sides' changes, the generated ones where they contradict",
+    Choice.MERGE_THEIRS: "both branches' changes, theirs where they contradict",
     Choice.EDIT: "as you edited it",
     Choice.MOVED: "your edit is with the part that you named",
     Choice.UNDO: "as you had it before",
