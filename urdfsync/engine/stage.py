@@ -258,12 +258,11 @@ def _open_record(
     # record renewed files, but none in a former folder
     files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
     files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
-    renewed = {
-        key: (*old.imports.get(key, ()), entry)
-        for key, entry in imports.items()
-        if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
-        and entry not in old.imports.get(key, ())
-    }
+    renewed = dict(old.open.imports) if old.open else {}
+    for key, entry in imports.items():
+        if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,)):
+            renewed[key] = (entry,)
+    renewed = {key: entries for key, entries in renewed.items() if entries != old.imports.get(key)}
     questions = (action for action in decision.actions if action.reason is Reason.ASKED)
     asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
     # a decision about an earlier export does not answer a question, not in the next build either
@@ -274,8 +273,7 @@ def _open_record(
     new = msgspec.structs.replace(
         old,
         files=files,
-        imports={**old.imports, **renewed},
-        open=Open(as_recorded(generation.now.snapshot), renames, asked),
+        open=Open(as_recorded(generation.now.snapshot), renames, asked, renewed),
         confirmed=confirmed.union(text_digest(text) for text in inputs.settled.contents.values() if text is not None),
     )
     return old if new == old else msgspec.structs.replace(new, edited=judged)
