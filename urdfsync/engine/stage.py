@@ -111,7 +111,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
             state += _base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)
             state += recorded  # the last one
         notes = msgspec.structs.replace(
-            _notes(inputs, generation, record),
+            _notes(inputs, generation, record, index.values()),
             proposals=old.proposals if inputs.options.dry else versions.noted,
             versions=old.versions if inputs.options.dry else versions.written,
             edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
@@ -185,16 +185,18 @@ def _tell_aside(
     if not new:
         return ()
     file, be = shown(inputs.files.path(inputs.folder.key(new[0]))), "is" if len(new) == 1 else "are"
-    message = f"{counted(len(new), 'text')} that this machine did not generate {be} replaced"
+    what = f"{counted(len(new), 'text')} that this machine did not generate"
+    message = f"a build replaces {what}" if inputs.options.dry else f"{what} {be} replaced"
     place = shown(inputs.store.aside_file(inputs.robot.name).parent)
-    hint = f"copies are below {place}; `resolve FILE --undo` brings one back"
+    hint = f"copies {'will be' if inputs.options.dry else 'are'} below {place}; `resolve FILE --undo` brings one back"
     return (Diagnostic(Severity.NOTE, "put-aside", message, file, hint=hint),)
 
 
-def _notes(inputs: Inputs, generation: Generation, record: Record) -> Notes:
+def _notes(inputs: Inputs, generation: Generation, record: Record, saved: Iterable[Aside]) -> Notes:
     """Return this machine's notes with the results of this build; `record` is the new record."""
     old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
     recorded, texts = inputs.last.record.hashes | record.hashes, generation.package.notes()
+    recorded |= {text_hash(model) for aside in saved for model in aside.beside.values()}  # `--undo` records them again
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
     return msgspec.structs.replace(
