@@ -188,6 +188,21 @@ def test_one_side_of_a_contradiction_can_be_chosen(
     assert f"mass = {mass}," in RECORD.read_text()
 
 
+@pytest.mark.parametrize("contradictory", ["markers"], indirect=True)
+@pytest.mark.parametrize("choice", ["--merge --prefer theirs", "--edit"])
+def test_a_chosen_side_moves_with_its_element(
+    contradictory: Repository, execute: Execute, editor: Editor, choice: str
+) -> None:
+    Path("arm.urdf").write_text(Path("arm.urdf").read_text().replace('"upper"', '"big"'))
+    execute("build", code=3)
+    editor(f"file.write_text({read_sides(RECORD.read_text())[1]!r})")
+    execute("resolve", RECORD, *choice.split())
+    assert "mass = 4.5," in RECORD.with_name("BigParameters.mo").read_text()
+    assert not RECORD.exists()
+    contradictory.git("add", "-A")
+    execute("build", "--check")
+
+
 @pytest.mark.parametrize(
     ("contradictory", "left"),
     [

@@ -85,7 +85,9 @@ def _flaw(content: bytes, conflict: Conflict) -> str:
         return "is not UTF-8"
     if found := find_markers(text):
         return f"has the conflict marker `{found[0][0]}` (line {found[0][1]})"
-    if flaw := find_flaw(text, (*read_sides(conflict.mine), conflict.generated)):
+    ours, theirs = read_sides(conflict.mine)
+    if flaw := find_flaw(text, (ours, theirs, conflict.generated)):
         return flaw
-    wanted, given = ([str(declared.name) for declared in parse(side).classes] for side in (conflict.generated, text))
+    like = ours if conflict.is_of_branches else conflict.generated  # a merge of branches has no new name yet
+    wanted, given = ([str(declared.name) for declared in parse(side).classes] for side in (like, text))
     return "" if given == wanted else f"is not one class called {' and '.join(f'`{name}`' for name in wanted)}"

@@ -284,6 +284,8 @@ def _without_misfits(
         tried = {
             key: text
             for key, one in sound.items()
+            # a merge of branches gets its new names only when it moves
+            if not (one.is_of_branches and one.origin)
             if (text := one.merged(side)) is not None and (side is None or one.merged(None) is None)
         }
         if not tried:
