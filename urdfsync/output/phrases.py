@@ -51,7 +51,7 @@ def _cause(action: Action, changes: Changes | None) -> str:
         structural = [change for change in changes.changes if change.change_class is ChangeClass.STRUCTURAL]
         own = [change for change in structural if change.element == action.owner]
         causes = own or structural or ([] if changes.generator else causes)
-    if not (causes or changes.generator) and len(changes.by_element()) == 1:
+    if action.reason is Reason.CONFLICT and not (causes or changes.generator) and len(changes.by_element()) == 1:
         causes = [*changes.changes]  # such as a mesh, whose facts are in a link's record
     if not (causes or changes.generator):
         return action.reason.text
