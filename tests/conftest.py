@@ -9,6 +9,7 @@ import os
 import shutil
 import signal
 import sys
+import tempfile
 from collections import Counter
 from collections.abc import Callable, Collection, Generator, Iterator, Sequence
 from pathlib import Path
@@ -18,7 +19,7 @@ import pytest
 from hypothesis import settings
 from support import audit
 from support.cases import CASES
-from support.commands import Execute, Printed
+from support.commands import Editor, Execute, Printed
 from support.networks import RC_FOLDER
 
 from urdfsync.checks.contents import content_hash
@@ -240,6 +241,17 @@ def execute(capsys: pytest.CaptureFixture[str]) -> Execute:
         return printed
 
     return run
+
+
+@pytest.fixture
+def editor(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Editor:
+    """Sets the user's editor: a program in Python, which gets the names of the files as `names`."""
+    program = tmp_path / "editor.py"
+    monkeypatch.setenv("VISUAL", f"{sys.executable} {program}")
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    begin = "import sys\nfrom pathlib import Path\nnames = sys.argv[1:]\nfile = Path(names[0])\n"
+    return lambda text: program.write_text(begin + text)
 
 
 @pytest.fixture(scope="session")

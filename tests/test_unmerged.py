@@ -10,10 +10,12 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from support.commands import Execute
+from support.commands import Editor, Execute
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
 from support.urdfs import joint, link, robot
+
+from urdfsync.modelica.markers import read_sides
 
 pytestmark = NEEDS_GIT
 
@@ -127,7 +129,7 @@ def test_edits_that_contradict_are_for_people(repository: Repository, execute: E
     merge(repository)
     text = RECORD.read_text()
     assert "both branches changed" in execute("build", code=3).words
-    assert "git checkout --merge" in execute("build", "--check", code=3).words
+    assert "`git add` it to keep this text" in execute("build", "--check", code=3).words
     assert RECORD.read_text() == text
     edit(RECORD, "5.4", "4.9")
     execute("build")
@@ -135,6 +137,98 @@ def test_edits_that_contradict_are_for_people(repository: Repository, execute: E
     repository.git("add", "-A")
     execute("build", "--check")
     assert "mass = 4.9" in RECORD.read_text()
+
+
+@pytest.fixture(params=["markers", "driver", "failed driver", "revert"])
+def contradictory(repository: Repository, execute: Execute, request: pytest.FixtureRequest) -> Repository:
+    """Two branches tune one number, ours to 5.4, theirs to 4.5, and ours exports another inertia; git stops."""
+    if request.param != "failed driver":
+        Path(".gitattributes").write_text("*.mo merge=urdfsync\n" if request.param == "driver" else "")
+        repository.commit()
+    if request.param == "driver":
+        execute("merge-driver", "--install")
+    branch(repository, execute, "theirs", "mass = 1", "mass = 4.5")
+    start = "main"
+    if request.param == "revert":  # theirs is then the version before the reverted commit
+        edit(RECORD, "mass = 4.5", "mass = 4")
+        repository.commit()
+        start = "theirs"
+    repository.git("checkout", "-q", "-b", "ours", start)
+    edit(RECORD, "mass = 4" if start == "theirs" else "mass = 1", "mass = 5.4")
+    edit(Path("arm.urdf"), 'ixx="0.021"', 'ixx="0.025"')
+    execute("build", "--merge")
+    repository.commit()
+    with pytest.raises(subprocess.CalledProcessError):
+        repository.git(*("revert theirs" if start == "theirs" else "merge theirs").split())
+    assert ("<<<<<<<" in RECORD.read_text()) == (request.param != "failed driver")
+    return repository
+
+
+@pytest.mark.parametrize(("side", "mass"), [("mine", "5.4"), ("theirs", "4.5")])
+def test_one_side_of_a_contradiction_can_be_chosen(
+    contradictory: Repository, execute: Execute, side: str, mass: str
+) -> None:
+    before = RECORD.read_text()
+    said = execute("build", code=3).words
+    assert "--merge --prefer mine both sides' changes; yours (or `theirs`)" in said
+    refused = execute("resolve", RECORD, "--merge", "--prefer", "generated", code=3).words
+    assert "`--prefer` settles nothing here: git" in refused
+    assert f"settle the conflict with `urdfsync resolve {RECORD} --merge --prefer mine`" in refused
+    assert RECORD.read_text() == before
+    execute("resolve", "--all", "--merge", "--prefer", side)
+    assert f"mass = {mass}," in RECORD.read_text()
+    assert "0.025" in RECORD.read_text()
+    if RECORD.read_text() != before:  # else only `git add` shows that our text is left on purpose
+        execute("build")
+        execute("resolve", RECORD, "--undo", code=None)
+        assert RECORD.read_text() == before
+        execute("resolve", "--all", "--merge", "--prefer", side)
+    contradictory.git("add", "-A")
+    execute("build", "--check")
+    assert f"mass = {mass}," in RECORD.read_text()
+
+
+@pytest.mark.parametrize("contradictory", ["markers"], indirect=True)
+@pytest.mark.parametrize("choice", ["--merge --prefer theirs", "--edit"])
+def test_a_chosen_side_moves_with_its_element(
+    contradictory: Repository, execute: Execute, editor: Editor, choice: str
+) -> None:
+    Path("arm.urdf").write_text(Path("arm.urdf").read_text().replace('"upper"', '"big"'))
+    execute("build", code=3)
+    editor(f"file.write_text({read_sides(RECORD.read_text())[1]!r})")
+    execute("resolve", RECORD, *choice.split())
+    assert "mass = 4.5," in RECORD.with_name("BigParameters.mo").read_text()
+    assert not RECORD.exists()
+    contradictory.git("add", "-A")
+    execute("build", "--check")
+
+
+@pytest.mark.parametrize(
+    ("contradictory", "left"),
+    [
+        ("markers", "<<<<<<< HEAD"),
+        ("driver", "||||||| base"),
+        ("failed driver", "======="),
+        ("revert", ">>>>>>> theirs"),
+    ],
+    indirect=["contradictory"],
+)
+def test_an_editor_sees_both_sides_and_may_leave_no_marker(
+    contradictory: Repository, execute: Execute, editor: Editor, tmp_path: Path, left: str
+) -> None:
+    seen, text = tmp_path / "seen", RECORD.read_text()
+    ours = read_sides(text)[0]
+    marked = f"{left}\n{ours}"
+    editor(f"Path({str(seen)!r}).write_text(file.read_text()); file.write_text({marked!r})")
+    said = execute("resolve", RECORD, "--edit", code=2).err
+    assert f"the edited text has the conflict marker `{left[:7]}` (line 1); nothing was changed" in said
+    assert RECORD.read_text() == text
+    marks = [line for line in seen.read_text().splitlines() if line[:7] in {"<" * 7, "|" * 7, "=" * 7, ">" * 7}]
+    assert marks == ["<<<<<<< mine", "||||||| base", "=======", ">>>>>>> theirs"]
+    editor(f"file.write_text({ours.replace('5.4', '5')!r})")
+    execute("resolve", RECORD, "--edit")
+    assert "mass = 5," in RECORD.read_text()
+    execute("build")
 
 
 def test_an_unmerged_source_is_not_in_step(repository: Repository, execute: Execute) -> None:

@@ -8,6 +8,7 @@ import pytest
 from support import urdfs
 from support.commands import Execute
 from support.files import fresh_models, models
+from support.meshes import stl
 from support.networks import edit
 
 from urdfsync.domain import Role
@@ -71,6 +72,56 @@ def test_what_is_exported_meanwhile_is_written_and_the_end_is_a_fresh_build(
     built = models()
     assert {path: text.replace("  // mine\n", "") for path, text in built.items()} == fresh_models(conflict / "fresh")
     assert sum("// mine" in text for text in built.values()) == bool(then)
+
+
+SHAPE = '<visual><geometry><mesh filename="tip.stl"/></geometry></visual>'
+
+
+def show(size: float) -> None:
+    """Give the forearm a mesh of this size; 0 for a file that is missing."""
+    edit("arm.urdf", "</inertial></link>", f"</inertial>{SHAPE}</link>")
+    Path("tip.stl").write_text(stl(size))
+    if not size:
+        Path("tip.stl").unlink()
+
+
+@pytest.mark.parametrize(
+    ("sizes", "told"),
+    [
+        ([1, 2], ["mesh tip.stl: content"]),
+        ([1, 2, 3], ["mesh tip.stl: content"]),
+        ([1, 2, 1], []),
+        ([1, 2, 0], ["mesh tip.stl: content"]),  # the copy stays
+        ([0, 1], ["mesh tip.stl: content"]),
+        ([0, 1, 2], ["mesh tip.stl: content"]),
+    ],
+)
+def test_a_changed_mesh_is_told_by_each_command_as_long_as_a_file_conflicts(
+    folder: Path, execute: Execute, sizes: list[float], told: list[str]
+) -> None:
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    export(2.5)
+    show(sizes[0])
+    execute("build")
+    edit(FORE, "2.5", "2.6")
+    for size in sizes[1:]:
+        export(2.75)
+        show(size)
+        execute("build", code=3)
+    for command in ("diff", "status", "build", "build --dry-run"):
+        rows = (line.split() for line in execute(*command.split(), code=None).lines if line.startswith("  mesh"))
+        assert [" ".join(row[:3]) for row in rows] == told, command
+
+
+def test_a_conflict_names_the_mesh_that_alone_has_changed(folder: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    export(2.5)
+    show(1)
+    execute("build")
+    edit(FORE, "2.5", "2.6")
+    Path("tip.stl").write_text(stl(2))
+    for command in ("build", "build", "diff"):
+        assert "its generated text changed too: mesh tip.stl" in execute(*command.split(), code=None).words
 
 
 MINE, BOTH, GENERATED = "2\n\na\n", "2\n\nb\n", "1\n\nb\n"

@@ -23,7 +23,8 @@ ARM = Record(
     imports={"tip.stl": (Import("Resources/tip.stl", A, B, {"hull": [[0.0, 1.0]]}),)},
     files={"modelica/Plant/Arm/Arm.mo": FileRecord((A,))},
 )
-OPEN = Open({"links": {"tip": {"mass": 2.0}}}, {("link", "end"): "tip"})
+SEEN = {"tip.stl": (Import("Resources/tip.stl", B, A, {}),)}
+OPEN = Open({"links": {"tip": {"mass": 2.0}}}, {("link", "end"): "tip"}, imports=SEEN)
 TEXT = dumps(ARM)
 
 names = st.text(st.characters(exclude_categories=["Cs"]), max_size=8)

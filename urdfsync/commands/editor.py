@@ -19,6 +19,7 @@ from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.package_files import encode
 from urdfsync.merge.texts import find_flaw
+from urdfsync.modelica.markers import find_markers, read_sides
 from urdfsync.modelica.parser import parse
 
 _HINT = "set $VISUAL or $EDITOR"
@@ -82,7 +83,11 @@ def _flaw(content: bytes, conflict: Conflict) -> str:
         text = content.decode()
     except UnicodeDecodeError:
         return "is not UTF-8"
-    if flaw := find_flaw(text, (conflict.mine, conflict.generated)):
+    if found := find_markers(text):
+        return f"has the conflict marker `{found[0][0]}` (line {found[0][1]})"
+    ours, theirs = read_sides(conflict.mine)
+    if flaw := find_flaw(text, (ours, theirs, conflict.generated)):
         return flaw
-    wanted, given = ([str(declared.name) for declared in parse(side).classes] for side in (conflict.generated, text))
+    like = ours if conflict.is_of_branches else conflict.generated  # a merge of branches has no new name yet
+    wanted, given = ([str(declared.name) for declared in parse(side).classes] for side in (like, text))
     return "" if given == wanted else f"is not one class called {' and '.join(f'`{name}`' for name in wanted)}"

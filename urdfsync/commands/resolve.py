@@ -17,10 +17,12 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Choice, Reason, UsersChoice
 from urdfsync.engine.build import build
+from urdfsync.engine.conflicts import PREFERENCES
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.build_section import show_result
+from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import Console
 
 
@@ -51,7 +53,8 @@ def add(commands: arguments.Commands) -> None:
     words = "move your edit to the element that is now called NAME, by default the likely one"
     choice.add_argument("--moved", nargs="?", const="", metavar="NAME", help=words)
     words = "with --merge: the side that counts where both sides changed the same text"
-    parser.add_argument("--prefer", choices=["mine", "generated"], help=words)
+    sides = [str(each).removeprefix("merge-") for each in PREFERENCES]
+    parser.add_argument("--prefer", choices=sides, help=words)
     arguments.add_dry_run(parser)
 
 
@@ -173,9 +176,10 @@ def _compare(
             message = "the file or its generated text changed after they were read, so your choice was not applied"
             hint = "look at the file, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
-        elif reason := next((one.refused.get(choice) for one in result.conflict_texts if one.path == path), None):
-            hint = "prefer the other side, or use --edit"
-            problems.append(Diagnostic(Severity.WARNING, "no-merge", reason, place, hint=hint))
+        elif choice in PREFERENCES and (file := next((one for one in result.conflicts if one.action == before), None)):
+            refused = file.texts and file.texts.refused.get(choice)
+            reason = refused or f"`--prefer` settles nothing here: {file.relation}"
+            problems.append(Diagnostic(Severity.WARNING, "no-merge", reason, place, hint=settle_hint([file])))
         elif choice is Choice.UNDO or not (before.is_conflict or before.is_left_by_git):
             problems.append(_without_effect(choice, before, place))
     return accepted, problems

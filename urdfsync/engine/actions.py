@@ -25,6 +25,8 @@ class Choice(enum.StrEnum):
     """A merge of both sides' changes; for each contradiction, the user's side."""
     MERGE_GENERATED = "merge-generated"
     """A merge of both sides' changes; for each contradiction, the generated side."""
+    MERGE_THEIRS = "merge-theirs"
+    """A merge of two branches; for each contradiction, the side of the other branch."""
     EDIT = "edit"
     """A text that the user merged in an editor."""
     MOVED = "moved"

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from urdfsync.merge import Merge
 
 
-PREFERENCES = frozenset({Choice.MERGE_MINE, Choice.MERGE_GENERATED})
-"""Choices that merge both sides' changes, and take one side's text for each contradiction."""
+PREFERENCES = Choice.MERGE_MINE, Choice.MERGE_GENERATED, Choice.MERGE_THEIRS
+"""Choices that merge both sides' changes, and take one side's text for each contradiction; the best first."""
 
 
 class Conflict(msgspec.Struct, frozen=True):
@@ -42,12 +42,15 @@ class Conflict(msgspec.Struct, frozen=True):
     """The likely new name of the edited element, if the file may belong to another element now."""
     refused: Mapping[Choice, str] = {}
     """The choices of `PREFERENCES` that would bring an unknown name into the file, each with the reason as a clause."""
+    is_of_branches: bool = False
+    """Whether `merge` is that of two branches: git left both in *mine*, or one of them. Then *theirs* is the other side
+    of a contradiction, in place of *generated*."""
 
     def merged(self, choice: Choice | None) -> str | None:
         """Return the merged text for a choice, or without a choice; None if there is none."""
         if self.merge is None or self.merge.text is not None or choice not in PREFERENCES:
             return self.merge.text if self.merge else None
-        if choice in self.refused:
+        if choice in self.refused or choice is (Choice.MERGE_GENERATED if self.is_of_branches else Choice.MERGE_THEIRS):
             return None
         return self.merge.with_mine if choice is Choice.MERGE_MINE else self.merge.with_generated
 

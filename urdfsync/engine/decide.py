@@ -202,10 +202,10 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
 
 def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt]) -> Action:
     """Correct an action by contents and options: the rules see only hashes."""
-    contradictions = inputs.files.left_by_git.get(action.path)
-    if contradictions and action.reason in (Reason.KEEP, Reason.UNCHANGED, Reason.UPDATE):
+    left = inputs.files.left_by_git
+    if left.get(action.path) and action.reason in (Reason.KEEP, Reason.UNCHANGED, Reason.UPDATE):
         return msgspec.structs.replace(action, reason=Reason.MARKERS)
-    if contradictions == ():
+    if left.get(action.path, True) is None:
         action = msgspec.structs.replace(action, is_left_by_git=True)
     if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
@@ -254,8 +254,9 @@ def _conflict(
     elif doubt:
         is_own = action.owner == doubt.element
         rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
-    elif contradictions := files.left_by_git.get(key):
-        rejected = united.describe(contradictions, mine)
+    elif branches := files.left_by_git.get(key):
+        merge = msgspec.structs.replace(branches, contradictions=(united.describe(branches.contradictions, mine),))
+        return Conflict(action.path, base, mine, generated, merge, origin=action.origin, is_of_branches=True)
     if rejected:
         texts = base, mine, generated, None
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
@@ -279,10 +280,12 @@ def _without_misfits(
     """
     sound, before, actions = dict(conflicts), None, after.actions
     files_after = functools.partial(PackageAfter, after.inputs, after.package)
-    for side in (None, *sorted(PREFERENCES)):
+    for side in (None, *PREFERENCES):
         tried = {
             key: text
             for key, one in sound.items()
+            # a merge of branches gets its new names only when it moves
+            if not (one.is_of_branches and one.origin)
             if (text := one.merged(side)) is not None and (side is None or one.merged(None) is None)
         }
         if not tried:

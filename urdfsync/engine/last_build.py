@@ -11,7 +11,7 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, ElementKey, Features, Role, Snapshot, Target, Version
+from urdfsync.domain import Domain, ElementKey, Features, Import, Role, Snapshot, Target, Version
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import RecordedFile
 from urdfsync.engine.package_files import Folder, PackageFiles
@@ -97,9 +97,15 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def imports(self) -> Mapping[str, RecordedFile]:
-        """The imported files and their copies. If a file has several records, the copy's hash decides."""
+        """The imported files and their copies."""
+        seen = self.record.open.imports if self.record.open else {}
+        keys = self.record.imports.keys() | seen.keys()
+        return self._imported({key: (*self.record.imports.get(key, ()), *seen.get(key, ())) for key in sorted(keys)})
+
+    def _imported(self, recorded: Mapping[str, tuple[Import, ...]]) -> Mapping[str, RecordedFile]:
+        """Return imported files and their copies. If a file has several records, the copy's hash decides."""
         imports = dict[str, RecordedFile]()
-        for name, entries in self.record.imports.items():
+        for name, entries in recorded.items():
             files = list[RecordedFile]()
             for entry in entries:
                 key, is_noted = self.folder.key(entry.target), hash_of(entry) in self.notes.imports
@@ -112,7 +118,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def version(self) -> Version | None:
         """The model of the last complete build; None if there was none, or if it is lost."""
         snapshot = self.read(self.record.snapshot)
-        imports = {key: file.entry for key, file in self.imports.items()}
+        files = self._imported(self.record.imports) if self.record.open else self.imports
+        imports = {key: file.entry for key, file in files.items()}
         return None if snapshot is None else Version(snapshot, imports, self.options)
 
     @cached_property

@@ -6,7 +6,7 @@ import os
 import time
 from collections.abc import Collection
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import reads
@@ -15,6 +15,9 @@ from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
 from urdfsync.files import Tree, digest, placed, shown, text_digest
+
+if TYPE_CHECKING:
+    from urdfsync.merge import Merge
 
 
 class Folder(str):
@@ -71,9 +74,9 @@ class PackageFiles:
         """Contents that override the disk, by key: results of choices, and the meanings of files that git merged. None
         stands for no file.
         """
-        self.left_by_git: dict[str, tuple[str, ...]] = {}
-        """For each file that is still git's merge, by key: the elements about which two branches contradict each other.
-        Without such elements, the overlay has the file's meaning.
+        self.left_by_git: dict[str, Merge | None] = {}
+        """For each file that is still git's merge, by key: the merge of two branches that contradict each other; None
+        if the overlay has the file's meaning.
         """
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]

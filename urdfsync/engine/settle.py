@@ -110,6 +110,8 @@ class _Choices:
             text = chosen.text if choice is Choice.EDIT else conflict.merged(choice)
             if text is None:
                 return False
+            if conflict.is_of_branches:  # the text was merged with no generated one: the build does that next
+                record = inputs.last.files.get(key, record)
             content, reason = encode(text), Reason.KEEP if text == conflict.mine else Reason.MERGE
         else:
             return False

@@ -116,7 +116,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
             state += _base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)
             state += recorded  # the last one
         notes = msgspec.structs.replace(
-            _notes(inputs, generation, record),
+            _notes(inputs, generation, record, index.values()),
             proposals=old.proposals if inputs.options.dry else versions.noted,
             versions=old.versions if inputs.options.dry else versions.written,
             edited={one.path: one.mine for one in after or decision.actions if one.reason in EDITED and one.mine},
@@ -198,16 +198,18 @@ def _tell_aside(
     if not new:
         return ()
     file, be = shown(inputs.files.path(inputs.folder.key(new[0]))), "is" if len(new) == 1 else "are"
-    message = f"{counted(len(new), 'text')} that this machine did not generate {be} replaced"
+    what = f"{counted(len(new), 'text')} that this machine did not generate"
+    message = f"a build replaces {what}" if inputs.options.dry else f"{what} {be} replaced"
     place = shown(inputs.store.aside_file(inputs.robot.name).parent)
-    hint = f"copies are below {place}; `resolve FILE --undo` brings one back"
+    hint = f"copies {'will be' if inputs.options.dry else 'are'} below {place}; `resolve FILE --undo` brings one back"
     return (Diagnostic(Severity.NOTE, "put-aside", message, file, hint=hint),)
 
 
-def _notes(inputs: Inputs, generation: Generation, record: Record) -> Notes:
+def _notes(inputs: Inputs, generation: Generation, record: Record, saved: Iterable[Aside]) -> Notes:
     """Return this machine's notes with the results of this build; `record` is the new record."""
     old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
     recorded, texts = inputs.last.record.hashes | record.hashes, generation.package.notes()
+    recorded |= {text_hash(model) for aside in saved for model in aside.beside.values()}  # `--undo` records them again
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
     return msgspec.structs.replace(
@@ -271,12 +273,11 @@ def _open_record(
     # record renewed files, but none in a former folder
     files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
     files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
-    renewed = {
-        key: (*old.imports.get(key, ()), entry)
-        for key, entry in imports.items()
-        if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
-        and entry not in old.imports.get(key, ())
-    }
+    renewed = dict(old.open.imports) if old.open else {}
+    for key, entry in imports.items():
+        if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,)):
+            renewed[key] = (entry,)
+    renewed = {key: entries for key, entries in renewed.items() if entries != old.imports.get(key)}
     questions = (action for action in decision.actions if action.reason is Reason.ASKED)
     asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
     # a decision about an earlier export does not answer a question, not in the next build either
@@ -287,8 +288,7 @@ def _open_record(
     new = msgspec.structs.replace(
         old,
         files=files,
-        imports={**old.imports, **renewed},
-        open=Open(as_recorded(generation.now.snapshot), renames, asked),
+        open=Open(as_recorded(generation.now.snapshot), renames, asked, renewed),
         confirmed=confirmed.union(text_digest(text) for text in inputs.settled.contents.values() if text is not None),
     )
     return old if new == old else msgspec.structs.replace(new, edited=judged)

@@ -32,6 +32,8 @@ from urdfsync.state.record import FileRecord
 if TYPE_CHECKING:
     import pygit2
 
+    from urdfsync.merge import Merge
+
 _UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
 """The references under which git keeps the commit that it is merging into HEAD."""
 
@@ -65,17 +67,19 @@ def lay_over(inputs: Inputs, key: str, *, is_edited: bool) -> bool:
     if isinstance(found, str):
         inputs.files.overlay[key] = encode(found)
     if found is not None:
-        inputs.files.left_by_git[key] = () if isinstance(found, str) else found
+        inputs.files.left_by_git[key] = None if isinstance(found, str) else found
     return found is not None
 
 
-def _find_meaning(inputs: Inputs, key: str, *, is_edited: bool) -> str | tuple[str, ...] | None:
-    """Return a file's meaning, or the elements about which the branches contradict each other; None for other files."""
+def _find_meaning(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merge | None:
+    """Return a file's meaning, or the merge of two branches that contradict each other; None for other files."""
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
     has_markers, is_unmerged = bool(markers.find_markers(text)), key in inputs.unmerged
     if not (has_markers or is_unmerged or last.files.get(key, NEVER_WRITTEN).is_ambiguous):
         return None
     if is_unmerged and not has_markers and (left := _find_left_side(file, _plain(text))):
+        if _is_chosen(inputs, key, _plain(text)):
+            return None  # `git add` is missing
         return text if _are_generated(last, [left[1]]) else _merge_edits(last, key, left[0])
     if not (has_markers or is_edited):
         return None
@@ -91,20 +95,20 @@ def _find_meaning(inputs: Inputs, key: str, *, is_edited: bool) -> str | tuple[s
     return _merge_edits(last, key, sides)
 
 
-def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ...]:
+def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | Merge:
     """Merge two versions by their elements; if that fails, merge their edits into the same generated text.
 
     The second way ignores differences between exports: these are no contradictions between people.
     """
-    from urdfsync.merge.texts import merge_file  # imports the parser
+    from urdfsync.merge.texts import merge_branches  # imports the parser
 
     recorded = last.files[key].hashes if key in last.files else ()
     bases = [base for sha256 in recorded if (base := last.base(sha256)) is not None]
     ours, theirs = (dict(over_bases(bases, side, is_modelica=True)) for side in sides[1:])
-    pairs = [sides[1:], *((ours[base], theirs[base]) for base in ours if base in theirs)]
-    merges = [merge_file(sides.base, *pair, ()) for pair in pairs]
-    merged, contradictions = next((merge for merge in merges if not merge[1]), merges[0])
-    return contradictions or merged
+    versions = [sides, *((base, ours[base], theirs[base]) for base in ours if base in theirs)]
+    merges = [merge_branches(*texts) for texts in versions]
+    merge = min(merges, key=lambda one: len(one.contradictions))
+    return merge if merge.text is None else merge.text
 
 
 def describe(contradictions: Sequence[str], text: str) -> str:
@@ -112,7 +116,7 @@ def describe(contradictions: Sequence[str], text: str) -> str:
     elements = [element for element in dict.fromkeys(contradictions) if element]
     both = f"both branches changed {' and '.join(elements) or 'the same lines'}"
     if not markers.find_markers(text):  # git's merge driver failed, or somebody took one side
-        return f"git has not merged it, since {both}: `git checkout --merge` writes both sides between markers"
+        return f"git has not merged it, since {both}: `git add` it to keep this text"
     return f"git's markers are in it, since {both}"
 
 
@@ -147,6 +151,27 @@ def can_join(file: Path, text: str, *, is_united: bool) -> bool:
     except SourceError:
         return is_united
     return find_sides(file, text) is not None
+
+
+def _is_chosen(inputs: Inputs, key: str, text: str) -> bool:
+    """Return whether the file has the user's choice between git's present versions.
+
+    The text equals one version, which does not show it. But the choice has replaced another version, or both.
+    """
+    import pygit2
+
+    last, file = inputs.last, inputs.files.path(key)
+    aside = last.aside.get(inputs.folder.path(key))
+    if aside is None or aside.after != text_hash(text):
+        return False
+    former = _plain((inputs.store.aside_text(last.name, aside.file) or b"").decode(errors="replace"))
+    if former == text:
+        return False  # an earlier `--keep` looks the same
+    try:
+        staged = _staged(Revision(file.parent, "HEAD").repository, file, former)
+        return any(former in sides[1:] or _is_untouched(former, sides) for sides in staged)
+    except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
+        return False  # as in `find_sides`
 
 
 def _find_left_side(file: Path, text: str) -> tuple[Sides, str] | None:

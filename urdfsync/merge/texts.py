@@ -19,6 +19,8 @@ from urdfsync.modelica.tree import KnownStatements, UnreadableError, find_faults
 
 MARKERS = ("<<<<<<< mine", "mine"), ("||||||| base", "base"), ("=======", "generated"), (">>>>>>> generated", "")
 """The markers before each version of a contradiction, and the marker after the last version."""
+_BRANCHES = *MARKERS[:3], (">>>>>>> theirs", "")
+"""The same markers for the versions of two branches."""
 
 
 class Merge(msgspec.Struct, frozen=True):
@@ -37,8 +39,7 @@ class Merge(msgspec.Struct, frozen=True):
     """The merged text with the user's side of each contradiction; None without contradictions, or if it is wrong
     Modelica."""
     with_generated: str | None = None
-    """The merged text with the generated side of each contradiction; None without contradictions, or if it is wrong
-    Modelica."""
+    """The merged text with the generated side of each contradiction, or with the other branch's; None as above."""
 
     @property
     def rejected(self) -> Merge:
@@ -59,17 +60,25 @@ def merge(
     ending = _ending(mine)
     statements: KnownStatements = {}
     pieces = _merge_pieces(base, mine, generated, ending, statements if is_modelica else None)
-    contradictions = [piece for piece in pieces if isinstance(piece, Contradiction)]
-    told = tuple(map(describe, contradictions))
+    told = tuple(describe(piece) for piece in pieces if isinstance(piece, Contradiction))
     merged, sides = _with_markers(pieces, ending, MARKERS), (mine, generated)
     if not told:
         flaw = find_flaw(merged, sides, statements) if is_modelica and merged != mine else ""
         return Merge(None if flaw else merged, merged, told, flaw)
-    if any(map(_is_new_part, contradictions)):
-        return Merge(None, merged, told)  # both sides added a component of this name, and may mean different things
-    preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
-    sound = [text if not is_modelica or not find_flaw(text, sides, statements) else None for text in preferred]
-    return Merge(None, merged, told, "", sound[0], sound[1])
+    return Merge(None, merged, told, "", *_preferred(pieces, ending, sides, statements if is_modelica else None))
+
+
+def _preferred(
+    pieces: Sequence[Piece], ending: str, sides: Sequence[str], statements: KnownStatements | None
+) -> Sequence[str | None]:
+    """Return the texts in which one side wins all contradictions; None for wrong Modelica, if `statements` are known.
+
+    Both are None if both sides added a component of one name, since they may mean different things.
+    """
+    if any(isinstance(piece, Contradiction) and _is_new_part(piece) for piece in pieces):
+        return None, None
+    texts = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
+    return [text if statements is None or not find_flaw(text, sides, statements) else None for text in texts]
 
 
 def _is_new_part(contradiction: Contradiction) -> bool:
@@ -88,17 +97,30 @@ def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, st
 
     If the merge by elements has a flaw, the texts are merged by lines, and the elements are empty texts.
     """
-    ending = _ending(mine)
-    merged, elements = "", tuple[str, ...]()
+    pieces, elements = _merge_versions(base, mine, other)
+    return _with_markers(pieces, _ending(mine), markers), elements
+
+
+def merge_branches(base: str, ours: str, theirs: str) -> Merge:
+    """Merge the versions of two branches as `merge_file`; the contradictions are elements."""
+    pieces, elements = _merge_versions(base, ours, theirs)
+    merged = _with_markers(pieces, _ending(ours), _BRANCHES)
+    if not elements:
+        return Merge(merged, merged, ())
+    return Merge(None, merged, elements, "", *_preferred(pieces, _ending(ours), (ours, theirs), {}))
+
+
+def _merge_versions(base: str, mine: str, other: str) -> tuple[Sequence[Piece], tuple[str, ...]]:
+    """Return the merge of two people's versions in pieces, and the element of each contradiction."""
+    ending, pieces, elements = _ending(mine), list[Piece](), tuple[str, ...]()
     ways: tuple[KnownStatements | None, ...] = {}, None
     for statements in ways:
-        pieces = _merge_pieces(base, mine, other, ending, statements, is_export=False)
-        merged = _with_markers(pieces, ending, markers)
+        pieces = [*_merge_pieces(base, mine, other, ending, statements, is_export=False)]
         conflicts = (piece for piece in pieces if isinstance(piece, Contradiction))
         elements = tuple(place_of(conflict.path)[0] if conflict.path else "" for conflict in conflicts)
-        if elements or not find_flaw(merged, (mine, other)):
+        if elements or not find_flaw(_with_markers(pieces, ending, ()), (mine, other)):
             break
-    return merged, elements
+    return pieces, elements
 
 
 def _ending(text: str) -> str:

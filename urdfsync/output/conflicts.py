@@ -26,6 +26,12 @@ _ELEMENTS = 5
 """The greatest number of changes of each side that are listed."""
 _SIGNS = {"+": "green", "-": "red", "@": "cyan"}
 """Styles of the lines of a difference, by the first characters of a line."""
+_SIDES = {
+    Choice.MERGE_MINE: ("mine", "yours"),
+    Choice.MERGE_GENERATED: ("generated", "the generated ones"),
+    Choice.MERGE_THEIRS: ("theirs", "theirs"),
+}
+"""The sides that `--prefer` names, each with its word in sentences."""
 
 
 def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
@@ -100,11 +106,9 @@ def _choices(target: DisputedFile) -> dict[str, str]:
     choices = {}
     if target.merges:
         choices["--merge"] = "both sides' changes"
-    elif target.offers(Choice.MERGE_MINE):
-        either = " (or `generated`)" if target.offers(Choice.MERGE_GENERATED) else ""
-        choices["--merge --prefer mine"] = f"both sides' changes; yours{either} where they contradict"
-    elif target.offers(Choice.MERGE_GENERATED):
-        choices["--merge --prefer generated"] = "both sides' changes; the generated ones where they contradict"
+    elif sides := [side for choice, side in _SIDES.items() if target.offers(choice)]:
+        either = f" (or `{sides[1][0]}`)" if sides[1:] else ""
+        choices[f"--merge --prefer {sides[0][0]}"] = f"both sides' changes; {sides[0][1]}{either} where they contradict"
     if target.action.reason is Reason.ASKED and " " not in target.action.owner:
         choices = {"--keep": "your file as it is: its names are right"}
     elif target.action.reason is Reason.ASKED:

@@ -21,6 +21,7 @@ _CHOSEN = {
     Choice.MERGE: "both sides' changes",
     Choice.MERGE_MINE: "both sides' changes, yours where they contradict",
     Choice.MERGE_GENERATED: "both sides' changes, the generated ones where they contradict",
+    Choice.MERGE_THEIRS: "both branches' changes, theirs where they contradict",
     Choice.EDIT: "as you edited it",
     Choice.MOVED: "your edit is with the part that you named",
     Choice.UNDO: "as you had it before",
@@ -50,6 +51,8 @@ def _cause(action: Action, changes: Changes | None) -> str:
         structural = [change for change in changes.changes if change.change_class is ChangeClass.STRUCTURAL]
         own = [change for change in structural if change.element == action.owner]
         causes = own or structural or ([] if changes.generator else causes)
+    if action.reason is Reason.CONFLICT and not (causes or changes.generator) and len(changes.by_element()) == 1:
+        causes = [*changes.changes]  # such as a mesh, whose facts are in a link's record
     if not (causes or changes.generator):
         return action.reason.text
     cause = generator_change(changes)

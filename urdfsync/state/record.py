@@ -92,6 +92,8 @@ class Open(msgspec.Struct, frozen=True):
     """Names in this model by renamed elements of the last complete build."""
     asked: Mapping[str, Question] = {}
     """The questions that the user has not answered yet, by the file's key."""
+    imports: Mapping[str, tuple[Import, ...]] = {}
+    """The imports that incomplete builds have renewed, by key."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):
@@ -121,8 +123,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     """Hashes of the user's texts after the build that changed this record: they belong to its model. A later edit alone
     does not change the record."""
     imports: Mapping[str, tuple[Import, ...]] = {}
-    """The imports by key. A file has several if git has united two states, or if an incomplete build renewed the
-    file."""
+    """The imports of the last complete build by key. A file has several if git has united two states."""
     files: Mapping[str, FileRecord] = {}
     open: Open | None = None
     """None if the last build was complete."""

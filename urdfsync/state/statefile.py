@@ -43,6 +43,7 @@ _FACTS: Mapping[str, Any] = {
     "confirmed": str,
     "edited": str,
     "seen": tuple[str, str | None, Any],
+    "seen-import": tuple[str, Import],
     "renamed": tuple[str, str, str],
     "asked": tuple[str, Question],
 }
@@ -82,6 +83,8 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     yield from (("edited", sha256) for sha256 in record.edited)
     yield from (("import", (key, entry)) for key, entries in record.imports.items() for entry in entries)
     if record.open:
+        seen = record.open.imports
+        yield from (("seen-import", (key, entry)) for key, entries in seen.items() for entry in entries)
         yield from (("seen", fact) for fact in _elements(record.open.seen))
         yield from (("renamed", (*key, name)) for key, name in record.open.renamed.items())
         yield from (("asked", item) for item in record.open.asked.items())
@@ -125,9 +128,9 @@ def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
     if not _is_normal(folder) or folder.split("/")[-len(package.split(".")) :] != package.split("."):
         return None, damage(file, _line_of(lines, folder), f"{folder!r} is not a folder of the package `{package}`")
     paths = [("file", value, value[0]) for value in values["file"]]
-    paths += [("import", value, value[1].target) for value in values["import"]]
+    paths += [(word, value, value[1].target) for word in ("import", "seen-import") for value in values[word]]
     for word, value, path in paths:
-        if not _belongs(path, is_import=word == "import"):
+        if not _belongs(path, is_import=word != "file"):
             message = f"the path {path!r} does not belong to the package `{package}`"
             found = found or damage(file, _line_of(lines, path), message)
             values[word].remove(value)
@@ -162,15 +165,13 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
     hashes: dict[str, list[str]] = {}
     for path, sha256 in values["file"] if is_placed else ():  # with two different folders, the files' paths are unknown
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
-    imports: dict[str, tuple[Import, ...]] = {}
-    for key, entry in values["import"]:
-        imports[key] = (*imports.get(key, ()), entry)
     open_ = None
     if values["seen"]:
         renamed = {(kind, old): new for kind, old, new in values["renamed"]}
         seen = _snapshot(values["seen"])
         is_known = seen is not None and len(renamed) == len(values["renamed"])
-        open_ = Open(seen, renamed, dict(values["asked"])) if seen is not None and is_known else Open()
+        asked, imports = dict(values["asked"]), _imports(values["seen-import"])
+        open_ = Open(seen, renamed, asked, imports) if seen is not None and is_known else Open(imports=imports)
     return Record(
         package=package,
         class_=class_,
@@ -183,11 +184,18 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         former={old: new for old, new in values["former"] if [name for name, _ in values["former"]].count(old) == 1},
         confirmed=frozenset(values["confirmed"]),
         edited=frozenset(values["edited"]),
-        imports=imports,
+        imports=_imports(values["import"]),
         files={key: FileRecord(tuple(values)) for key, values in sorted(hashes.items())},
         open=open_,
         is_united=not is_whole,
     )
+
+
+def _imports(facts: Iterable[tuple[str, Import]]) -> Mapping[str, tuple[Import, ...]]:
+    imports: dict[str, tuple[Import, ...]] = {}
+    for key, entry in facts:
+        imports[key] = (*imports.get(key, ()), entry)
+    return imports
 
 
 def _snapshot(facts: list[tuple[str, str | None, Any]]) -> Mapping[str, Any] | None:
