@@ -1,0 +1,113 @@
+"""Finds numbered parts, such as `visual2` of a link, that an export counts anew: an edit goes with its part."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+
+import msgspec
+
+from urdfsync.domain import ElementKey, Features, Version, displaced
+from urdfsync.engine.actions import Action
+from urdfsync.engine.differences import GONE, Differences
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.renames import find_matching
+from urdfsync.matching import match
+
+_Names = Mapping[str, Mapping[str, str]]
+"""New components by old ones, if they differ: for files of an element by its new kind and name, else by an empty key.
+
+Components in files of the whole model begin with the identifier of their element.
+"""
+
+
+class Renumbered(msgspec.Struct, frozen=True):
+    """The new components of numbered parts by their old components."""
+
+    since_complete: _Names = {}
+    """Since the last complete build."""
+    since_seen: _Names = {}
+    """Since the last, incomplete build."""
+    seen: frozenset[str] = frozenset()
+    """The files whose texts have the names of the last, incomplete build, by key."""
+
+    def __bool__(self) -> bool:
+        return bool(self.since_complete or self.since_seen)
+
+    def names(self, action: Action, words: Iterable[str]) -> dict[str, str]:
+        """Return new names by old names for these words of a file: a part's names begin with its component."""
+        by_element = self.since_seen if action.path in self.seen else self.since_complete
+        components, names = by_element.get(action.owner, by_element.get("", {})), dict[str, str]()
+        for word in set(words) if components else ():
+            for digits in re.finditer(r"[0-9]+", word):
+                if new := components.get(word[: digits.end()]):
+                    names[word] = new + word[digits.end() :]
+        return names
+
+
+NOT_RENUMBERED = Renumbered()
+
+
+def find_renumbered(
+    inputs: Inputs, generation: Generation, differences: Differences, edited: Iterable[Action]
+) -> Renumbered:
+    """Return the parts with other numbers than in the last complete build, and in the build since then."""
+    last, now = inputs.last, generation.now
+    if last.version is None:
+        return NOT_RENUMBERED
+    since_complete = _compare(inputs, last.version, now, differences.renames)
+    if last.seen is None or last.package is None:
+        return Renumbered(since_complete)
+    renames = find_matching(inputs.domain, last.seen, now.snapshot, {}).renames
+    since_seen = _compare(inputs, Version(last.seen, now.imports), now, renames)
+    seen = (action.path for action in edited if _is_later(inputs, action))
+    return Renumbered(since_complete, since_seen, frozenset(seen))
+
+
+def _is_later(inputs: Inputs, action: Action) -> bool:
+    """Whether the user's text has the names of the last, incomplete build: confirmed then, or with a newer base."""
+    package, path = inputs.last.package, inputs.last.folder.path(action.origin or action.path)
+    is_newer = package is not None and path in package.artifacts and package.hash(path) != action.base
+    return is_newer or action.mine in inputs.last.record.confirmed
+
+
+def _compare(inputs: Inputs, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> _Names:
+    """Return the new components of all elements of two versions."""
+    if old.snapshot == new.snapshot:
+        return {}
+    domain, gone = inputs.domain, displaced(renames)
+    before, after = domain.numbered(old, new)
+    targets = inputs.last.target, inputs.robot.target
+    olds, news = (domain.names(each.snapshot, target) for each, target in zip((old, new), targets, strict=True))
+    names, common = dict[str, Mapping[str, str]](), dict[str, str]()
+    for (kind, name), parts in before.items():
+        new_name = renames.get((kind, name), name)
+        present = after.get((kind, new_name), parts)
+        if (kind, name) in gone or parts == present or not (components := _match(parts, present)):
+            continue
+        names[f"{kind} {new_name}"] = components
+        start, new_start = olds[f"{kind}s"][name], news[f"{kind}s"][new_name]
+        common |= {f"{start}{_capital(one)}": f"{new_start}{_capital(other)}" for one, other in components.items()}
+    return {**names, "": common} if names else {}
+
+
+def _capital(name: str) -> str:
+    return name[0].upper() + name[1:]
+
+
+def _match(
+    old: Mapping[str, tuple[ElementKey, Features]], new: Mapping[str, tuple[ElementKey, Features]]
+) -> dict[str, str]:
+    """Return the changed components of one element; a part that is gone, or in doubt, leaves its name to another."""
+    matching = match(dict(old.values()), dict(new.values()))
+    components, gone = {key: component for component, (key, _) in new.items()}, displaced(matching.renames)
+    renamed = dict[str, str]()
+    for component, (key, _) in old.items():
+        if key in matching.renames:
+            renamed[component] = components[key[0], matching.renames[key]]
+        elif key in components and key not in gone and key not in matching.doubts:
+            renamed[component] = components[key]
+        elif component in new:
+            renamed[component] = f"{component}{GONE}"
+    return {component: new_component for component, new_component in renamed.items() if new_component != component}
