@@ -58,6 +58,8 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
     """Unknown names and syntax errors in the user's files."""
     names: Mapping[str, str] = {}
     """New names by old names, from before the choices; empty if no edit and no text in `aside` needs them."""
+    outdated: frozenset[str] = frozenset()
+    """Hashes of confirmed texts that use numbers of parts from before this export."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -77,14 +79,14 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     existing = _find_files(inputs, generation)  # first: the comparison needs the meaning of files that git merged
     differences = compare_with_last(inputs, generation)
     origins, decided = frozenset(differences.moves.values()), decide(existing, differences.moves)
-    doubts = find_doubts(inputs, generation, differences, decided)
+    edits = [one for one in decided if one.reason in DISPUTED | {Reason.KEEP} and one.role is not Role.IMPORT]
+    renumbered = find_renumbered(inputs, generation, differences, edits) if edits else NOT_RENUMBERED
+    doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, decided)}
     actions = tuple(_adjust(inputs, package, action, doubts) for action in decided)
-    edits = [one for one in actions if one.reason in DISPUTED | {Reason.KEEP} and one.role is not Role.IMPORT]
     names: Mapping[str, str] = {}
     needing = DISPUTED | {Reason.KEEP} if differences.other_elements else DISPUTED
-    if inputs.last.aside or any(one.reason in needing for one in edits):
+    if inputs.last.aside or any(one.reason in needing and one.role is not Role.IMPORT for one in actions):
         names = renamed_names(inputs, generation, differences)
-    renumbered = find_renumbered(inputs, generation, differences, edits) if edits else NOT_RENUMBERED
     if differences.other_elements or renumbered:
         actions = tuple(_with_other_names(inputs, package, actions, names, renumbered))
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
@@ -116,7 +118,9 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     misfits = [misfit for misfit in misfits if misfit.key not in followed.conflicts or misfit.use is None]
     names = inputs.settled.names or names
     texts = {**orders, **merged}
-    return Decision(differences, all_actions, texts, doubts, conflicts, tuple(shared), tuple(misfits), names)
+    of_parts = [action for action in all_actions if action.is_conflict and renumbered.components(action)]
+    outdated = frozenset(str(one.mine) for one in of_parts if not inputs.last.has_written(str(one.mine)))
+    return Decision(differences, all_actions, texts, doubts, conflicts, tuple(shared), tuple(misfits), names, outdated)
 
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:

@@ -13,7 +13,7 @@ from urdfsync.engine.differences import GONE, Differences
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.renames import find_matching
-from urdfsync.matching import match
+from urdfsync.matching import Doubt, match
 
 _Names = Mapping[str, Mapping[str, str]]
 """New components by old ones, if they differ: for files of an element by its new kind and name, else by an empty key.
@@ -35,15 +35,27 @@ class Renumbered(msgspec.Struct, frozen=True):
     def __bool__(self) -> bool:
         return bool(self.since_complete or self.since_seen)
 
+    def components(self, action: Action) -> Mapping[str, str]:
+        """Return the changed components that a file may use."""
+        by_element = self.since_seen if action.path in self.seen else self.since_complete
+        return by_element.get(action.owner, by_element.get("", {}))
+
     def names(self, action: Action, words: Iterable[str]) -> dict[str, str]:
         """Return new names by old names for these words of a file: a part's names begin with its component."""
-        by_element = self.since_seen if action.path in self.seen else self.since_complete
-        components, names = by_element.get(action.owner, by_element.get("", {})), dict[str, str]()
+        components, names = self.components(action), dict[str, str]()
         for word in set(words) if components else ():
             for digits in re.finditer(r"[0-9]+", word):
                 if new := components.get(word[: digits.end()]):
                     names[word] = new + word[digits.end() :]
         return names
+
+    def doubts(self, edited: Iterable[Action]) -> dict[str, Doubt]:
+        """Return a doubt for each edit that an incomplete build has settled, before an export counted anew, by key.
+
+        The next build can't know whether the edit has the numbers before or after this export.
+        """
+        later = {one.path: (one.owner, self.components(one)) for one in edited if one.path in self.seen}
+        return {key: Doubt(owner, part=next(iter(parts))) for key, (owner, parts) in later.items() if parts}
 
 
 NOT_RENUMBERED = Renumbered()
@@ -61,7 +73,7 @@ def find_renumbered(
         return Renumbered(since_complete)
     renames = find_matching(inputs.domain, last.seen, now.snapshot, {}).renames
     since_seen = _compare(inputs, Version(last.seen, now.imports), now, renames)
-    seen = (action.path for action in edited if _is_later(inputs, action))
+    seen = (one.path for one in edited if not inputs.files.is_chosen(one.path) and _is_later(inputs, one))
     return Renumbered(since_complete, since_seen, frozenset(seen))
 
 
