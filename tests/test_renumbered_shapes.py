@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 from support.commands import Execute
+from support.git import NEEDS_GIT, Repository
 from support.networks import edit
 from support.urdfs import joint, link, robot
 
@@ -205,3 +207,61 @@ def test_edits_follow_once_while_another_conflict_is_open(start: None, execute: 
     printed = execute("build", code=Exit.CONFLICT)
     assert "conflict   modelica/Arm/Links/Upper.mo" in printed.out
     assert "`visual1` of `upper` may be another part now" in printed.out
+
+
+@NEEDS_GIT
+@pytest.mark.slow
+@pytest.mark.parametrize("driver", [False, True])
+@pytest.mark.parametrize("edits_first", [False, True])
+@pytest.mark.parametrize("file", [MODEL, RECORD])
+def test_one_branch_exchanges_shapes_and_the_other_edits(
+    start: None,
+    execute: Execute,
+    monkeypatch: pytest.MonkeyPatch,
+    file: Path,
+    edits_first: bool,
+    driver: bool,
+) -> None:
+    """From either side of git's merge, an edit follows its shape, or the build asks about it."""
+    repository = Repository(Path.cwd(), monkeypatch)
+    if driver:
+        execute("merge-driver", "--install")
+    repository.commit()
+    for branch in ("theirs", "ours"):
+        repository.git("checkout", "-q", "-b", branch, "main")
+        if (branch == "ours") is edits_first:
+            edit_shape(file, "visual2", *(("= animation", "= false") if file is MODEL else (GREY, RED)))
+            edit(file, "\nend Upper", "\n  // remark\nend Upper")
+        else:
+            export("motor", "housing", "cover")
+        execute("build")
+        repository.commit(branch)
+    subprocess.run(["git", "merge", "-q", "--no-edit", "theirs"], capture_output=True)
+    printed = execute("build", code=None)
+    repository.commit()
+    if printed.code == Exit.CONFLICT:
+        assert "may be another part now" in printed.words, printed
+        execute("resolve", file, "--keep")
+    else:
+        edited = hidden() if file is MODEL else [size for size, colour in painted().items() if colour == RED]
+        assert edited == ["0.3"]
+    execute("build", "--check")
+
+
+@NEEDS_GIT
+def test_an_edit_elsewhere_is_not_asked_about_after_a_merge(
+    start: None, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    repository = Repository(Path.cwd(), monkeypatch)
+    repository.commit()
+    repository.git("checkout", "-q", "-b", "theirs")
+    edit(MODEL, "\nequation\n", "\n  Real mine = 1;\n\nequation\n")
+    execute("build")
+    repository.commit()
+    repository.git("checkout", "-q", "main")
+    export("motor", "housing", "cover")
+    execute("build")
+    repository.commit()
+    repository.merge("theirs")
+    execute("build")
+    assert "Real mine = 1;" in MODEL.read_text()

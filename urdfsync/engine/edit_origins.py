@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from urdfsync import git
 from urdfsync.dependencies import reads
 from urdfsync.diagnostics import SourceError, StateError
-from urdfsync.domain import ElementKey, Role, Snapshot
+from urdfsync.domain import ElementKey, Role, Snapshot, Version
 from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.conflicts import find_conflict
 from urdfsync.engine.differences import Differences
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
@@ -26,9 +27,10 @@ from urdfsync.engine.last_build import NO_MODEL, hash_of
 from urdfsync.engine.package_files import text_hash
 from urdfsync.engine.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.renames import find_matching
+from urdfsync.engine.renumbered import Names, Renumbered, find_numbers
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
-from urdfsync.state import statefile
+from urdfsync.state import bases, statefile
 from urdfsync.state.record import FileRecord, as_read
 
 if TYPE_CHECKING:
@@ -147,8 +149,8 @@ def _edit_of(inputs: Inputs, package: Package, action: Action) -> _Edit:
     last = inputs.last
     mine = _lines(inputs.files.text(action.path) or "")
     generated = _lines(package.content(inputs.folder.path(action.path)).decode())
-    bases = last.bases(last.files.get(action.path, FileRecord())).values()
-    return _Edit(mine - (generated | _lines("\n".join(bases))), generated - mine)
+    known = last.bases(last.files.get(action.path, FileRecord())).values()
+    return _Edit(mine - (generated | _lines("\n".join(known))), generated - mine)
 
 
 def _lines(text: str) -> Counter[str]:
@@ -169,7 +171,9 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
             return {}
         snapshot = as_read(record.snapshot, inputs.domain.model)
         matching = find_matching(inputs.domain, snapshot, generation.now.snapshot, {})
-        if not (matching.renames or matching.doubts):
+        imports = {name: entries[0] for name, entries in record.imports.items()}
+        numbers = find_numbers(inputs, Version(snapshot, imports), generation.now, matching.renames)
+        if not (matching.renames or matching.doubts or numbers):
             return {}
         known = inputs.domain.features(snapshot)
     except (KeyError, SourceError, StateError, *NO_MODEL):
@@ -187,7 +191,9 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
         recorded = record.files.get(action.path)
         if recorded is None or text_hash(texts[action]) in recorded.hashes:
             continue  # the file is unedited in this commit
-        if element := _element(action):
+        if part := _moved_part(inputs, generation, commit, action, texts[action], recorded, numbers):
+            doubts[action.path] = Doubt(action.owner, part=part)
+        elif element := _element(action):
             if (doubt := moved.get(element)) is None:
                 continue
             path = generation.package.find_like(inputs.folder.path(action.path), f"{element[0]} {doubt.moved_to}")
@@ -196,6 +202,37 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
         elif doubt := _named(inputs, lines, existing, snapshot):
             doubts[action.path] = doubt
     return doubts
+
+
+def _moved_part(
+    inputs: Inputs,
+    generation: Generation,
+    commit: Revision,
+    action: Action,
+    edited: str,
+    recorded: FileRecord,
+    numbers: Names,
+) -> str:
+    """Return a numbered part that an edit of a commit names, if its text has not followed to the new number yet."""
+    renumbered = Renumbered(numbers)
+    if not renumbered.components(action) or not recorded.hashes:
+        return ""
+    from urdfsync.modelica.lexer import words_in  # imports the parser
+
+    sha256 = recorded.hashes[0]
+    file = inputs.store.base_file(inputs.last.name, sha256[0])
+    try:
+        base = bases.loads(commit.contents([file]).get(file, b"")).get(sha256)
+    except SourceError:  # the clone lacks the content
+        base = None
+    if base is None:  # the edit is unknown
+        return next(iter(renumbered.components(action)))
+    generated = generation.package.content(inputs.folder.path(action.path)).decode()
+    mine, names = inputs.files.text(action.path) or "", renumbered.names(action, words_in(base))
+    moved, unmoved = (find_conflict(action, [base], edited, generated, each).merged(None) for each in (names, {}))
+    is_same = moved == unmoved
+    has_moved = moved is not None and find_conflict(action, [generated], moved, mine).merged(None) == mine
+    return "" if is_same or has_moved else next(iter(names))
 
 
 def _element(action: Action) -> ElementKey | None:

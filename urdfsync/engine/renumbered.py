@@ -15,7 +15,7 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.renames import find_matching
 from urdfsync.matching import Doubt, match
 
-_Names = Mapping[str, Mapping[str, str]]
+Names = Mapping[str, Mapping[str, str]]
 """New components by old ones, if they differ: for files of an element by its new kind and name, else by an empty key.
 
 Components in files of the whole model begin with the identifier of their element.
@@ -25,9 +25,9 @@ Components in files of the whole model begin with the identifier of their elemen
 class Renumbered(msgspec.Struct, frozen=True):
     """The new components of numbered parts by their old components."""
 
-    since_complete: _Names = {}
+    since_complete: Names = {}
     """Since the last complete build."""
-    since_seen: _Names = {}
+    since_seen: Names = {}
     """Since the last, incomplete build."""
     seen: frozenset[str] = frozenset()
     """The files whose texts have the names of the last, incomplete build, by key."""
@@ -68,11 +68,11 @@ def find_renumbered(
     last, now = inputs.last, generation.now
     if last.version is None:
         return NOT_RENUMBERED
-    since_complete = _compare(inputs, last.version, now, differences.renames)
+    since_complete = find_numbers(inputs, last.version, now, differences.renames)
     if last.seen is None or last.package is None:
         return Renumbered(since_complete)
     renames = find_matching(inputs.domain, last.seen, now.snapshot, {}).renames
-    since_seen = _compare(inputs, Version(last.seen, now.imports), now, renames)
+    since_seen = find_numbers(inputs, Version(last.seen, now.imports), now, renames)
     seen = (one.path for one in edited if not inputs.files.is_chosen(one.path) and _is_later(inputs, one))
     return Renumbered(since_complete, since_seen, frozenset(seen))
 
@@ -84,8 +84,8 @@ def _is_later(inputs: Inputs, action: Action) -> bool:
     return is_newer or action.mine in inputs.last.record.confirmed
 
 
-def _compare(inputs: Inputs, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> _Names:
-    """Return the new components of all elements of two versions."""
+def find_numbers(inputs: Inputs, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Names:
+    """Return the new components of all elements of two versions; `renames` has new names of elements."""
     if old.snapshot == new.snapshot:
         return {}
     domain, gone = inputs.domain, displaced(renames)
