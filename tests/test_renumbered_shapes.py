@@ -174,6 +174,39 @@ def test_a_name_of_the_users_own_is_in_the_way(start: None, execute: Execute) ->
     execute("build", code=Exit.CONFLICT)
 
 
+@pytest.mark.parametrize(
+    ("file", "old", "new"),
+    [
+        ("Arm.mo", "Links.Upper upper(", "Links.Upper upper(visual2(animation = false),"),
+        ("Arm.mo", "\nequation", "\n  Real mine = upper.visual2.parameters.opacity;\n\nequation"),
+        ("ArmRun.mo", "\nequation", "\n  Real mine = robot.upper.visual2.parameters.opacity;\n\nequation"),
+    ],
+)
+def test_a_use_of_a_shape_outside_of_its_link_is_asked_about_once(
+    start: None, execute: Execute, file: str, old: str, new: str
+) -> None:
+    path = f"modelica/Arm/{file}"
+    edit(path, old, new)
+    export("motor", "housing", "cover")
+    printed = execute("build", code=Exit.CONFLICT)
+    assert "`visual2` of `upper` may be another part now" in printed.words
+    edit(path, "visual2", "visual1")
+    execute("resolve", path, "--keep")
+    execute("build", "--check")
+
+
+def test_a_use_of_another_links_shape_is_not_asked_about(start: None, execute: Execute) -> None:
+    def export_both(*shapes: str) -> None:
+        (visual,) = re.findall("<visual>.*?</visual>", arm("plate"))
+        Path("arm.urdf").write_text(arm(*shapes).replace("</link>", f"{visual}</link>", 1))
+
+    export_both("housing", "motor")
+    execute("build")
+    edit("modelica/Arm/Arm.mo", "\nequation", "\n  Real mine = base.visual1.parameters.opacity;\n\nequation")
+    export_both("motor", "housing")
+    assert "1 kept because you edited it" in execute("build").out
+
+
 def test_a_clone_decides_the_same(start: None, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     edit_shape(MODEL, "visual2", "= animation", "= false")
     edit_shape(RECORD, "visual2", GREY, RED)
@@ -183,7 +216,7 @@ def test_a_clone_decides_the_same(start: None, execute: Execute, monkeypatch: py
         shutil.rmtree(f"../clone/.urdfsync/{name}", ignore_errors=True)
     for folder in (".", "../clone"):
         monkeypatch.chdir(folder)
-        export("plate", "motor", "housing", "cover")
+        export("plate", "housing", "motor", "cover")
         execute("build")
         assert (hidden(), painted()["0.3"]) == (["0.3"], RED)
 

@@ -81,7 +81,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     origins, decided = frozenset(differences.moves.values()), decide(existing, differences.moves)
     edits = [one for one in decided if one.reason in DISPUTED | {Reason.KEEP} and one.role is not Role.IMPORT]
     renumbered = find_renumbered(inputs, generation, differences, edits) if edits else NOT_RENUMBERED
-    doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, decided)}
+    doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, renumbered, decided)}
     actions = tuple(_adjust(inputs, package, action, doubts) for action in decided)
     names: Mapping[str, str] = {}
     needing = DISPUTED | {Reason.KEEP} if differences.other_elements else DISPUTED

@@ -45,7 +45,11 @@ EDITED = (Reason.KEEP, Reason.CONFLICT)
 
 
 def find_doubts(
-    inputs: Inputs, generation: Generation, differences: Differences, actions: Iterable[Action]
+    inputs: Inputs,
+    generation: Generation,
+    differences: Differences,
+    renumbered: Renumbered,
+    actions: Iterable[Action],
 ) -> dict[str, Doubt]:
     """Return the doubts whether edited files belong to the same elements as before, by key."""
     edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
@@ -56,7 +60,7 @@ def find_doubts(
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
-        doubts[action.path] = _doubt(inputs, generation, differences, action)
+        doubts[action.path] = _doubt(inputs, generation, differences, renumbered, action)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
     doubts |= open_doubts
     unconfirmed = [one for one in unconfirmed if one.path not in open_doubts]
@@ -82,12 +86,14 @@ def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Actio
     return {action.path: asked[action.path].doubt for action in edits}
 
 
-def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:
+def _doubt(
+    inputs: Inputs, generation: Generation, differences: Differences, renumbered: Renumbered, action: Action
+) -> Doubt | None:
     """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
     found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
-        lines = _edit_of(inputs, generation.package, action).added if found else ()
-        return _named(inputs, lines, found, generation.now.snapshot)
+        lines = _edit_of(inputs, generation.package, action).added if found or renumbered else ()
+        return _named(inputs, lines, found, renumbered, generation.now.snapshot)
     if element in found:
         return found[element]
     if moved_to := differences.renames.get(element):  # the file can't move to the new name
@@ -199,7 +205,7 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
             path = generation.package.find_like(inputs.folder.path(action.path), f"{element[0]} {doubt.moved_to}")
             if path is None or not edits[action].has_moved(lines, inputs.files.text(inputs.folder.key(path)) or ""):
                 doubts[action.path] = doubt
-        elif doubt := _named(inputs, lines, existing, snapshot):
+        elif doubt := _named(inputs, lines, existing, Renumbered(numbers), snapshot):
             doubts[action.path] = doubt
     return doubts
 
@@ -242,13 +248,18 @@ def _element(action: Action) -> ElementKey | None:
 
 
 def _named(
-    inputs: Inputs, lines: Iterable[str], doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
+    inputs: Inputs,
+    lines: Iterable[str],
+    doubts: Mapping[ElementKey, Doubt],
+    renumbered: Renumbered,
+    snapshot: Snapshot,
 ) -> Doubt | None:
-    """Return the doubt about the first doubtful element in these lines of a common file; None without one."""
-    if not doubts:
+    """Return the doubt about the first doubtful element or part in these lines of a common file; None without one."""
+    if not (doubts or renumbered):
         return None
     elements = elements_by_identifier(inputs.domain, snapshot, inputs.last.target)
     code = text_of(code_of("\n".join(lines).encode()))
     words = dict.fromkeys(re.findall(r"\w+", code))
-    found = (elements.get(identifier_of(word, elements)) for word in words)
-    return next((doubts[key] for key in found if key and key in doubts), None)
+    found = list(filter(None, (elements.get(identifier_of(word, elements)) for word in words)))
+    of_elements = (doubts[key] for key in found if key in doubts)
+    return next(of_elements, None) or renumbered.doubt(words, [" ".join(key) for key in found])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 import msgspec
 
@@ -42,12 +42,18 @@ class Renumbered(msgspec.Struct, frozen=True):
 
     def names(self, action: Action, words: Iterable[str]) -> dict[str, str]:
         """Return new names by old names for these words of a file: a part's names begin with its component."""
-        components, names = self.components(action), dict[str, str]()
-        for word in set(words) if components else ():
-            for digits in re.finditer(r"[0-9]+", word):
-                if new := components.get(word[: digits.end()]):
-                    names[word] = new + word[digits.end() :]
-        return names
+        return _new_names(self.components(action), words)
+
+    def doubt(self, words: Collection[str], named: Collection[str]) -> Doubt | None:
+        """Return the doubt about the first part that an edit of a file of the whole model uses; None without one.
+
+        `named` has the elements whose identifiers are among the words. Without any, each element may be meant.
+        """
+        for owner, components in self.since_complete.items():
+            names = _new_names(components, words) if owner and (owner in named or not named) else {}
+            if names:
+                return Doubt(owner, part=next(iter(names)))
+        return None
 
     def doubts(self, edited: Iterable[Action]) -> dict[str, Doubt]:
         """Return a doubt for each edit that an incomplete build has settled, before an export counted anew, by key.
@@ -102,6 +108,15 @@ def find_numbers(inputs: Inputs, old: Version, new: Version, renames: Mapping[El
         start, new_start = olds[f"{kind}s"][name], news[f"{kind}s"][new_name]
         common |= {f"{start}{_capital(one)}": f"{new_start}{_capital(other)}" for one, other in components.items()}
     return {**names, "": common} if names else {}
+
+
+def _new_names(components: Mapping[str, str], words: Iterable[str]) -> dict[str, str]:
+    names = dict[str, str]()
+    for word in dict.fromkeys(words) if components else ():
+        for digits in re.finditer(r"[0-9]+", word):
+            if new := components.get(word[: digits.end()]):
+                names[word] = new + word[digits.end() :]
+    return names
 
 
 def _capital(name: str) -> str:
