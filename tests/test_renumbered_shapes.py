@@ -131,7 +131,9 @@ def test_an_exchange_asks_before_an_edit_follows(start: None, execute: Execute) 
     edit_shape(MODEL, "visual2", "= animation", "= false")
     execute("build")
     export("motor", "housing", "cover")
-    assert "conflict   modelica/Arm/Links/Upper.mo" in execute("build", code=Exit.CONFLICT).out
+    printed = execute("build", code=Exit.CONFLICT)
+    assert "conflict   modelica/Arm/Links/Upper.mo" in printed.out
+    assert "`visual1` is now `visual2` (and 3 more numbers); the changes fit together" in printed.words
     execute("build", "--check", code=Exit.CONFLICT)
     assert hidden() == ["0.3"]
     execute("resolve", MODEL, "--merge")
@@ -147,7 +149,8 @@ def test_an_edit_of_a_removed_shape_conflicts(start: None, execute: Execute, sha
     before = MODEL.read_text()
     export(*shapes)
     printed = execute("build", code=Exit.CONFLICT)
-    assert "conflict   modelica/Arm/Links/Upper.mo" in printed.out
+    assert "`visual2` is another part now, and the export has no part like the one that you edited" in printed.words
+    execute("resolve", MODEL, "--merge", "--prefer", "mine", code=Exit.CONFLICT)
     assert MODEL.read_text() == before
 
 
@@ -240,6 +243,22 @@ def test_edits_follow_once_while_another_conflict_is_open(start: None, execute: 
     printed = execute("build", code=Exit.CONFLICT)
     assert "conflict   modelica/Arm/Links/Upper.mo" in printed.out
     assert "`visual1` of `upper` may be another part now" in printed.out
+
+
+def test_a_recorded_model_that_the_files_contradict_moves_nothing(start: None, execute: Execute) -> None:
+    """A stranger has exchanged the shapes in the record."""
+    edit_shape(MODEL, "visual2", "= animation", "= false")
+    execute("build")
+    state = Path(".urdfsync/robots/arm.state")
+    shapes = [f'"size":[{SIZES[name]},0.1,0.1]{{}}[{SIZES[name] / 2},0.0,0.0]' for name in ("housing", "motor")]
+    between = '},"name":"","origin":{"rpy":[0.0,0.0,0.0],"xyz":'
+    one, other = (shape.format(between) for shape in shapes)
+    forged = state.read_text().replace(one, "\0").replace(other, one).replace("\0", other)
+    assert forged != state.read_text()
+    state.write_text(forged)
+    before = MODEL.read_text()
+    assert "may be another part now" in execute("build", code=Exit.CONFLICT).words
+    assert MODEL.read_text() == before
 
 
 @NEEDS_GIT

@@ -17,7 +17,7 @@ from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
-from urdfsync.engine.differences import Differences, compare_with_last
+from urdfsync.engine.differences import GONE, Differences, compare_with_last
 from urdfsync.engine.edit_origins import find_doubts
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
@@ -290,7 +290,14 @@ def _conflict(
             now = known_names(generation.package)  # the base may have the new names already
             names = {name: new for name, new in names.items() if name not in now}
     numbers = renumbered.names(action, itertools.chain.from_iterable(map(words_in, bases)))
-    return find_conflict(action, bases, mine, generated, {**names, **numbers})
+    conflict = find_conflict(action, bases, mine, generated, {**names, **numbers})
+    proposal = conflict.merge.proposal if conflict.merge else ""
+    for name, new in numbers.items():
+        if GONE in new and new in proposal:  # no answer may write this name
+            rejected = f"`{name}` is another part now, and the export has no part like the one that you edited"
+            merge = conflict.merge and conflict.merge.rejected
+            return msgspec.structs.replace(conflict, merge=merge, rejected=rejected)
+    return msgspec.structs.replace(conflict, renumbered=renumbered.describe(action, numbers)) if numbers else conflict
 
 
 def _without_misfits(

@@ -9,11 +9,12 @@ import msgspec
 
 from urdfsync.domain import ElementKey, Features, Version, displaced
 from urdfsync.engine.actions import Action
-from urdfsync.engine.differences import GONE, Differences
+from urdfsync.engine.differences import GONE, Differences, agrees
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.renames import find_matching
 from urdfsync.matching import Doubt, match
+from urdfsync.spelling import counted
 
 Names = Mapping[str, Mapping[str, str]]
 """New components by old ones, if they differ: for files of an element by its new kind and name, else by an empty key.
@@ -31,6 +32,8 @@ class Renumbered(msgspec.Struct, frozen=True):
     """Since the last, incomplete build."""
     seen: frozenset[str] = frozenset()
     """The files whose texts have the names of the last, incomplete build, by key."""
+    unproved: frozenset[str] = frozenset()
+    """The files whose element has records on disk that the recorded model does not explain, by key."""
 
     def __bool__(self) -> bool:
         return bool(self.since_complete or self.since_seen)
@@ -44,6 +47,13 @@ class Renumbered(msgspec.Struct, frozen=True):
         """Return new names by old names for these words of a file: a part's names begin with its component."""
         return _new_names(self.components(action), words)
 
+    def describe(self, action: Action, names: Mapping[str, str]) -> str:
+        """Return the new components of a file as a clause; `names` has the new names by old names of the file."""
+        components = self.components(action)
+        (old, new), *others = [(old, new) for old, new in names.items() if old in components] or [*names.items()]
+        more = f" (and {counted(len(others), 'more number')})" if others else ""
+        return f"`{old}` is now `{new}`{more}"
+
     def doubt(self, words: Collection[str], named: Collection[str]) -> Doubt | None:
         """Return the doubt about the first part that an edit of a file of the whole model uses; None without one.
 
@@ -56,12 +66,14 @@ class Renumbered(msgspec.Struct, frozen=True):
         return None
 
     def doubts(self, edited: Iterable[Action]) -> dict[str, Doubt]:
-        """Return a doubt for each edit that an incomplete build has settled, before an export counted anew, by key.
+        """Return a doubt for each edit whose numbers are unknown, by key.
 
-        The next build can't know whether the edit has the numbers before or after this export.
+        An incomplete build has settled the edit, before an export counted anew: the next build can't know whether the
+        edit has the numbers before or after this export. Or a stranger may have written the recorded model.
         """
-        later = {one.path: (one.owner, self.components(one)) for one in edited if one.path in self.seen}
-        return {key: Doubt(owner, part=next(iter(parts))) for key, (owner, parts) in later.items() if parts}
+        unknown = self.seen | self.unproved
+        parts = {one.path: (one.owner, self.components(one)) for one in edited if one.path in unknown}
+        return {key: Doubt(owner, part=next(iter(each))) for key, (owner, each) in parts.items() if each}
 
 
 NOT_RENUMBERED = Renumbered()
@@ -75,12 +87,21 @@ def find_renumbered(
     if last.version is None:
         return NOT_RENUMBERED
     since_complete = find_numbers(inputs, last.version, now, differences.renames)
+    edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
+    changed = {one.path: _former(one.owner, differences) for one in edited if since_complete.get(one.owner)}
+    unproved = frozenset(key for key, owner in changed.items() if not agrees(inputs, {owner}))
     if last.seen is None or last.package is None:
-        return Renumbered(since_complete)
+        return Renumbered(since_complete, unproved=unproved)
     renames = find_matching(inputs.domain, last.seen, now.snapshot, {}).renames
     since_seen = find_numbers(inputs, Version(last.seen, now.imports), now, renames)
-    seen = (one.path for one in edited if not inputs.files.is_chosen(one.path) and _is_later(inputs, one))
-    return Renumbered(since_complete, since_seen, frozenset(seen))
+    seen = frozenset(one.path for one in edited if _is_later(inputs, one))
+    return Renumbered(since_complete, since_seen, seen, unproved)
+
+
+def _former(owner: str, differences: Differences) -> str:
+    """Return the element as it was called in the last complete build."""
+    kind, _, name = owner.partition(" ")
+    return next((" ".join(old) for old, new in differences.renames.items() if (old[0], new) == (kind, name)), owner)
 
 
 def _is_later(inputs: Inputs, action: Action) -> bool:
