@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
+from support.meshes import stl
 from support.networks import edit
 from support.urdfs import joint, link, robot
 
@@ -159,6 +160,27 @@ def test_a_shape_with_other_numbers_keeps_its_edit(start: None, execute: Execute
     export("plate", "housing", "motor", "cover", sizes={"motor": 0.35})
     execute("build")
     assert painted() == {"0.9": GREY, "0.4": GREY, "0.35": RED, "0.05": GREY}
+
+
+@pytest.mark.parametrize("is_numbered", [False, True])
+def test_a_mesh_is_known_by_its_contents_else_by_its_name(start: None, execute: Execute, is_numbered: bool) -> None:
+    """An exporter may number the files of meshes, too; or it writes other bytes under the same names."""
+
+    def export_meshes(scale: float, **sizes: float) -> None:
+        texts = []
+        for number, (name, size) in enumerate(sizes.items(), 1):
+            file = f"part_{number}.stl" if is_numbered else f"{name}.stl"
+            Path(file).write_text(stl(size * (1 if is_numbered else scale)))
+            texts.append(f'<visual><geometry><mesh filename="{file}"/></geometry></visual>')
+        Path("arm.urdf").write_text(arm().replace("</link>\n<joint", "".join([*texts, "</link>\n<joint"])))
+
+    export_meshes(1, housing=0.4, motor=0.3)
+    execute("build")
+    edit_shape(RECORD, "visual2", GREY, RED)
+    export_meshes(1.1, plate=0.9, housing=0.4, motor=0.3)
+    execute("build")
+    assert RED in shape(RECORD, "visual3")
+    assert RECORD.read_text().count(RED) == 1
 
 
 def test_edits_follow_the_shapes_of_a_renamed_link(start: None, execute: Execute) -> None:

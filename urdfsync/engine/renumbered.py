@@ -117,6 +117,8 @@ def find_numbers(inputs: Inputs, old: Version, new: Version, renames: Mapping[El
         return {}
     domain, gone = inputs.domain, displaced(renames)
     before, after = domain.numbered(old, new)
+    if not before:
+        return {}
     targets = inputs.last.target, inputs.robot.target
     olds, news = (domain.names(each.snapshot, target) for each, target in zip((old, new), targets, strict=True))
     names, common = dict[str, Mapping[str, str]](), dict[str, str]()
