@@ -94,7 +94,8 @@ def find_renumbered(
         return Renumbered(since_complete, unproved=unproved)
     renames = find_matching(inputs.domain, last.seen, now.snapshot, {}).renames
     since_seen = find_numbers(inputs, Version(last.seen, now.imports), now, renames)
-    seen = frozenset(one.path for one in edited if _is_later(inputs, one))
+    is_seen = last.seen == now.snapshot
+    seen = frozenset(one.path for one in edited if _is_later(inputs, one, is_seen=is_seen))
     return Renumbered(since_complete, since_seen, seen, unproved)
 
 
@@ -104,10 +105,15 @@ def _former(owner: str, differences: Differences) -> str:
     return next((" ".join(old) for old, new in differences.renames.items() if (old[0], new) == (kind, name)), owner)
 
 
-def _is_later(inputs: Inputs, action: Action) -> bool:
-    """Whether the user's text has the names of the last, incomplete build: confirmed then, or with a newer base."""
+def _is_later(inputs: Inputs, action: Action, *, is_seen: bool) -> bool:
+    """Whether the user's text has the names of the last, incomplete build: confirmed then, or with a newer base.
+
+    `is_seen`: that build has read the present model, so a newer base is the generated text.
+    """
     package, path = inputs.last.package, inputs.last.folder.path(action.origin or action.path)
-    is_newer = package is not None and path in package.artifacts and package.hash(path) != action.base
+    is_other = package is not None and path in package.artifacts and package.hash(path) != action.base
+    # other templates change the text, too
+    is_newer = is_other and (action.base == action.generated or not is_seen)
     return is_newer or action.mine in inputs.last.record.confirmed
 
 
