@@ -339,3 +339,31 @@ def test_an_edit_elsewhere_is_not_asked_about_after_a_merge(
     repository.merge("theirs")
     execute("build")
     assert "Real mine = 1;" in MODEL.read_text()
+
+
+@NEEDS_GIT
+def test_both_branches_change_the_link_and_one_counts_its_shapes_anew(
+    start: None, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Then the united record has no model of the link; the commits have."""
+
+    def export_heavier() -> None:
+        edit("arm.urdf", 'mass value="4.0"', 'mass value="5.0"')
+
+    repository = Repository(Path.cwd(), monkeypatch)
+    repository.commit()
+    repository.git("checkout", "-q", "-b", "theirs")
+    export("plate", "housing", "motor", "cover")
+    execute("build")
+    repository.commit()
+    repository.git("checkout", "-q", "main")
+    export_heavier()
+    execute("build")
+    edit_shape(MODEL, "visual2", "= animation", "= false")
+    execute("build")
+    repository.commit()
+    subprocess.run(["git", "merge", "-q", "--no-edit", "theirs"], capture_output=True)
+    export("plate", "housing", "motor", "cover")
+    export_heavier()
+    repository.commit()
+    assert "of `upper` may be another part now" in execute("build", code=Exit.CONFLICT).words

@@ -69,7 +69,9 @@ def find_doubts(
     if unconfirmed and notes.model == hash_of(record.snapshot):  # otherwise git may have changed the meaning of names
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
-    if unconfirmed and inputs.last.version is not None and (top := git.find_top(inputs.config.root)) is not None:
+    # if both branches changed one element, the united record has no model
+    has_model = inputs.last.version is not None or record.is_united
+    if unconfirmed and has_model and (top := git.find_top(inputs.config.root)) is not None:
         reads.depend_on_commits(top)
         edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
         for commit in _commits(inputs):
