@@ -37,6 +37,14 @@ class Features(msgspec.Struct, frozen=True):
     """Files of the element. Files are not in `contents`, since exporters name files after elements."""
 
 
+Numbered: TypeAlias = Mapping[ElementKey, Mapping[str, tuple[ElementKey, Features]]]
+"""Numbered parts by element and by component, such as `visual2`; each with its kind and name, and its features.
+
+A part without a name of its own has its number as name. In files of an element, names of components begin with this
+component: `visual2Place`. In other files, they begin with the element's identifier and this component: `armVisual2`.
+"""
+
+
 class Role(enum.StrEnum):
     """Role of a generated file; the decision about the file depends on it."""
 
@@ -275,6 +283,10 @@ class Domain(Protocol):
         """Return the features of elements; by default, elements have none and match by name alone."""
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
+
+    def numbered(self, old: Version, new: Version) -> tuple[Numbered, Numbered]:
+        """Return the numbered parts of the elements of two versions, for an edit to follow its part."""
+        return {}, {}
 
 
 def displaced(renames: Mapping[ElementKey, str]) -> set[ElementKey]:

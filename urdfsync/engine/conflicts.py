@@ -40,6 +40,8 @@ class Conflict(msgspec.Struct, frozen=True):
     """Why the merge was rejected, as a clause; empty if it was not rejected."""
     moved_to: str = ""
     """The likely new name of the edited element, if the file may belong to another element now."""
+    renumbered: str = ""
+    """The new numbers of the parts in the file, as a clause; empty if all have their numbers."""
     refused: Mapping[Choice, str] = {}
     """The choices of `PREFERENCES` that would bring an unknown name into the file, each with the reason as a clause."""
     is_of_branches: bool = False

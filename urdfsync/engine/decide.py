@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -16,7 +17,7 @@ from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
-from urdfsync.engine.differences import Differences, compare_with_last
+from urdfsync.engine.differences import GONE, Differences, compare_with_last
 from urdfsync.engine.edit_origins import find_doubts
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
@@ -26,6 +27,7 @@ from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import known_names, names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.renames import describe_doubt
+from urdfsync.engine.renumbered import NOT_RENUMBERED, Renumbered, find_renumbered
 from urdfsync.engine.rules import File, decide, put_off
 from urdfsync.files import shown
 from urdfsync.matching import Doubt
@@ -56,6 +58,8 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
     """Unknown names and syntax errors in the user's files."""
     names: Mapping[str, str] = {}
     """New names by old names, from before the choices; empty if no edit and no text in `aside` needs them."""
+    outdated: frozenset[str] = frozenset()
+    """Hashes of confirmed texts that use numbers of parts from before this export."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -75,16 +79,20 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     existing = _find_files(inputs, generation)  # first: the comparison needs the meaning of files that git merged
     differences = compare_with_last(inputs, generation)
     origins, decided = frozenset(differences.moves.values()), decide(existing, differences.moves)
-    doubts = find_doubts(inputs, generation, differences, decided)
+    edits = [one for one in decided if one.reason in DISPUTED | {Reason.KEEP} and one.role is not Role.IMPORT]
+    renumbered = find_renumbered(inputs, generation, differences, edits) if edits else NOT_RENUMBERED
+    doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, renumbered, decided)}
     actions = tuple(_adjust(inputs, package, action, doubts) for action in decided)
-    needing = DISPUTED | {Reason.KEEP} if differences.other_elements else DISPUTED
     names: Mapping[str, str] = {}
+    needing = DISPUTED | {Reason.KEEP} if differences.other_elements else DISPUTED
     if inputs.last.aside or any(one.reason in needing and one.role is not Role.IMPORT for one in actions):
         names = renamed_names(inputs, generation, differences)
-    if differences.other_elements:
-        actions = tuple(_with_other_names(inputs, package, actions, names))
+    if differences.other_elements or renumbered:
+        actions = tuple(_with_other_names(inputs, package, actions, names, renumbered))
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
-    conflicts = {one.path: _conflict(inputs, generation, one, doubts.get(one.path), names) for one in disputed}
+    conflicts = {
+        one.path: _conflict(inputs, generation, one, doubts.get(one.path), names, renumbered) for one in disputed
+    }
     conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, origins)
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
     after = PackageAfter(inputs, package, actions, merged)
@@ -98,7 +106,8 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
     has_conflicts = any(action.is_conflict for action in actions)
     numbers: Collection[str] = ()
-    if has_conflicts and not differences.has_exchanges:  # if names were exchanged, each build would move edits again
+    # if names were exchanged, each build would move edits again
+    if has_conflicts and not (differences.has_exchanges or renumbered):
         numbers = _renumbered(PackageAfter(inputs, package, actions, merged), differences.changes, conflicts)
     known = {action.path for action in (*actions, *order_actions)}
     unknown = [action for action in own if action.path not in known]
@@ -109,7 +118,9 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     misfits = [misfit for misfit in misfits if misfit.key not in followed.conflicts or misfit.use is None]
     names = inputs.settled.names or names
     texts = {**orders, **merged}
-    return Decision(differences, all_actions, texts, doubts, conflicts, tuple(shared), tuple(misfits), names)
+    of_parts = [action for action in all_actions if action.is_conflict and renumbered.components(action)]
+    outdated = frozenset(str(one.mine) for one in of_parts if not inputs.last.has_written(str(one.mine)))
+    return Decision(differences, all_actions, texts, doubts, conflicts, tuple(shared), tuple(misfits), names, outdated)
 
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
@@ -219,24 +230,35 @@ def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[st
 
 
 def _with_other_names(
-    inputs: Inputs, package: Package, actions: Iterable[Action], names: Mapping[str, str]
+    inputs: Inputs, package: Package, actions: Iterable[Action], names: Mapping[str, str], renumbered: Renumbered
 ) -> Iterator[Action]:
     """Yield the actions. An edit that uses an outdated name is merged, even if the generated text did not change."""
     for action in actions:
-        is_settled = inputs.files.is_chosen(action.path) or action.mine in inputs.last.record.confirmed
-        is_edit = action.reason is Reason.KEEP and action.role is not Role.IMPORT and not is_settled
+        is_chosen = inputs.files.is_chosen(action.path)
+        is_edit = action.reason is Reason.KEEP and action.role is not Role.IMPORT and not is_chosen
         if is_edit and action.base == action.generated:
             from urdfsync.modelica.lexer import words_in  # imports the parser
 
-            mine = Counter(words_in(inputs.files.text(action.path) or ""))
-            mine.subtract(words_in(package.content(inputs.folder.path(action.path)).decode()))
-            if any(count > 0 and word in names for word, count in mine.items()):
+            text = inputs.files.text(action.path) or ""
+            generated = package.content(inputs.folder.path(action.path)).decode()
+            words, is_settled = words_in(generated), action.mine in inputs.last.record.confirmed
+            mine = Counter(words_in(text))
+            mine.subtract(words)
+            is_outdated = not is_settled and any(count > 0 and word in names for word, count in mine.items())
+            if not is_outdated and (numbers := renumbered.names(action, words)):
+                is_outdated = find_conflict(action, [generated], text, generated, numbers).merged(None) != text
+            if is_outdated:
                 action = msgspec.structs.replace(action, reason=Reason.CONFLICT)
         yield action
 
 
 def _conflict(
-    inputs: Inputs, generation: Generation, action: Action, doubt: Doubt | None, names: Mapping[str, str]
+    inputs: Inputs,
+    generation: Generation,
+    action: Action,
+    doubt: Doubt | None,
+    names: Mapping[str, str],
+    renumbered: Renumbered,
 ) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder, *mine* is its `package.mo`."""
     key, files, last = action.origin or action.path, inputs.files, inputs.last
@@ -268,7 +290,15 @@ def _conflict(
         if before is None or path not in before.artifacts or before.hash(path) == action.base:
             now = known_names(generation.package)  # the base may have the new names already
             names = {name: new for name, new in names.items() if name not in now}
-    return find_conflict(action, bases, mine, generated, names)
+    numbers = renumbered.names(action, itertools.chain.from_iterable(map(words_in, bases)))
+    conflict = find_conflict(action, bases, mine, generated, {**names, **numbers})
+    proposal = conflict.merge.proposal if conflict.merge else ""
+    for name, new in numbers.items():
+        if GONE in new and new in proposal:  # no answer may write this name
+            rejected = f"`{name}` is another part now, and the export has no part like the one that you edited"
+            merge = conflict.merge and conflict.merge.rejected
+            return msgspec.structs.replace(conflict, merge=merge, rejected=rejected)
+    return msgspec.structs.replace(conflict, renumbered=renumbered.describe(action, numbers)) if numbers else conflict
 
 
 def _without_misfits(

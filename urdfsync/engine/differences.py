@@ -99,10 +99,10 @@ def _find_matching(inputs: Inputs, now: Snapshot) -> Matching:
         return Matching(without_exchanges(matching, old).renames)
     found = {key: new for key, new in matching.renames.items() if key[1] not in declared}
     exchanged = {f"{kind} {name}" for (kind, name), new in found.items() if (kind, new) in old}
-    return matching if _agrees(inputs, exchanged) else without_exchanges(matching, old)
+    return matching if agrees(inputs, exchanged) else without_exchanges(matching, old)
 
 
-def _agrees(inputs: Inputs, owners: Collection[str]) -> bool:
+def agrees(inputs: Inputs, owners: Collection[str]) -> bool:
     """Whether the unedited records of these elements on disk equal the records from the recorded model."""
     last, package = inputs.last, inputs.last.package
     if package is None or not owners:

@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from urdfsync import git
 from urdfsync.dependencies import reads
 from urdfsync.diagnostics import SourceError, StateError
-from urdfsync.domain import ElementKey, Role, Snapshot
+from urdfsync.domain import ElementKey, Role, Snapshot, Version
 from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.conflicts import find_conflict
 from urdfsync.engine.differences import Differences
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
@@ -26,9 +27,10 @@ from urdfsync.engine.last_build import NO_MODEL, hash_of
 from urdfsync.engine.package_files import text_hash
 from urdfsync.engine.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.renames import find_matching
+from urdfsync.engine.renumbered import Names, Renumbered, find_numbers
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
-from urdfsync.state import statefile
+from urdfsync.state import bases, statefile
 from urdfsync.state.record import FileRecord, as_read
 
 if TYPE_CHECKING:
@@ -43,7 +45,11 @@ EDITED = (Reason.KEEP, Reason.CONFLICT)
 
 
 def find_doubts(
-    inputs: Inputs, generation: Generation, differences: Differences, actions: Iterable[Action]
+    inputs: Inputs,
+    generation: Generation,
+    differences: Differences,
+    renumbered: Renumbered,
+    actions: Iterable[Action],
 ) -> dict[str, Doubt]:
     """Return the doubts whether edited files belong to the same elements as before, by key."""
     edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
@@ -54,7 +60,7 @@ def find_doubts(
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
-        doubts[action.path] = _doubt(inputs, generation, differences, action)
+        doubts[action.path] = _doubt(inputs, generation, differences, renumbered, action)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
     doubts |= open_doubts
     unconfirmed = [one for one in unconfirmed if one.path not in open_doubts]
@@ -63,7 +69,9 @@ def find_doubts(
     if unconfirmed and notes.model == hash_of(record.snapshot):  # otherwise git may have changed the meaning of names
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
-    if unconfirmed and inputs.last.version is not None and (top := git.find_top(inputs.config.root)) is not None:
+    # if both branches changed one element, the united record has no model
+    has_model = inputs.last.version is not None or record.is_united
+    if unconfirmed and has_model and (top := git.find_top(inputs.config.root)) is not None:
         reads.depend_on_commits(top)
         edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
         for commit in _commits(inputs):
@@ -80,12 +88,14 @@ def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Actio
     return {action.path: asked[action.path].doubt for action in edits}
 
 
-def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:
+def _doubt(
+    inputs: Inputs, generation: Generation, differences: Differences, renumbered: Renumbered, action: Action
+) -> Doubt | None:
     """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
     found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
-        lines = _edit_of(inputs, generation.package, action).added if found else ()
-        return _named(inputs, lines, found, generation.now.snapshot)
+        lines = _edit_of(inputs, generation.package, action).added if found or renumbered else ()
+        return _named(inputs, lines, found, renumbered, generation.now.snapshot)
     if element in found:
         return found[element]
     if moved_to := differences.renames.get(element):  # the file can't move to the new name
@@ -155,8 +165,8 @@ def _edit_of(inputs: Inputs, package: Package, action: Action) -> _Edit:
     last = inputs.last
     mine = _lines(inputs.files.text(action.path) or "")
     generated = _lines(package.content(inputs.folder.path(action.path)).decode())
-    bases = last.bases(last.files.get(action.path, FileRecord())).values()
-    return _Edit(mine - (generated | _lines("\n".join(bases))), generated - mine)
+    known = last.bases(last.files.get(action.path, FileRecord())).values()
+    return _Edit(mine - (generated | _lines("\n".join(known))), generated - mine)
 
 
 def _lines(text: str) -> Counter[str]:
@@ -177,7 +187,9 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
             return {}
         snapshot = as_read(record.snapshot, inputs.domain.model)
         matching = find_matching(inputs.domain, snapshot, generation.now.snapshot, {})
-        if not (matching.renames or matching.doubts):
+        imports = {name: entries[0] for name, entries in record.imports.items()}
+        numbers = find_numbers(inputs, Version(snapshot, imports), generation.now, matching.renames)
+        if not (matching.renames or matching.doubts or numbers):
             return {}
         known = inputs.domain.features(snapshot)
     except (KeyError, SourceError, StateError, *NO_MODEL):
@@ -195,15 +207,48 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
         recorded = record.files.get(action.path)
         if recorded is None or text_hash(texts[action]) in recorded.hashes:
             continue  # the file is unedited in this commit
-        if element := _element(action):
+        if part := _moved_part(inputs, generation, commit, action, texts[action], recorded, numbers):
+            doubts[action.path] = Doubt(action.owner, part=part)
+        elif element := _element(action):
             if (doubt := moved.get(element)) is None:
                 continue
             path = generation.package.find_like(inputs.folder.path(action.path), f"{element[0]} {doubt.moved_to}")
             if path is None or not edits[action].has_moved(lines, inputs.files.text(inputs.folder.key(path)) or ""):
                 doubts[action.path] = doubt
-        elif doubt := _named(inputs, lines, existing, snapshot):
+        elif doubt := _named(inputs, lines, existing, Renumbered(numbers), snapshot):
             doubts[action.path] = doubt
     return doubts
+
+
+def _moved_part(
+    inputs: Inputs,
+    generation: Generation,
+    commit: Revision,
+    action: Action,
+    edited: str,
+    recorded: FileRecord,
+    numbers: Names,
+) -> str:
+    """Return a numbered part that an edit of a commit names, if its text has not followed to the new number yet."""
+    renumbered = Renumbered(numbers)
+    if not renumbered.components(action) or not recorded.hashes:
+        return ""
+    from urdfsync.modelica.lexer import words_in  # imports the parser
+
+    sha256 = recorded.hashes[0]
+    file = inputs.store.base_file(inputs.last.name, sha256[0])
+    try:
+        base = bases.loads(commit.contents([file]).get(file, b"")).get(sha256)
+    except SourceError:  # the clone lacks the content
+        base = None
+    if base is None:  # the edit is unknown
+        return next(iter(renumbered.components(action)))
+    generated = generation.package.content(inputs.folder.path(action.path)).decode()
+    mine, names = inputs.files.text(action.path) or "", renumbered.names(action, words_in(base))
+    moved, unmoved = (find_conflict(action, [base], edited, generated, each).merged(None) for each in (names, {}))
+    is_same = moved == unmoved
+    has_moved = moved is not None and find_conflict(action, [generated], moved, mine).merged(None) == mine
+    return "" if is_same or has_moved else next(iter(names))
 
 
 def _element(action: Action) -> ElementKey | None:
@@ -213,13 +258,18 @@ def _element(action: Action) -> ElementKey | None:
 
 
 def _named(
-    inputs: Inputs, lines: Iterable[str], doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
+    inputs: Inputs,
+    lines: Iterable[str],
+    doubts: Mapping[ElementKey, Doubt],
+    renumbered: Renumbered,
+    snapshot: Snapshot,
 ) -> Doubt | None:
-    """Return the doubt about the first doubtful element in these lines of a common file; None without one."""
-    if not doubts:
+    """Return the doubt about the first doubtful element or part in these lines of a common file; None without one."""
+    if not (doubts or renumbered):
         return None
     elements = elements_by_identifier(inputs.domain, snapshot, inputs.last.target)
     code = text_of(code_of("\n".join(lines).encode()))
     words = dict.fromkeys(re.findall(r"\w+", code))
-    found = (elements.get(identifier_of(word, elements)) for word in words)
-    return next((doubts[key] for key in found if key and key in doubts), None)
+    found = list(filter(None, (elements.get(identifier_of(word, elements)) for word in words)))
+    of_elements = (doubts[key] for key in found if key in doubts)
+    return next(of_elements, None) or renumbered.doubt(words, [" ".join(key) for key in found])

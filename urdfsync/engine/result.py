@@ -73,7 +73,8 @@ class DisputedFile(msgspec.Struct, frozen=True):
             lost = "its merge base, the text that urdfsync wrote last, is not recorded"
             return texts.rejected or f"{'there is no base' if is_unowned else lost}, so it can't be merged"
         if self.merges:
-            return "the changes fit together: --merge takes both"
+            told = f"{texts.renumbered}; " if texts.renumbered else ""
+            return f"{told}the changes fit together: --merge takes both"
         if texts.rejected:
             return f"--merge would not be right: {texts.rejected}"
         contradictions = texts.merge.contradictions

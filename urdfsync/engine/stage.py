@@ -281,7 +281,8 @@ def _open_record(
     questions = (action for action in decision.actions if action.reason is Reason.ASKED)
     asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
     # a decision about an earlier export does not answer a question, not in the next build either
-    confirmed |= old.confirmed.difference(question.mine for question in asked.values())
+    outdated = decision.outdated.union(question.mine for question in asked.values())
+    confirmed |= old.confirmed.difference(outdated)
     renames = decision.differences.renames
     if pending(inputs):  # the user may delete a declaration
         renames = match_with_last(inputs, generation.now.snapshot, {}).renames

@@ -14,7 +14,7 @@ from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.diff.meanings import describe
-from urdfsync.urdf.diff.renames import find_features
+from urdfsync.urdf.diff.renames import find_features, find_shapes
 from urdfsync.urdf.kinematics.loops import find_loop_findings
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
@@ -122,7 +122,7 @@ class UrdfDomain(Domain):
 
         return convert(dependency, file, content, others)
 
-    features = staticmethod(find_features)
+    features, numbered = staticmethod(find_features), staticmethod(find_shapes)
 
     def drawing(
         self,

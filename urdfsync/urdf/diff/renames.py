@@ -1,4 +1,4 @@
-"""Finds the features that identify renamed links, joints and loops, and renames elements of a robot."""
+"""Finds the features that identify renamed links, joints, loops and shapes, and renames elements of a robot."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from typing import Any, TypeAlias
 from msgspec import to_builtins
 from msgspec.structs import replace
 
-from urdfsync.domain import ElementKey, Features, displaced, plain
+from urdfsync.domain import ElementKey, Features, Numbered, Version, displaced, plain
 from urdfsync.urdf.drives import can_be_driven, passive_joints
-from urdfsync.urdf.robot import SENSOR_KINDS, Collision, Mesh, Robot, Visual
+from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.robot import SENSOR_KINDS, Collision, Link, Mesh, Robot, Visual
 
 _NAMES = frozenset(
     {"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start", "motor"}
@@ -53,6 +54,37 @@ def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
             existing = {relation: end for relation, end in ends.items() if end in features}
             features[kind, element.name] = Features(contents, existing)
     return features
+
+
+def find_shapes(old: Version, new: Version) -> tuple[Numbered, Numbered]:
+    """Return the shapes of the links of two versions.
+
+    A mesh of both versions is known by its contents, since exporters number files, too. Other meshes have their names.
+    """
+    hashes = [{name: file.source_hash for name, file in (version.imports or {}).items()} for version in (old, new)]
+    shared = set(hashes[0].values()) & set(hashes[1].values())
+    found = list[Numbered]()
+    for version, files in zip((old, new), hashes, strict=True):
+        known = {name: sha256 for name, sha256 in files.items() if sha256 in shared}
+        found.append({("link", link.name): dict(_shapes(link, known)) for link in version.snapshot.links})
+    return found[0], found[1]
+
+
+def _shapes(link: Link, meshes: Mapping[str, str]) -> Iterator[tuple[str, tuple[ElementKey, Features]]]:
+    """Yield the shapes of a link; a contact with the ground goes with its collision. `meshes` has hashes of files."""
+    kinds: Mapping[str, Sequence[Visual | Collision]] = {
+        "visual": link.visuals,
+        "collision": link.collisions,
+        "contact": link.collisions,
+    }
+    for kind, shapes in kinds.items():
+        names = Counter(shape.name for shape in shapes)
+        for number, shape in enumerate(shapes, 1):
+            contents = _without_names(to_builtins(shape))
+            if isinstance(shape.geometry, Mesh):
+                contents["file"] = meshes.get(lookup.key(shape.geometry), shape.geometry.filename)
+            name = shape.name if names[shape.name] == 1 and shape.name else f"#{number}"
+            yield f"{kind}{number}", ((kind, name), Features(contents, {}))
 
 
 def _without_names(value: Any) -> Any:
