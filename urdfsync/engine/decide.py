@@ -296,8 +296,8 @@ def _conflict(
     for name, new in numbers.items():
         if GONE in new and new in proposal:  # no answer may write this name
             rejected = f"`{name}` is another part now, and the export has no part like the one that you edited"
-            merge = conflict.merge and conflict.merge.rejected
-            return msgspec.structs.replace(conflict, merge=merge, rejected=rejected)
+            without = conflict.merge and conflict.merge.rejected
+            return msgspec.structs.replace(conflict, merge=without, rejected=rejected)
     return msgspec.structs.replace(conflict, renumbered=renumbered.describe(action, numbers)) if numbers else conflict
 
 
