@@ -28,9 +28,9 @@ CAN_CHANGE_MODES = os.name == "posix"
 
 
 def contents(folder: Path) -> Contents:
-    """Every file below a folder except the lock; a link counts with its target."""
+    """Every file below a folder except the lock and this machine's records; a link counts with its target."""
     found = workplace.contents(folder).items()
-    return {n: c for n, c in found if c != "folder" and not re.search(r"\.urdfsync/lock$", n)}
+    return {n: c for n, c in found if c != "folder" and not re.search(r"\.urdfsync/(lock$|deps/)", n)}
 
 
 @pytest.fixture
