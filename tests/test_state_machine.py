@@ -463,6 +463,7 @@ class Walk(RuleBasedStateMachine):
                 self.verdict()
             else:
                 Path(path).write_text(_OWN.sub("", Path(path).read_text()))
+                self.look()  # the user has removed them, no command
         self.look()
         self.verdict()
 
