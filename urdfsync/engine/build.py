@@ -158,7 +158,8 @@ class _Builder:
         """
         if plan.notes:
             written = {**written, **notes.save(self._state_folder, robot.name, plan.notes)}
-        self._reads.renew(written, str(robot.folder))
+        if written:  # most plans write nothing, and have read hundreds of files
+            self._reads.renew(written, str(robot.folder))
         result = msgspec.structs.replace(plan.result, reads=FactList.of(self._reads))
         if plan.writes:
             next_result = None if self._options.dry else plan.next_result
