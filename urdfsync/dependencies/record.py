@@ -11,7 +11,7 @@ import os
 import time
 
 from urdfsync.dependencies import localfile, places, program
-from urdfsync.dependencies.facts import MAX_FILE, VARIABLE, hash_file, is_young, look
+from urdfsync.dependencies.facts import MAX_FILE, PATH, VARIABLE, hash_file, is_young, look
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
 if TYPE_CHECKING:
@@ -46,15 +46,18 @@ class FactList:
         return [look(kind, path) for kind, path in self.entries]
 
     def first_change(self, seen: dict[Entry, Facts]) -> Entry | None:
-        """Return the first changed entry; `seen` has facts that were looked at just now, and gets the others.
+        """Return the first changed entry; `seen` has listings that were looked at just now, and gets the others.
 
         Robots of one package read the same folders: a fleet of 1,000 would list 1,000 names 1,000 times. Most changes
         are of the source, which is among the first entries: in the daemon, looking at all takes a tenth of an event.
         """
         for entry, known in zip(self.entries, self._facts, strict=True):
-            if entry not in seen:
-                seen[entry] = look(*entry)
-            if hash(seen[entry]) != known:
+            kind, path = entry
+            if kind == PATH:
+                facts = look(kind, path)
+            elif (facts := seen.get(entry, ())) == ():
+                facts = seen[entry] = look(kind, path)
+            if hash(facts) != known:
                 return entry
         return next((entry for number, entry in enumerate(self.entries) if not self._has_content(number)), None)
 
@@ -73,11 +76,10 @@ class FactList:
         except OSError:
             return False
 
-    def aged(self, seen: Sequence[Facts]) -> FactList:
-        """Return the list without contents, if all its files are old now; `seen` are the present facts."""
-        now = time.time_ns()
-        young = (seen[number] for number, sha256 in enumerate(self._hashes) if sha256 != _OLD)
-        if any(is_young(facts, now) for facts in young):
+    def aged(self) -> FactList:
+        """Return the list without contents, if all its files are old now."""
+        now, entries = time.time_ns(), zip(self.entries, self._hashes, strict=True)
+        if any(is_young(look(*entry), now) for entry, sha256 in entries if sha256 != _OLD):
             return self
         return FactList(self.entries, self._facts, [_OLD] * len(self.entries))
 
@@ -162,8 +164,8 @@ def _text(content: bytes) -> str:
 
 def find_change(folder: str, name: str, record: Record, seen: dict[Entry, Facts]) -> Entry | None:
     """Return the first entry of a record that has changed; None if all is as it was. See `FactList.first_change`."""
-    change, facts = record.facts.first_change(seen), record.facts
-    if change is None and not facts.is_old and (aged := facts.aged([seen[one] for one in facts.entries])).is_old:
+    change = record.facts.first_change(seen)
+    if change is None and not record.facts.is_old and (aged := record.facts.aged()).is_old:
         Record(record.key, aged, record.words, record.result).save(folder, name)
     return change
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import functools
 import hashlib
 from collections.abc import Iterable
 from typing import Self
@@ -232,13 +233,11 @@ class Action(msgspec.Struct, frozen=True):
 class Actions(tuple[Action, ...]):
     """The actions for all files of a robot, in the order of their paths."""
 
-    __slots__ = ()
-
     def __new__(cls, actions: Iterable[Action] = ()) -> Actions:
         """Sort the actions by path."""
         return super().__new__(cls, sorted(actions, key=lambda action: action.path))
 
-    @property
+    @functools.cached_property
     def decided(self) -> tuple[Action, ...]:
         """All actions except those on unchanged files: in most builds, a few out of thousands."""
         return tuple(action for action in self if action.reason not in (Reason.UNCHANGED, Reason.UNKNOWN))

@@ -210,7 +210,7 @@ class Result(msgspec.Struct, frozen=True):
                 them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
                 phrase = reason.to_do if self.dry else reason.done
                 phrases.append(phrase.format(n=number, them=them, have=have, s=s))
-        if given_back := sum(one.choice is Choice.UNDO and one.is_conflict for one in self.actions):
+        if given_back := sum(one.choice is Choice.UNDO and one.is_conflict for one in self.actions.decided):
             phrases.insert(0, f"{counted(given_back, 'file')} set back to your former text")
         if self.renews and self.in_step and not (self.writes or self.dry or self.settled):
             phrases.append("recorded state renewed: commit .urdfsync")

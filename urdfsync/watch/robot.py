@@ -63,7 +63,7 @@ class WatchedRobot(msgspec.Struct):
         before, self.seen = self.seen, self.facts.look()
         self.changes = list(self.facts.changes(self.seen))
         if not self.changes:
-            self.facts = self.facts.aged(self.seen)
+            self.facts = self.facts.aged()
         return self.seen != before
 
     @property
