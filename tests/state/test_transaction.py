@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -17,7 +17,7 @@ from support.crashes import CHANGES, Operation, before_each
 from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest, shown
 from urdfsync.state import file_operations, transaction
-from urdfsync.state.transaction import FileChange, Transactions, UnfinishedError, is_interrupted, save
+from urdfsync.state.transaction import FileChange, Transactions, UnfinishedError, Writes, is_interrupted, save
 
 
 @pytest.fixture
@@ -38,6 +38,11 @@ def changes(tmp_path: Path) -> list[FileChange]:
         FileChange(tmp_path / "b/c/made.mo", b"made", None),
         FileChange(tmp_path / "state/robots/arm.json", b"record", None),
     ]
+
+
+def writes(changes: Sequence[FileChange]) -> Writes:
+    """All changes of a build whose last one is the record."""
+    return Writes(files=tuple(changes[:-1]), record=tuple(changes[-1:]))
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -62,7 +67,7 @@ def test_a_file_gets_the_group_of_its_folder(
     for folder in (tmp_path, tmp_path / "a"):
         os.chown(folder, -1, 4321)
         folder.chmod(0o2775)
-    transactions.apply("arm", changes)
+    transactions.apply("arm", writes(changes))
     assert {(tmp_path / name).stat().st_gid for name in DONE} == {4321}
 
 
@@ -77,7 +82,7 @@ def test_what_is_not_as_planned_stays(
         mine.mkdir()
     else:
         mine.write_bytes(b"mine")
-    applied = transactions.apply("arm", changes, [tmp_path / "a"])
+    applied = transactions.apply("arm", writes(changes), [tmp_path / "a"])
     assert applied.not_done == tuple(dict.fromkeys([mine, changes[3].path]))
     after = DONE if number == 3 else OVERTAKEN
     assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"" if is_folder else b"mine"}
@@ -91,7 +96,7 @@ def test_a_moved_text_that_finds_its_place_taken_is_kept(
     place = changes[number].path
     place.parent.mkdir(parents=True, exist_ok=True)
     place.write_bytes(b"mine")
-    (said,) = transactions.apply("arm", changes).diagnostics
+    (said,) = transactions.apply("arm", writes(changes)).diagnostics
     assert (place.read_bytes(), place.with_name(f"{place.name}.saved").read_bytes()) == (b"mine", b"moved")
     assert said.code == "kept-save"
     assert f"{place.name}.saved" in said.message
@@ -103,7 +108,7 @@ def test_nothing_is_written_outside(tmp_path: Path, changes: list[FileChange], p
     (root / "linked").symlink_to(tmp_path)
     before = contents(tmp_path)
     with pytest.raises(OutputError):
-        Transactions(root, root / "state").apply("arm", [FileChange(root / place, b"", None)])
+        Transactions(root, root / "state").apply("arm", writes([FileChange(root / place, b"", None)]))
     assert contents(tmp_path) == before
 
 
@@ -133,7 +138,7 @@ def test_a_power_failure_at_any_moment_loses_nothing(
     for name in ("exchange", "place", "replace"):
         before(name, take_place)
     before("sync", at_risk.difference_update)
-    transactions.apply("arm", changes)
+    transactions.apply("arm", writes(changes))
     assert at_risk == set()
 
 
@@ -167,7 +172,7 @@ def test_what_cant_be_written_leaves_no_trace(
     full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     monkeypatch.setattr(file_operations, "write", mock.Mock(side_effect=full))
     with pytest.raises(OutputError, match="No space left"):
-        transactions.apply("arm", changes)
+        transactions.apply("arm", writes(changes))
     assert contents(tmp_path) == before
 
 
@@ -182,7 +187,7 @@ def test_what_cant_be_finished_is_finished_later(
         real(path, target)
 
     monkeypatch.setattr(file_operations, "place", fail)
-    for attempt in (lambda: transactions.apply("arm", changes, [tmp_path / "a"]), transactions.recover):
+    for attempt in (lambda: transactions.apply("arm", writes(changes), [tmp_path / "a"]), transactions.recover):
         with pytest.raises(UnfinishedError) as caught:
             attempt()
         assert [(found.file, found.code) for found in caught.value.diagnostics] == [("b/c/made.mo", "unfinished")]
@@ -261,13 +266,11 @@ def test_a_full_disk_leaves_a_file_as_it_was(tmp_path: Path, monkeypatch: pytest
 def test_bases_are_there_first_and_go_last_and_the_record_comes_after_all(
     tmp_path: Path, transactions: Transactions
 ) -> None:
-    files = ["robots/arm.state", "bases/arm/0", "../Arm.mo", "bases/arm/1", "../Old.mo"]
-    paths = [Path(os.path.normpath(tmp_path / "state" / file)) for file in files]
-    for path in paths[3:]:
-        path.parent.mkdir(parents=True, exist_ok=True)
+    paths = [tmp_path / name for name in ("base", "Arm.mo", "Old.mo", "old base", "record")]
+    for path in paths[2:4]:
         path.write_bytes(b"old")
-    changes = [FileChange(path, b"new", None) for path in paths[:3]]
-    changes += [FileChange(path, None, digest(b"old")) for path in paths[3:]]
+    base, file, record = (FileChange(path, b"new", None) for path in (paths[0], paths[1], paths[4]))
+    old_file, old_base = (FileChange(path, None, digest(b"old")) for path in paths[2:4])
     order: list[Path] = []
 
     def note(operation: Operation) -> None:
@@ -275,8 +278,8 @@ def test_bases_are_there_first_and_go_last_and_the_record_comes_after_all(
             order.extend(path for path in operation.paths if path in paths)
 
     with before_each(note):
-        transactions.apply("arm", changes)
-    assert [paths.index(path) for path in order] == [1, 2, 4, 3, 0]
+        transactions.apply("arm", Writes((old_base, base), (old_file, file), (record,)))
+    assert order == paths
 
 
 def test_what_is_written_through_an_open_handle_takes_its_place_again(
@@ -290,7 +293,7 @@ def test_what_is_written_through_an_open_handle_takes_its_place_again(
                 handle.write(b"mine")
 
         with before_each(write):
-            applied = transactions.apply("arm", changes)
+            applied = transactions.apply("arm", writes(changes))
     assert applied.not_done == (changes[0].path, changes[3].path)
     assert changes[0].path.read_bytes().startswith(b"mine")
 
@@ -306,7 +309,7 @@ def test_of_saves_between_look_and_change_the_last_counts(
             path.write_bytes(text)
 
     with before_each(save):
-        applied = transactions.apply("arm", changes)
+        applied = transactions.apply("arm", writes(changes))
     assert applied.not_done == (path, changes[3].path)
     assert path.read_bytes() == (b"first" if number else b"second"), "a deletion is not tried again"
 
@@ -315,5 +318,5 @@ def test_an_overtaken_build_leaves_no_planned_hashes(
     tmp_path: Path, transactions: Transactions, changes: list[FileChange]
 ) -> None:
     changes[0].path.write_bytes(b"mine")
-    assert transactions.apply("arm", changes).not_done
+    assert transactions.apply("arm", writes(changes)).not_done
     assert not is_interrupted(tmp_path / "state")

@@ -142,7 +142,8 @@ class _Builder:
                 continue
             files = PackageFiles(self._config, robot)
             shared = [change for file in plan.shared if (change := file.change(files)) is not None]
-            applied = self._transactions.apply(robot.name, [*shared, *plan.writes], plan.emptied)
+            writes = msgspec.structs.replace(plan.writes, files=(*shared, *plan.writes.files))
+            applied = self._transactions.apply(robot.name, writes, plan.emptied)
             self.notes += applied.diagnostics
             if not applied.not_done:  # empty unless somebody saved a file meanwhile
                 return self._finish(robot, plan, applied.written)

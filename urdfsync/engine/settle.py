@@ -54,68 +54,96 @@ class _Choices:
 
     def apply(self, action: Action, chosen: UsersChoice) -> bool:
         """Apply one choice; return whether the choice fits its file."""
-        inputs, decision, settled = self._inputs, self._decision, self.settled
-        choice, key = chosen.choice, action.origin or action.path
-        reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
-        content = mine = inputs.files.read_on_disk(key)
-        conflict = decision.disputed.get(action.path)
-        if choice is Choice.MOVED:
-            return action.reason is Reason.ASKED and self._move(action, chosen.text)
-        if choice is Choice.UNDO:
-            aside = inputs.last.aside.get(inputs.folder.path(key))
-            if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
-                return False
-            content, reason = inputs.store.aside_text(inputs.last.name, aside.file), Reason.UNDO
-            if content is None:
-                return False
-            record = FileRecord(aside.bases)
-            settled.texts.update(aside.texts)
-            for path, model in aside.beside.items():
-                if (place := inputs.folder.key(path)) not in settled.contents and inputs.files.read(place) is None:
-                    settled.contents[place] = encode(model)
-                    settled.bases[place], texts = known_bases(model)
-                    settled.texts.update(texts)
-        elif action.reason is Reason.ORPHAN and choice in (Choice.KEEP, Choice.TAKE):
-            if choice is Choice.TAKE:
-                content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())
-        elif choice is Choice.TAKE and action.mine is not None and (action.is_conflict or action.reason in _EDITED):
-            path, reason = inputs.folder.path(action.path), Reason.UPDATE
-            if action.generated is None:  # a class of the user's own: its text with new names is proposed
-                text = conflict.merged(None) if conflict else None
-                content = None if text is None else encode(text)
-            else:
-                content = self._generation.content(path, action.role, mine or b"")
-            if content is None:
-                return False
-        elif not (action.is_conflict or conflict):
-            return False
-        elif choice is Choice.KEEP:
-            content = inputs.files.read(key)
-            # the user says that the part is the same: later exports still merge into its file
-            if action.reason is Reason.ASKED:
-                record = inputs.last.files.get(key, record)
-            if conflict and action.origin:
-                from urdfsync.merge.renames import rename, without_clashes  # imports the parser
-                from urdfsync.modelica.layout import with_within
+        match chosen.choice:
+            case Choice.MOVED:
+                return action.reason is Reason.ASKED and self._move(action, chosen.text)
+            case Choice.UNDO:
+                return self._undo(action)
+            case Choice.KEEP:
+                return self._keep(action)
+            case Choice.TAKE:
+                return self._take(action)
+            case _:
+                return self._merge(action, chosen)
 
-                # the file gets new names only when it moves
-                names = {new: old for old, new in without_clashes(decision.names, conflict.mine).items()}
-                package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
-                record, texts = known_bases(with_within(rename(conflict.generated, "", names)[0], package))
-                settled.texts.update(texts)
-            if markers := find_markers((content or b"").decode(errors="replace")):
-                message, hint = "unresolved merge markers", "settle them in the file, then build again"
-                raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
-        elif choice is not Choice.TAKE and conflict:
-            text = chosen.text if choice is Choice.EDIT else conflict.merged(choice)
-            if text is None:
-                return False
-            if conflict.is_of_branches:  # the text was merged with no generated one: the build does that next
-                record = inputs.last.files.get(key, record)
-            content, reason = encode(text), Reason.KEEP if text == conflict.mine else Reason.MERGE
-        else:
+    def _undo(self, action: Action) -> bool:
+        """Give back the text that a build replaced, unless the user has saved the file since."""
+        inputs, settled, key = self._inputs, self.settled, action.origin or action.path
+        aside = inputs.last.aside.get(inputs.folder.path(key))
+        if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
             return False
-        self._add(action, content, record, reason, choice)
+        content = inputs.store.aside_text(inputs.last.name, aside.file)
+        if content is None:
+            return False
+        settled.texts.update(aside.texts)
+        for path, model in aside.beside.items():
+            if (place := inputs.folder.key(path)) not in settled.contents and inputs.files.read(place) is None:
+                settled.contents[place] = encode(model)
+                settled.bases[place], texts = known_bases(model)
+                settled.texts.update(texts)
+        self._add(action, content, FileRecord(aside.bases), Reason.UNDO, Choice.UNDO)
+        return True
+
+    def _keep(self, action: Action) -> bool:
+        """Keep the user's text; the generated text becomes its base, so only later exports conflict again."""
+        inputs, key = self._inputs, action.origin or action.path
+        conflict = self._decision.disputed.get(action.path)
+        if action.reason is Reason.ORPHAN:
+            self._add(action, inputs.files.read_on_disk(key), FileRecord(), Reason.KEEP, Choice.KEEP)
+            return True
+        if not (action.is_conflict or conflict):
+            return False
+        record, content = _generated_base(action), inputs.files.read(key)
+        if action.reason is Reason.ASKED:  # the user says that the part is the same: later exports still merge
+            record = inputs.last.files.get(key, record)
+        if conflict and action.origin:
+            from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+            from urdfsync.modelica.layout import with_within
+
+            # the file gets new names only when it moves
+            names = {new: old for old, new in without_clashes(self._decision.names, conflict.mine).items()}
+            package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
+            record, texts = known_bases(with_within(rename(conflict.generated, "", names)[0], package))
+            self.settled.texts.update(texts)
+        if markers := find_markers((content or b"").decode(errors="replace")):
+            message, hint = "unresolved merge markers", "settle them in the file, then build again"
+            raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
+        self._add(action, content, record, Reason.KEEP, Choice.KEEP)
+        return True
+
+    def _take(self, action: Action) -> bool:
+        """Take the generated text, or delete a file that is not generated any more."""
+        inputs, key = self._inputs, action.origin or action.path
+        if action.reason is Reason.ORPHAN:
+            self._add(action, None, inputs.last.files.get(key, FileRecord()), Reason.DELETE, Choice.TAKE)
+            return True
+        if action.mine is None or not (action.is_conflict or action.reason in _EDITED):
+            return False
+        if action.generated is None:  # a class of the user's own: its text with new names is proposed
+            conflict = self._decision.disputed.get(action.path)
+            text = conflict.merged(None) if conflict else None
+            content = None if text is None else encode(text)
+        else:
+            mine = inputs.files.read_on_disk(key) or b""
+            content = self._generation.content(inputs.folder.path(action.path), action.role, mine)
+        if content is None:
+            return False
+        self._add(action, content, _generated_base(action), Reason.UPDATE, Choice.TAKE)
+        return True
+
+    def _merge(self, action: Action, chosen: UsersChoice) -> bool:
+        """Take a merge of both sides, or the text that the user has edited."""
+        conflict, key = self._decision.disputed.get(action.path), action.origin or action.path
+        if conflict is None:
+            return False
+        text = chosen.text if chosen.choice is Choice.EDIT else conflict.merged(chosen.choice)
+        if text is None:
+            return False
+        record = _generated_base(action)
+        if conflict.is_of_branches:  # the text was merged with no generated one: the build does that next
+            record = self._inputs.last.files.get(key, record)
+        reason = Reason.KEEP if text == conflict.mine else Reason.MERGE
+        self._add(action, encode(text), record, reason, chosen.choice)
         return True
 
     def _add(self, action: Action, content: bytes | None, record: FileRecord, reason: Reason, choice: Choice) -> None:
@@ -204,6 +232,11 @@ class _Choices:
         names = names_of(inputs, generation, {identifiers[old]: identifiers[new]}, frozenset(words_in(base)))
         merged = merge(base, mine, text, is_modelica=True, names=names)
         return None if merged.flaw else merged.text
+
+
+def _generated_base(action: Action) -> FileRecord:
+    """Return a record with the generated text as base; without one, no base."""
+    return FileRecord((action.generated,) if action.generated else ())
 
 
 def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:

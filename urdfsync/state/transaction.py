@@ -3,7 +3,7 @@
 1. The planned hashes are written under a temporary name.
 2. All new files are written beside their targets under temporary names, and written through to the disk.
 3. The planned hashes get their final name. Until then nothing has changed, and an error leaves no trace.
-4. Each target is exchanged with its new file, bases first, deletions last. The old file then has the temporary name.
+4. Each target is exchanged with its new file, in the order of `Writes`. The old file then has the temporary name.
    The old file's hash shows whether it is the file of the plan. If not, somebody has saved the target meanwhile: the
    two files are exchanged back, and the target is *overtaken*.
 5. The recorded state is replaced, unless a target was overtaken.
@@ -54,6 +54,25 @@ class FileChange(msgspec.Struct, frozen=True):
     """Whether this is a user's text from another path; if it can't move here, it is kept under another name."""
 
 
+class Writes(msgspec.Struct, frozen=True):
+    """All changes of one build."""
+
+    before: tuple[FileChange, ...] = ()
+    """Bases and copies: each text is known by its base, and copied if it will be replaced, before its file changes."""
+    files: tuple[FileChange, ...] = ()
+    record: tuple[FileChange, ...] = ()
+    """Recorded state: it changes only if all other files did."""
+
+    def in_order(self) -> list[FileChange]:
+        """Return all changes in the order in which they are made: deletions come late, and the record last."""
+        written = (change for change in (*self.before, *self.files) if change.content is not None)
+        deleted = (change for change in (*self.files, *self.before) if change.content is None)
+        return [*written, *deleted, *self.record]
+
+    def __bool__(self) -> bool:
+        return bool(self.before or self.files or self.record)
+
+
 class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
     """The change of one file, as SHA-256 (hex) of old and new bytes; None stands for no file."""
 
@@ -71,6 +90,9 @@ class PlannedBuild(msgspec.Struct, frozen=True):
     token: str
     """Part of the temporary files' names: hexadecimal."""
     files: tuple[PlannedFile, ...]
+    """In the order of their changes."""
+    recorded: int = 0
+    """The number of files of the recorded state; they are the last ones."""
     emptied: tuple[str, ...] = ()
     """Folders to delete if they are empty after the build, innermost first."""
 
@@ -94,18 +116,20 @@ class Transactions:
         self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
         self._planned, self._draft = state_folder / PLANNED, state_folder / DRAFT
 
-    def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
+    def apply(self, robot: str, writes: Writes, emptied: Iterable[Path] = ()) -> Applied:
         """Make all changes.
 
         `emptied` are folders to remove if they are empty afterwards. Raises OutputError if a file can't be written and
         nothing has changed. Raises UnfinishedError if files have changed; `recover` finishes the changes.
         """
+        changes = writes.in_order()
         hashes = (None if change.content is None else digest(change.content) for change in changes)
         files = tuple(
             PlannedFile(self._key(change.path), change.old, new, change.is_moved)
             for change, new in zip(changes, hashes, strict=True)
         )
-        build = PlannedBuild(robot, os.urandom(8).hex(), files, tuple(map(self._key, emptied)))
+        folders = tuple(map(self._key, emptied))
+        build = PlannedBuild(robot, os.urandom(8).hex(), files, len(writes.record), folders)
         targets, made, has_begun = self._targets(build), self._missing_folders(changes), False
         try:
             self._prepare(build, made, targets, [change.content for change in changes])
@@ -204,16 +228,11 @@ class Transactions:
     def _finish(self, build: PlannedBuild, targets: Sequence[_Target]) -> Applied:
         """Change all targets that have not changed yet, and remove all temporary files. Raises OSError."""
         file_operations.sync([self._state_folder])
-        state_folder = str(self._state_folder / "robots")
-        state = [target for target in targets if target.folder == state_folder]
-        others = [target for target in targets if target.folder != state_folder]
-        bases = f"{self._state_folder / 'bases'}{os.sep}"
-        # bases are written before their files, and deleted after their files
-        others.sort(key=lambda target: (target.new is None, target.folder.startswith(bases) == (target.new is None)))
+        others, record = targets[: len(targets) - build.recorded], targets[len(targets) - build.recorded :]
         changed = [(target, target.change()) for target in others]
         # a second time: a process may have written to an old file through an open handle
         not_done = [target.path for target, done in changed if not (done if target.old is None else target.change())]
-        for target in state:
+        for target in record:
             if not_done or not target.change():
                 not_done.append(target.path)
         folders = sorted({target.folder for target in targets})
