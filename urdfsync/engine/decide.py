@@ -436,7 +436,7 @@ def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
 
 
 def _decide_orders(
-    inputs: Inputs, package: Package, differences: Differences, actions: Iterable[Action]
+    inputs: Inputs, package: Package, differences: Differences, actions: Sequence[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
     """Decide on `package.order` files, and on the packages around the robot's.
 
@@ -449,32 +449,17 @@ def _decide_orders(
     if robot.folder.parent != robot.output and inputs.parents.listed:
         desired[files.key(robot.folder.parent / "package.order")] = (robot.folder.name,)
     inside = (inputs.folder.key(""), inputs.last.folder.key(""))
-    orphans = [action.path for action in actions if action.reason in ORPHANS]
     decided, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
-        old, names, owned, text = files.text(key), desired.get(key, ()), list[str](), None
-        if old is not None:
-            is_united = inputs.last.record.is_united
-            is_joined = find_markers(old) and united.can_join(files.path(key), old, is_united=is_united)
-            text = join_sides(old) if is_joined else old
-            written, wanted = recorded.get(key, ()), set(names)
-            # looking at the disk for all names would take 15 ms with 100 links
-            unwanted = [name for name in written if name not in wanted]
-            removable = _removable_lines(inputs, key, text, unwanted, actions)
-            owned = [*(name for name in written if name in wanted), *removable]
-        if inputs.options.adopts and old is None:  # list the user's classes, too: tools hide unlisted classes
-            users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
-            names = (*names, *(name for name in users if name not in names))
-        if recorded.get(key):  # `--undo` brought an orphan back
-            names = (*names, *(name for name in _classes_beside(key, orphans) if name not in names))
-        new = texts[key] = merge_order(text, names, owned)
-        if old is None:
-            reason = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE
-        else:
-            reason = Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
+        old, written, generated = files.text(key), recorded.get(key, ()), desired.get(key, ())
+        text = None if old is None else _order_text(inputs, key, old)
+        names = _wanted_lines(inputs, key, generated, written, actions)
+        owned = () if text is None else _owned_lines(inputs, key, text, generated, written, actions)
+        texts[key] = merge_order(text, names, owned)
+        reason = _order_reason(old, texts[key], is_recorded=key in recorded)
         decided.append(Action(key, reason, Role.ORDER, "package"))
         if not key.startswith(inside):
-            shared.append(SharedFile(files.path(key), None, names, tuple(owned)))
+            shared.append(SharedFile(files.path(key), None, names, owned))
     for file in inputs.parents.shared:
         key = files.key(file.path)
         if file.content is not None:
@@ -484,3 +469,45 @@ def _decide_orders(
             reason = Reason.CREATE if old is None else Reason.UPDATE
             decided.append(Action(key, reason, Role.ORDER, "parent package"))
     return decided, texts, [*shared, *inputs.parents.shared]
+
+
+def _order_reason(old: str | None, new: str, *, is_recorded: bool) -> Reason:
+    """Decide on one `package.order` by its text on disk, None without a file, and its new text, empty for no file."""
+    if old is None:
+        return Reason.FORGET if not new else Reason.RESTORE if is_recorded else Reason.CREATE
+    return Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
+
+
+def _order_text(inputs: Inputs, key: str, old: str) -> str:
+    """Return the lines on disk; where git has left both sides of a merge that may stand together, both."""
+    is_united = inputs.last.record.is_united
+    is_joined = find_markers(old) and united.can_join(inputs.files.path(key), old, is_united=is_united)
+    return join_sides(old) if is_joined else old
+
+
+def _wanted_lines(
+    inputs: Inputs, key: str, generated: Sequence[str], written: Collection[str], actions: Iterable[Action]
+) -> tuple[str, ...]:
+    """Return the lines of a `package.order`: those of the generated package, and of classes that no line names."""
+    names = dict.fromkeys(generated)
+    if inputs.options.adopts and inputs.files.text(key) is None:  # tools hide the user's classes without a line
+        names |= dict.fromkeys(_classes_beside(key, inputs.files.classes(key.removesuffix("package.order"))))
+    if written:  # `--undo` brought an orphan back
+        orphans = (action.path for action in actions if action.reason in ORPHANS)
+        names |= dict.fromkeys(_classes_beside(key, orphans))
+    return tuple(names)
+
+
+def _owned_lines(
+    inputs: Inputs,
+    key: str,
+    text: str,
+    generated: Sequence[str],
+    written: Collection[str],
+    actions: Iterable[Action],
+) -> tuple[str, ...]:
+    """Return the lines of a `package.order` on disk that a build may move or remove."""
+    wanted = set(generated)
+    # looking at the disk for all names would take 15 ms with 100 links
+    unwanted = [name for name in written if name not in wanted]
+    return *(name for name in written if name in wanted), *_removable_lines(inputs, key, text, unwanted, actions)

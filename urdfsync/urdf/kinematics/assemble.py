@@ -13,6 +13,7 @@ import itertools
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from msgspec.structs import replace
@@ -193,58 +194,98 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
     drives = [k for k, name in enumerate(names) if name in named]
     closed, kept = _closed_near(problem, drives)
     generic = _generic_poses(problem, closed)
-    normals = [_normal(problem, k) for k in range(len(tree.loops))]
-    candidates = Rows.of(map(_equations, tree.loops, normals))
-    rows = candidates.take(_independent([problem.jacobian(q, candidates) for q in generic]))
-    if idle := [loop.name for k, loop in enumerate(tree.loops) if k not in rows.loops]:
-        reason = "is redundant: other loops and joints already hold its links"
-        raise _UnclosableError(*(Finding("loop-redundant", f"loop {name}", f"loop {name!r} {reason}") for name in idle))
-    closures = {loop.name: _closure(loop, candidates, rows, k, normals[k]) for k, loop in enumerate(tree.loops)}
-    at_start = problem.jacobian(closed, rows)
-    for k, row in enumerate([*_independent([at_start]), -1][: len(rows.loops)]):
-        if row != k:
-            raise _singular(tree.loops[rows.loops[k]], "its equations depend on each other only there")
-    freedom = _null_space(at_start)
-    if drives:
-        spaces = [_null_space(problem.jacobian(q, rows)) for q in generic]
-        drives = [drives[k] for k in _independent([space[drives] for space in spaces])]
+    constraints = _constraints(problem, closed, generic)
     ranks = {k: _rank(joint) for k, joint in enumerate(problem.independent) if joint.name in wanted}
-    best = min(ranks.values(), default=0)
-    driven = drives or sorted((k for k in ranks if ranks[k] < len(_REASONS) or ranks[k] == best), key=ranks.__getitem__)
-    driven = [driven[k] for k in _independent([freedom[driven]])]
-    for k in drives:
-        if k not in driven:
-            raise _singular(tree.loops[np.argmax(problem.moves[:, k])], f"joint {names[k]!r} is at a dead point")
-    states = _with_others(freedom, driven)
-    kept += driven  # driven joints also keep their starts, which have few digits
-    exact = _with_others(freedom, [kept[k] for k in _independent([freedom[kept]])])
-    free = np.array([k not in exact for k in range(len(names))])
-    q = np.where(np.abs(closed - problem.start) > 1e-9, np.round(closed, 9), problem.start)
-    q = problem.close(np.where(free, closed, np.clip(q, problem.lower, problem.upper)), rows, free)
-    q = np.clip(_refine(tree, problem, q, rows, free), problem.lower, problem.upper)
-    free = np.array([k not in states for k in range(len(names))])
-    if list(_open_loops(problem, q)):
-        raise _UnclosableError(*_find_open(problem, q))
-    in_loops = {j.name for k, j in enumerate(problem.joints) if problem.signs[:, k].any()} | set(names)
-    moved = {names[k] for k in driven}
+    driven = _driven(problem, constraints, generic, drives, ranks)
+    states = _with_others(constraints.freedom, driven)
+    # driven joints also keep their starts, which have few digits
+    q = _refined_start(problem, constraints, closed, [*kept, *driven])
     starts = dict(zip(names, map(float, q), strict=True))
     joints = tuple(replace(joint, start=starts.get(joint.name, joint.start)) for joint in tree.joints)
+    in_loops = {j.name for k, j in enumerate(problem.joints) if problem.signs[:, k].any()} | set(names)
+    moved, free = {names[k] for k in driven}, np.array([k not in states for k in range(len(names))])
     return ClosedLoops(
         tree=replace(tree, joints=joints),
         joints=tuple(joint.name for joint in joints if joint.name in in_loops),
         states=tuple(names[k] for k in states),
         driven=frozenset(joint.name for joint in joints if joint.name in moved | (wanted - in_loops)),
         excess=tuple(name for name in names if name in named - moved),
-        reach=_reach(problem, q, rows, driven, free),
-        closures=closures,
+        reach=_reach(problem, q, constraints.rows, driven, free),
+        closures=constraints.closures,
         moved={
-            joint.name: f"by {abs(value - joint.start):.3g} {'m' if joint.type == 'prismatic' else 'rad'}"
-            for joint, value in zip(problem.independent, map(float, q), strict=True)
-            if joint.start is not None and abs(value - joint.start) > NOTABLE
+            joint.name: f"by {abs(starts[joint.name] - joint.start):.3g} {'m' if joint.type == 'prismatic' else 'rad'}"
+            for joint in problem.independent
+            if joint.start is not None and abs(starts[joint.name] - joint.start) > NOTABLE
         },
-        choices={names[k]: _reason(ranks, k) for k in sorted(driven) if not drives},
+        choices={names[k]: _reason(ranks, k) for k in sorted(driven) if k not in drives},
         gaps={loop.name: gap for loop, gap in zip(tree.loops, problem.gaps(problem.start), strict=True)},
     )
+
+
+class _Constraints(NamedTuple):
+    """Equations that close all loops, and do not depend on each other."""
+
+    rows: Rows
+    closures: Mapping[str, Closure]
+    """The same equations by name of loop."""
+    freedom: Array
+    """The free directions of the movable joints at the closed start, as columns."""
+
+
+def _constraints(problem: _Problem, closed: Array, generic: Sequence[Array]) -> _Constraints:
+    """Choose equations that are independent at generic poses; raise an error if they are not at the closed start."""
+    loops, normals = problem.tree.loops, [_normal(problem, k) for k in range(len(problem.tree.loops))]
+    candidates = Rows.of(map(_equations, loops, normals))
+    rows = candidates.take(_independent([problem.jacobian(q, candidates) for q in generic]))
+    if idle := [loop.name for k, loop in enumerate(loops) if k not in rows.loops]:
+        reason = "is redundant: other loops and joints already hold its links"
+        raise _UnclosableError(*(Finding("loop-redundant", f"loop {name}", f"loop {name!r} {reason}") for name in idle))
+    at_start = problem.jacobian(closed, rows)
+    for k, row in enumerate([*_independent([at_start]), -1][: len(rows.loops)]):
+        if row != k:
+            raise _singular(loops[rows.loops[k]], "its equations depend on each other only there")
+    closures = {loop.name: _closure(loop, candidates, rows, k, normals[k]) for k, loop in enumerate(loops)}
+    return _Constraints(rows, closures, _null_space(at_start))
+
+
+def _driven(
+    problem: _Problem,
+    constraints: _Constraints,
+    generic: Sequence[Array],
+    drives: Sequence[int],
+    ranks: Mapping[int, int],
+) -> list[int]:
+    """Return the joints to drive: those of `drives` that can be, else the best by `ranks`.
+
+    Raises an error for a drive at a dead point.
+    """
+    if drives:
+        spaces = [_null_space(problem.jacobian(q, constraints.rows)) for q in generic]
+        drives = [drives[k] for k in _independent([space[drives] for space in spaces])]
+    best = min(ranks.values(), default=0)
+    tried = drives or sorted((k for k in ranks if ranks[k] < len(_REASONS) or ranks[k] == best), key=ranks.__getitem__)
+    driven = [tried[k] for k in _independent([constraints.freedom[tried]])]
+    for k in drives:
+        if k not in driven:
+            loop, name = problem.tree.loops[np.argmax(problem.moves[:, k])], problem.independent[k].name
+            raise _singular(loop, f"joint {name!r} is at a dead point")
+    return driven
+
+
+def _refined_start(problem: _Problem, constraints: _Constraints, closed: Array, kept: Sequence[int]) -> Array:
+    """Return the closed pose to all digits; joints in `kept` keep their few digits if the others can follow.
+
+    Raises an error if a loop is open after all.
+    """
+    rows, freedom = constraints.rows, constraints.freedom
+    exact = _with_others(freedom, [kept[k] for k in _independent([freedom[kept]])])
+    free = np.array([k not in exact for k in range(len(closed))])
+    q = np.where(np.abs(closed - problem.start) > 1e-9, np.round(closed, 9), problem.start)
+    q = problem.close(np.where(free, closed, np.clip(q, problem.lower, problem.upper)), rows, free)
+    q = np.clip(_refine(problem.tree, problem, q, rows, free), problem.lower, problem.upper)
+    if list(_open_loops(problem, q)):
+        raise _UnclosableError(*_find_open(problem, q))
+    return q
 
 
 def _given_limits(limits: tuple[float, float]) -> tuple[float, float]:
