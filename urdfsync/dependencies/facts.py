@@ -14,7 +14,7 @@ from urdfsync.dependencies.places import place
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
 Facts = tuple[int, ...]
 """Integers that differ after a change; a negative number is that of an error of the system."""
@@ -119,17 +119,22 @@ def stat_of(status: os.stat_result) -> Stat:
 
 def list_names(kind: str, folder: str | os.PathLike[str]) -> set[str]:
     """Return the names in a folder that count for a kind of listing. Raises OSError."""
-    with os.scandir(place(folder)) as entries:
-        return counting(kind, ((entry.name, entry.is_dir(follow_symlinks=False)) for entry in entries))
+    with os.scandir(place(folder)) as scanned:
+        return counting_entries(kind, scanned)
 
 
-def counting(kind: str, names: Iterable[tuple[str, bool]]) -> set[str]:
-    """Return the names that count for a kind of listing; each name comes with whether it is that of a folder."""
+def counting_entries(kind: str, scanned: Iterable[os.DirEntry[str]]) -> set[str]:
+    """Return the names of a folder's entries that count for a kind of listing."""
+    entries = {entry.name: entry for entry in scanned}
+    return counting(kind, entries, lambda name: entries[name].is_dir(follow_symlinks=False))
+
+
+def counting(kind: str, names: Iterable[str], is_folder: Callable[[str], bool]) -> set[str]:
+    """Return the names that count for a kind of listing."""
     if kind == NAMES:
-        return {name for name, _ in names}
-    left_out = set(kind.split("/")[1:])
-    visible = (each for each in names if not each[0].startswith("."))
-    return {name for name, is_folder in visible if name.endswith(".mo") or (is_folder and name not in left_out)}
+        return set(names)
+    left_out, visible = set(kind.split("/")[1:]), (name for name in names if not name.startswith("."))
+    return {name for name in visible if name.endswith(".mo") or (name not in left_out and is_folder(name))}
 
 
 def unmerged_paths(index: str | os.PathLike[str]) -> set[str]:

@@ -41,6 +41,9 @@ class Clone:
             os.path.join(path, "") for path in map(os.path.realpath, _PROGRAM) if path.startswith(below)
         )
         self._folders: dict[str, tuple[str, ...]] = {}
+        """The trail of each folder, by absolute path."""
+        self._places: dict[str, str] = {}
+        """Where to find the files of each folder, by absolute path; empty for folders outside of the clone."""
         self._former: Clone | None = None
 
     def __enter__(self) -> Self:
@@ -91,7 +94,21 @@ class Clone:
 
     def place(self, path: str, *, follow: bool = True) -> str:
         """Return where to find the file at a path: in the clone, or outside of the repository."""
-        return self._at(self.trail(path, follow=follow)[-1])
+        if follow:
+            return self._at(self.trail(path)[-1])
+        folder, _, name = path.rpartition(os.sep)
+        if folder not in self._places:
+            self._places[folder] = self._find_folder(folder)
+        if self._places[folder] and name not in ("", ".", ".."):  # robots have thousands of files
+            return f"{self._places[folder]}{os.sep}{name}"
+        return self._at(self.trail(path, follow=False)[-1])
+
+    def _find_folder(self, folder: str) -> str:
+        """Return where to find the files of a folder; empty if some of them may be elsewhere."""
+        if self._program or not os.path.isabs(folder):
+            return ""
+        place = self.trail(folder)[-1]
+        return "" if self.inside(place) is None else self._at(place)
 
     def inside(self, path: str) -> str | None:
         """Return the path from the top of the repository, as in git, of a path without links; None for one outside."""

@@ -26,6 +26,7 @@ from urdfsync.dependencies.facts import (
     Facts,
     checksum,
     counting,
+    counting_entries,
     facts_of,
     failed,
     hash_content,
@@ -115,10 +116,11 @@ class Reads:
                     present, now = set(), failed(error)
                 places = {name: os.path.join(path, name) for name in inside[path]}
                 new = {name for name, at in places.items() if before.get((PATH, at), NOTHING) == NOTHING}
-                old = counting(kind, ((name, places[name] in inside) for name in places.keys() - new))
+                is_folder = {name: place in inside for name, place in places.items()}.__getitem__
+                old = counting(kind, places.keys() - new, is_folder)
                 former = present - places.keys() | old
                 self.complete &= facts == checksum(former) or (facts[0] <= 0 and not former)
-                folders = counting(kind, ((name, True) for name in new if places[name] in inside))
+                folders = counting(kind, filter(is_folder, new), is_folder)
                 self.complete &= all((kind.partition("/")[0], places[name]) in listed for name in folders)
             self.entries[kind, path] = now
 
@@ -261,8 +263,7 @@ def _scan(kind: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
     except OSError as error:
         _record(kind, folder, failed(error))
         raise
-    named = ((entry.name, entry.is_dir(follow_symlinks=False)) for entry in entries)
-    _record(kind, folder, checksum(counting(kind, named)))
+    _record(kind, folder, checksum(counting_entries(kind, entries)))
     return entries
 
 
