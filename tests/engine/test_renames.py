@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.networks import edit
-from support.urdfs import joint, link, robot
+from support.urdfs import joint, link, links, robot
 
 from urdfsync.engine.result import Exit
 
@@ -136,3 +136,36 @@ def test_what_was_declared_while_a_conflict_is_open_can_be_taken_back(built: Pat
     assert renames(execute) == {}
     declare('left_hip = "l_hip"')
     assert renames(execute) == LEGS
+
+
+def test_names_that_are_exchanged_while_a_conflict_is_open_are_recorded_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
+) -> None:
+    """One of two equal parts gives its name away: the next build, which finds nothing new, records nothing new."""
+
+    def export(mass: float, **ends: str) -> None:
+        """A hub with two equal fingers; each joint with its parent and its child."""
+        joints = [
+            joint(name, "revolute", *pair.split(), axis="0 0 1")
+            if name in ("l", "r")
+            else joint(name, "continuous", *pair.split(), axis="0 1 0", xyz="0 0 0", rpy="0 0 0")
+            for name, pair in ends.items()
+        ]
+        names = {child: 1.0 for pair in ends.values() for child in pair.split()}
+        Path("arm.urdf").write_text(
+            robot(*links(**names | {"base": mass, "hub": 2.0, "left": 3.0, "right": 3.0}), *joints)
+        )
+
+    monkeypatch.chdir(tmp_path)
+    export(9.0, hub_joint="base hub", l="hub left", r="hub right")
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    execute("build", "-q")
+    edit("modelica/Arm/Links/BaseParameters.mo", "mass = 9", "mass = 9.5")
+    export(8.0, hub_joint="base hub", other_joint="hub left", r="hub right")
+    execute("build", "-q", code=Exit.CONFLICT)
+    export(8.0, post_joint="base post", hub_joint="post hub", l="hub right", r="hub left")
+    execute("build", "-q", code=Exit.CONFLICT)
+    record = Path(".urdfsync/robots/arm.state").read_text()
+    shutil.rmtree(".urdfsync/deps")
+    execute("build", "-q", code=Exit.CONFLICT)
+    assert Path(".urdfsync/robots/arm.state").read_text() == record

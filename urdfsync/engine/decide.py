@@ -73,12 +73,69 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
         return not any(action.is_waiting or action.is_conflict for action in self.actions)
 
 
+class _Judged(NamedTuple):
+    """What the hashes of the files tell, and which parts the user's edits mean."""
+
+    actions: tuple[Action, ...]
+    origins: frozenset[str]
+    """The former keys of files whose elements have other names."""
+    doubts: Mapping[str, Doubt]
+    renumbered: Renumbered
+    names: Mapping[str, str]
+    """New names by old names; empty if no edit and no text in `aside` needs them."""
+
+
+class _Verdicts(NamedTuple):
+    """Actions on the generated files and on the user's own, with the texts that decide them."""
+
+    actions: Sequence[Action]
+    merged: Mapping[str, str] = {}
+    """The texts that the actions write, by key."""
+    conflicts: Mapping[str, Conflict] = {}
+    """The texts of the files that both sides changed, by key."""
+
+
 def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     """Decide on every file of a robot. Raises OutputError for links and for merge markers."""
-    files, package = inputs.files, generation.package
-    existing = _find_files(inputs, generation)  # first: the comparison needs the meaning of files that git merged
-    differences = compare_with_last(inputs, generation)
-    origins, decided = frozenset(differences.moves.values()), decide(existing, differences.moves)
+    files, package, differences = inputs.files, generation.package, compare_with_last(inputs, generation)
+    judged = _judge(inputs, generation, differences)
+    settled = _merge(inputs, generation, judged)
+    own = _find_own(inputs, settled.actions)
+    followed = _follow(inputs, package, settled, own, differences.former)
+    actions = [action for action in followed.actions if action.reason is not Reason.UNKNOWN]
+    order_actions, orders, shared = _decide_orders(inputs, package, differences, actions)
+    _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
+    has_conflicts = any(action.is_conflict for action in actions)
+    numbers: Collection[str] = ()
+    # if names were exchanged, each build would move edits again
+    if has_conflicts and not (differences.has_exchanges or judged.renumbered):
+        after = PackageAfter(inputs, package, actions, followed.merged)
+        numbers = _renumbered(after, differences.changes, followed.conflicts)
+    known = {action.path for action in (*actions, *order_actions)}
+    unknown = [action for action in own if action.path not in known]
+    all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, judged.origins, inputs.has_moved))
+    waiting = {action.path for action in all_actions if action.is_waiting}
+    texts = {**orders, **followed.merged}
+    of_parts = [action for action in all_actions if action.is_conflict and judged.renumbered.components(action)]
+    new_conflicts = followed.conflicts.keys() - settled.conflicts.keys()
+    misfits = _find_misfits(PackageAfter(inputs, package, all_actions, texts))
+    return Decision(
+        differences,
+        all_actions,
+        texts,
+        judged.doubts,
+        followed.conflicts,
+        shared=tuple(file for file in shared if files.key(file.path) not in waiting),
+        misfits=tuple(one for one in misfits if one.key not in new_conflicts or one.use is None),
+        names=inputs.settled.names or judged.names,
+        outdated=frozenset(str(one.mine) for one in of_parts if not inputs.last.has_written(str(one.mine))),
+    )
+
+
+def _judge(inputs: Inputs, generation: Generation, differences: Differences) -> _Judged:
+    """Decide on every file by hashes; ask about edits that may belong to other parts."""
+    package, origins = generation.package, frozenset(differences.moves.values())
+    decided = decide(_find_files(inputs, generation), differences.moves)
     edits = [one for one in decided if one.reason in DISPUTED | {Reason.KEEP} and one.role is not Role.IMPORT]
     renumbered = find_renumbered(inputs, generation, differences, edits) if edits else NOT_RENUMBERED
     doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, renumbered, decided)}
@@ -89,38 +146,18 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
         names = renamed_names(inputs, generation, differences)
     if differences.other_elements or renumbered:
         actions = tuple(_with_other_names(inputs, package, actions, names, renumbered))
-    disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
-    conflicts = {
-        one.path: _conflict(inputs, generation, one, doubts.get(one.path), names, renumbered) for one in disputed
-    }
-    conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, origins)
-    actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
-    after = PackageAfter(inputs, package, actions, merged)
-    actions, merged = united.write_meanings(files, keep_needed(after, origins), merged)
-    own = _find_own(inputs, actions)
-    followed = _follow(PackageAfter(inputs, package, (*actions, *own), merged, is_open=True), differences.former)
-    actions = tuple(action for action in followed.actions if action.reason is not Reason.UNKNOWN)
-    merged, conflicts = {**merged, **followed.merged}, {**conflicts, **followed.conflicts}
+    return _Judged(actions, origins, doubts, renumbered, names)
 
-    order_actions, orders, shared = _decide_orders(inputs, package, differences, actions)
-    _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
-    has_conflicts = any(action.is_conflict for action in actions)
-    numbers: Collection[str] = ()
-    # if names were exchanged, each build would move edits again
-    if has_conflicts and not (differences.has_exchanges or renumbered):
-        numbers = _renumbered(PackageAfter(inputs, package, actions, merged), differences.changes, conflicts)
-    known = {action.path for action in (*actions, *order_actions)}
-    unknown = [action for action in own if action.path not in known]
-    all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, origins, inputs.has_moved))
-    waiting = {action.path for action in all_actions if action.is_waiting}
-    shared = [file for file in shared if files.key(file.path) not in waiting]
-    misfits = _find_misfits(PackageAfter(inputs, package, all_actions, {**orders, **merged}))
-    misfits = [misfit for misfit in misfits if misfit.key not in followed.conflicts or misfit.use is None]
-    names = inputs.settled.names or names
-    texts = {**orders, **merged}
-    of_parts = [action for action in all_actions if action.is_conflict and renumbered.components(action)]
-    outdated = frozenset(str(one.mine) for one in of_parts if not inputs.last.has_written(str(one.mine)))
-    return Decision(differences, all_actions, texts, doubts, conflicts, tuple(shared), tuple(misfits), names, outdated)
+
+def _merge(inputs: Inputs, generation: Generation, judged: _Judged) -> _Verdicts:
+    """Merge the files that both sides changed, as far as the user allows merges and these fit the package."""
+    package, actions = generation.package, judged.actions
+    disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
+    conflicts = {one.path: _conflict(inputs, generation, one, judged) for one in disputed}
+    conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, judged.origins)
+    actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
+    needed = keep_needed(PackageAfter(inputs, package, actions, merged), judged.origins)
+    return _Verdicts(*united.write_meanings(inputs.files, needed, merged), conflicts)
 
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
@@ -140,31 +177,29 @@ def _find_own(inputs: Inputs, actions: Iterable[Action]) -> list[Action]:
     ]
 
 
-class _Followed(NamedTuple):
-    """Files of the user's after they followed renames that their bases do not show."""
+def _follow(
+    inputs: Inputs, package: Package, settled: _Verdicts, own: Sequence[Action], renamed: Mapping[str, str]
+) -> _Verdicts:
+    """Let the user's files follow renames that their bases do not show.
 
-    actions: Sequence[Action]
-    merged: Mapping[str, str] = {}
-    conflicts: Mapping[str, Conflict] = {}
-
-
-def _follow(after: PackageAfter, renamed: Mapping[str, str]) -> _Followed:
-    """Let the user's files follow renames, as he allows merges; else they conflict, and the new text is proposed."""
-    inputs, last = after.inputs, after.inputs.last
+    They follow as the user allows merges; else they conflict, and the new text is proposed. `own` are his own files.
+    """
+    after = PackageAfter(inputs, package, (*settled.actions, *own), settled.merged, is_open=True)
     users = {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
     keys = {
         action.path
         for action in after.actions
-        if action.reason in users and action.path.endswith(".mo") and action.mine not in (None, *last.record.confirmed)
+        if action.reason in users and action.path.endswith(".mo")
+        if action.mine not in (None, *inputs.last.record.confirmed)
         if action.path in after.merged or not inputs.files.is_chosen(action.path)
     }
     if not renamed or not keys or not after.mentions(keys, renamed):
-        return _Followed(after.actions)
+        return settled._replace(actions=after.actions)
     from urdfsync.engine.followers import find_followers  # imports the parser
     from urdfsync.merge import Merge
 
     is_merging, texts = inputs.robot.on_conflict == "merge", find_followers(after, keys, renamed)
-    actions, merged, conflicts = list[Action](), dict[str, str](), dict[str, Conflict]()
+    actions, merged, conflicts = list[Action](), dict(settled.merged), dict(settled.conflicts)
     for action in after.actions:
         key = action.path
         if key in texts and (is_merging or action.reason in (Reason.MERGE, Reason.MOVE)):
@@ -173,11 +208,11 @@ def _follow(after: PackageAfter, renamed: Mapping[str, str]) -> _Followed:
         elif key in texts:
             mine, new = texts[key]
             path = inputs.folder.path(key)
-            generated = after.package.content(path).decode() if action.generated else mine
+            generated = package.content(path).decode() if action.generated else mine
             conflicts[key] = Conflict(key, generated, mine, generated, Merge(new, new, ()))
             action = msgspec.structs.replace(action, reason=Reason.RENAMED)
         actions.append(action)
-    return _Followed(actions, merged, conflicts)
+    return _Verdicts(actions, merged, conflicts)
 
 
 def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
@@ -187,12 +222,6 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         on_disk = inputs.files.on_disk(key, role)
         record = last.file(key, role, on_disk, generated)
-        is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
-        is_text = role is not Role.IMPORT and not inputs.files.is_chosen(key)
-        is_left = is_text and (is_edited or key in inputs.unmerged)
-        if is_left and united.lay_over(inputs, key, is_edited=is_edited):
-            on_disk = inputs.files.on_disk(key, role)
-            record = last.file(key, role, on_disk, generated)
         files[key] = File(role, owner, record, on_disk, generated)
 
     for path, artifact in generation.package.artifacts.items():
@@ -252,15 +281,9 @@ def _with_other_names(
         yield action
 
 
-def _conflict(
-    inputs: Inputs,
-    generation: Generation,
-    action: Action,
-    doubt: Doubt | None,
-    names: Mapping[str, str],
-    renumbered: Renumbered,
-) -> Conflict:
+def _conflict(inputs: Inputs, generation: Generation, action: Action, judged: _Judged) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder, *mine* is its `package.mo`."""
+    doubt, names, renumbered = judged.doubts.get(action.path), judged.names, judged.renumbered
     key, files, last = action.origin or action.path, inputs.files, inputs.last
     path = inputs.folder.path(action.path)
     mine, generated = files.text(key), generation.package.content(path).decode()

@@ -17,6 +17,7 @@ from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.rules import CLASS_FOLDER
+from urdfsync.engine.united import with_meanings
 from urdfsync.merge import edits as merge_edits
 
 
@@ -59,9 +60,10 @@ def find_edited(
 
     Raises UrdfsyncError. `actions` are the package's actions; if it is None, this decides on them.
     """
-    files = inputs.files
     if actions is None:
+        inputs = with_meanings(inputs, generation)
         actions = decide_package(inputs, generation).actions
+    files = inputs.files
     for action in actions:
         key = action.origin or action.path
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY

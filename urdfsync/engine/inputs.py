@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
@@ -28,6 +28,9 @@ from urdfsync.files import Templates, digest, shown
 from urdfsync.git.unmerged import find_unmerged
 from urdfsync.state.record import FileRecord, Generator, Record
 from urdfsync.state.store import Store
+
+if TYPE_CHECKING:
+    from urdfsync.merge import Merge
 
 
 class Former(NamedTuple):
@@ -76,6 +79,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """A warning if lines of the recorded state can't be read."""
     settled: Settled = msgspec.field(default_factory=Settled)
     """The user's choices, if `files` and `last` already include the choices."""
+
+    def laid_over(self, contents: Mapping[str, bytes | None], left_by_git: Mapping[str, Merge | None]) -> Inputs:
+        """Return the inputs with other contents of files (see `PackageFiles`)."""
+        files = self.files.laid_over(contents, left_by_git)
+        return msgspec.structs.replace(self, files=files, last=msgspec.structs.replace(self.last, _files=files))
 
     @property
     def former_name(self) -> str | None:

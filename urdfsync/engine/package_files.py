@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import time
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -70,11 +71,11 @@ class PackageFiles:
 
     def __init__(self, config: Config, robot: RobotConfig) -> None:
         self.root = config.root
-        self.overlay: dict[str, bytes | None] = {}
+        self.overlay: Mapping[str, bytes | None] = {}
         """Contents that override the disk, by key: results of choices, and the meanings of files that git merged. None
         stands for no file.
         """
-        self.left_by_git: dict[str, Merge | None] = {}
+        self.left_by_git: Mapping[str, Merge | None] = {}
         """For each file that is still git's merge, by key: the merge of two branches that contradict each other; None
         if the overlay has the file's meaning.
         """
@@ -83,6 +84,12 @@ class PackageFiles:
         self._tree_of: dict[str, Tree | None] = {}  # by folder
         self._states: dict[str, FileState | None] = {}
         """State of each file, by absolute path."""
+
+    def laid_over(self, contents: Mapping[str, bytes | None], left_by_git: Mapping[str, Merge | None]) -> PackageFiles:
+        """Return the same files with other contents (see `overlay`)."""
+        files = copy.copy(self)  # with what was read from the disk
+        files.overlay, files.left_by_git = contents, left_by_git
+        return files
 
     def key(self, path: Path) -> str:
         """Return the key of a file."""

@@ -13,6 +13,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.engine.settle import settle, with_choices
 from urdfsync.engine.stage import Plan, stage
+from urdfsync.engine.united import with_meanings
 
 
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
@@ -23,6 +24,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
         return Plan(result, inputs.store.hashes())
     generation = generate_robot(inputs)
+    inputs = with_meanings(inputs, generation)
     decision = decide_package(inputs, generation)
     if options.choices:
         inputs = with_choices(inputs, settle(inputs, generation, decision))

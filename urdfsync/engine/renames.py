@@ -54,10 +54,11 @@ def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) 
     later = find_matching(domain, last_seen, now, remaining, is_pending=True)
     existing, seen = domain.features(now), domain.features(last_seen)
     gone, followed = displaced(open_renames), dict[ElementKey, str]()
+    gone_since = displaced(later.renames)
     for kind, name in domain.features(recorded):
-        if (kind, name) in gone:
-            continue
         last_name = open_renames.get((kind, name), name)
+        if (kind, name) in gone or (kind, last_name) in gone_since:
+            continue
         new_name = later.renames.get((kind, last_name), last_name)
         if (kind, last_name) in seen and (kind, new_name) in existing:
             followed[kind, name] = new_name

@@ -17,7 +17,7 @@ from urdfsync.engine.conflicts import Conflict, over_bases
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Former, Inputs, Settled
-from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_line_ends
+from urdfsync.engine.package_files import encode, text_hash, with_line_ends
 from urdfsync.engine.package_names import names_of
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
@@ -247,12 +247,11 @@ def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:
 
 def with_choices(inputs: Inputs, settled: Settled) -> Inputs:
     """Return the inputs with the files and bases that choices have changed."""
-    files, left = PackageFiles(inputs.config, inputs.robot), inputs.files.left_by_git
-    files.overlay = {**inputs.files.overlay, **settled.contents}
-    files.left_by_git = {key: left[key] for key in left.keys() - settled.contents.keys()}
+    left = {key: merge for key, merge in inputs.files.left_by_git.items() if key not in settled.contents}
+    inputs = inputs.laid_over({**inputs.files.overlay, **settled.contents}, left)
     recorded = {**inputs.last.record.files, **settled.bases}
     record = msgspec.structs.replace(
         inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
     )
-    last = msgspec.structs.replace(inputs.last, record=record, texts=settled.texts, _files=files)
-    return msgspec.structs.replace(inputs, files=files, last=last, settled=settled)
+    last = msgspec.structs.replace(inputs.last, record=record, texts=settled.texts)
+    return msgspec.structs.replace(inputs, last=last, settled=settled)

@@ -19,6 +19,7 @@ from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.conflicts import over_bases
+from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import LastBuild
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash
@@ -27,7 +28,7 @@ from urdfsync.git.revisions import Revision
 from urdfsync.git.unmerged import find_git_folder
 from urdfsync.modelica import markers
 from urdfsync.state import statefile
-from urdfsync.state.record import FileRecord
+from urdfsync.state.record import FileRecord, role_of
 
 if TYPE_CHECKING:
     import pygit2
@@ -55,20 +56,30 @@ class Sides(NamedTuple):
     theirs: str
 
 
-def lay_over(inputs: Inputs, key: str, *, is_edited: bool) -> bool:
-    """Overlay a file with its meaning if the file still is git's merge of two branches, or what git left of it.
+def with_meanings(inputs: Inputs, generation: Generation) -> Inputs:
+    """Return the inputs; each file that still is git's merge of two branches, or what git left of it, has its meaning.
 
     If nobody edited the versions, the meaning is our version. Otherwise it is a merge by elements without
     contradictions.
     """
-    found = _find_meaning(inputs, key, is_edited=is_edited)
-    if isinstance(found, str) and text_hash(found) == inputs.files.hash(key, Role.MODEL):
-        return False  # the file has its meaning already, and only `git add` is missing
-    if isinstance(found, str):
-        inputs.files.overlay[key] = encode(found)
-    if found is not None:
-        inputs.files.left_by_git[key] = None if isinstance(found, str) else found
-    return found is not None
+    files, last, package, folder = inputs.files, inputs.last, generation.package, inputs.folder
+    contents: dict[str, bytes] = {}
+    left: dict[str, Merge | None] = {}
+    generated = {folder.key(path): package.hash(path) for path in package.artifacts}
+    for key in generated.keys() | last.files.keys():
+        role, text = role_of(folder.path(key)), generated.get(key)
+        if role is Role.IMPORT:
+            continue
+        on_disk = files.on_disk(key, role)
+        is_edited = isinstance(on_disk, str) and on_disk not in (text, *last.file(key, role, on_disk, text).hashes)
+        found = _find_meaning(inputs, key, is_edited=is_edited) if is_edited or key in inputs.unmerged else None
+        if isinstance(found, str) and text_hash(found) == files.hash(key, role):
+            continue  # the file has its meaning already, and only `git add` is missing
+        if isinstance(found, str):
+            contents[key], left[key] = encode(found), None
+        elif found is not None:
+            left[key] = found
+    return inputs.laid_over(contents, left) if left else inputs
 
 
 def _find_meaning(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merge | None:

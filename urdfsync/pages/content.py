@@ -21,6 +21,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
 from urdfsync.engine.stage import draw_model
+from urdfsync.engine.united import with_meanings
 from urdfsync.files import shown
 from urdfsync.output.outline import number_table, outline
 from urdfsync.output.sections import Section, Table
@@ -78,6 +79,7 @@ def gather(
         raise UrdfsyncError(*compared.result.diagnostics)
     inputs = inspect(config, robot, options)
     generation = generate_robot(inputs)
+    inputs = with_meanings(inputs, generation)
     compared, older = _with_older(compared, inputs, generation.now, shown_before)
     changes, result = compared.result.changes or Changes(), compared.result
     decision = decide_package(inputs, generation)
