@@ -25,7 +25,8 @@ def team(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> Non
     """The machines of a team; a process has not met a bad remote cache yet."""
     monkeypatch.setenv(remote.SECRET, SECRET)
     monkeypatch.setattr(remote, "_problems", {})
-    if "arm" in request.fixturenames:  # a Modelica Standard Library, so that the stand-in compiles
+    if "arm" in request.fixturenames:
+        request.getfixturevalue("modelica_library")  # without it, nothing is compiled
         request.getfixturevalue("compiler")
         for module in ("checks.fingerprint", "checks.compilers"):  # no test changes a library; hashing takes seconds
             monkeypatch.setattr(f"urdfsync.{module}.content_hash", lambda *_: "")
