@@ -11,6 +11,7 @@ from support.packages import RENDERER
 
 from urdfsync.domain import Artifact, Import, Order, Role
 from urdfsync.urdf.meshes.lookup import key
+from urdfsync.urdf.model.numbers import shape_part
 from urdfsync.urdf.model.shapes import link_model, link_shapes
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
@@ -82,10 +83,9 @@ def link_files(name: str, record: str, link: Link, note: str) -> Iterator[Artifa
     named = named_data("Links", name, record)
     if visuals:
         data: dict[str, Any] = {
-            "name": link.name,
-            "inertial": None,
-            "visuals": visuals,
-            "collisions": collisions,
+            "numbers": {},
+            "visuals": list(map(shape_part, visuals)),
+            "collisions": list(map(shape_part, collisions)),
             "contact": {},
         }
         yield Artifact(f"Links/{record}.mo", Role.RECORD, "link/record.mo.jinja", named | data, name)

@@ -56,7 +56,7 @@ def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
 
 _FILTERS = (
     *(once, literals.real, literals.vector, literals.matrix, literals.string, literals.html),
-    literals.capitalize_first,
+    *(literals.modifiers, literals.capitalize_first),
 )
 """The filters; each has the name of its function."""
 

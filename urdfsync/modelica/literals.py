@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import msgspec
 
 INFINITY = "Modelica.Constants.inf"
 
@@ -19,6 +22,12 @@ _LITERAL = r"""(?xs)
       )
     """
 _LARGEST_INTEGER = 2**31 - 1  # every Modelica tool accepts this without a decimal point
+
+
+class Expression(msgspec.Struct, frozen=True):
+    """Modelica code as a value of a modifier; never a text of a source."""
+
+    code: str
 
 
 def real(value: float | None, absent: str = INFINITY) -> str:
@@ -57,6 +66,30 @@ def string(value: str) -> str:
         escaped = value.replace("\\", "\\\\").replace('"', '\\"')
         return f'"{escaped}"'
     return f'"{re.sub(_CONTROLS, " ", value.translate(_ESCAPES))}"'
+
+
+def modifiers(values: Mapping[str, Any], indent: int = 4) -> str:
+    """Return the modifiers of a component, one to a line; a mapping gives nested ones.
+
+    Values are strings, numbers, vectors of numbers, or an `Expression`. Raises ValueError as `real` and `vector`.
+    """
+    pad = " " * indent
+    return ",\n".join(f"{pad}{name}{_modifier(value, indent)}" for name, value in values.items())
+
+
+def _modifier(value: Any, indent: int) -> str:
+    match value:
+        case Mapping():
+            return f"(\n{modifiers(value, indent + 2)})"
+        case Expression():
+            return f" = {value.code}"
+        case bool():
+            return f" = {'true' if value else 'false'}"
+        case str():
+            return f" = {string(value)}"
+        case int() | float():
+            return f" = {real(value)}"
+    return f" = {vector(value)}"
 
 
 def html(value: str) -> str:

@@ -10,8 +10,9 @@ import msgspec
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.modelica.literals import html
 from urdfsync.urdf.assembly import Assembly
-from urdfsync.urdf.model.joint import joint_model, joint_record, joint_title
-from urdfsync.urdf.model.loop import loop_note, loop_reaches, loop_record, loop_title
+from urdfsync.urdf.model.joint import joint_model, joint_title
+from urdfsync.urdf.model.loop import loop_note, loop_reaches, loop_title
+from urdfsync.urdf.model.numbers import joint_base, joint_numbers, link_numbers, loop_numbers, shape_part
 from urdfsync.urdf.model.record import obstacles, record_data
 from urdfsync.urdf.model.robot import bench_data, robot_data
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
@@ -134,8 +135,8 @@ def _link(assembly: Assembly, link: Link, imports: Mapping[str, Import]) -> Iter
     """Yield model and record of a link."""
     visuals, collisions = link_shapes(link, imports, assembly.target.package, assembly.options)
     contact = msgspec.to_builtins(link.contact) or {}
-    shapes = {"visuals": visuals, "collisions": collisions}
-    record = {"name": link.name, "inertial": link.inertial, "contact": contact, **shapes}
+    shapes = {"visuals": list(map(shape_part, visuals)), "collisions": list(map(shape_part, collisions))}
+    record = {"numbers": link_numbers(link.name, link.inertial), "contact": contact, **shapes}
     note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>."
     model = link_model(visuals, collisions, assembly.options, link.contact)
     templates = "link/model", "link/record"
@@ -147,15 +148,18 @@ def _joint(assembly: Assembly, joint: Joint) -> Iterator[Artifact]:
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}."
     is_driven = joint.name in assembly.closed.driven
-    data = joint_model(joint, assembly.options, is_driven), joint_record(joint)
-    templates = f"joint/{joint.type}", f"joint/{joint.type}_parameters"
+    numbers = {"base": joint_base(joint), "numbers": joint_numbers(joint), "source": "URDF"}
+    data, templates = (
+        (joint_model(joint, assembly.options, is_driven), numbers),
+        (f"joint/{joint.type}", "joint/record"),
+    )
     return _element(assembly, "joint", joint.name, joint_title(joint), templates, data, note)
 
 
 def _loop(assembly: Assembly, loop: Loop) -> Iterator[Artifact]:
     """Yield model and record of a joint that closes a loop."""
-    closure, templates = assembly.closed.closures[loop.name], ("joint/loop", "joint/loop_parameters")
-    data = dict[str, Any](), loop_record(loop, closure)
+    closure, templates = assembly.closed.closures[loop.name], ("joint/loop", "joint/record")
+    data = dict[str, Any](), {"base": "Loop", "numbers": loop_numbers(loop, closure), "source": "source"}
     return _element(assembly, "loop", loop.name, loop_title(loop), templates, data, loop_note(loop, closure))
 
 

@@ -39,12 +39,17 @@ from urdfsync.urdf.robot import (
 @given(robots())
 def test_the_matrices_say_what_the_tree_is(robot: Robot) -> None:
     found = record_data(assembly(robot), {})
-    names = [link["name"] for link in found["links"]]
-    matrix = found["structure"]["connection_matrix"]
-    assert {(names[parent - 1], names[child - 1]) for parent, child in matrix} == {
+    links = [part["numbers"]["name"] for part, *_ in found["parts"] if part["base"] == "Link"]
+    joints = [part["numbers"]["name"] for part, *_ in found["parts"] if part["base"] != "Link"]
+    matrices = found["structure"]["tables"]
+
+    def rows(matrix: str) -> list[tuple[int, ...]]:
+        return [tuple(map(int, row)) for row in re.findall(r"(\d+), (\d+)[];]", matrices[matrix].code)]
+
+    assert {(links[parent - 1], links[child - 1]) for parent, child in rows("connectionMatrix")} == {
         (joint.parent, joint.child) for joint in robot.joints
     }
-    moving = {found["joints"][number - 1]["joint"].name for number, _ in found["structure"]["moveable_joints"]}
+    moving = {joints[number - 1] for number, _ in rows("moveableJoints")}
     assert moving == {joint.name for joint in robot.joints if joint.type != "fixed"}
 
 

@@ -1,4 +1,4 @@
-"""Template data of a joint's model and record. The data of the model has no number of the URDF."""
+"""Template data of a joint's model: no number of the URDF."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 from urdfsync.urdf.drives import friction_law, has_motor, is_chosen, sharing_joint
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, Limit, limits_acceleration, reflected_inertia
+from urdfsync.urdf.robot import Joint, limits_acceleration, reflected_inertia
 
 
 def joint_title(joint: Joint) -> str:
@@ -34,8 +34,3 @@ def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, An
         "elastic": is_driven and is_chosen(joint, options.elastic),
         "saturated": is_driven and is_chosen(joint, options.saturated) and joint.command != "effort",
     }
-
-
-def joint_record(joint: Joint) -> dict[str, Any]:
-    """Return the numbers of a joint; missing limits are None."""
-    return {"joint": joint, "limits": joint.limit or dict.fromkeys(Limit.__struct_fields__)}

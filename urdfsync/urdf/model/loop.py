@@ -42,13 +42,3 @@ def loop_note(loop: Loop, closure: Closure) -> str:
     elif closure.weaker:
         text += f" It is {html(closure.weaker)}."
     return text
-
-
-def loop_record(loop: Loop, closure: Closure) -> dict[str, Any]:
-    """Return the numbers of a loop."""
-    return {
-        "closing": loop,
-        "translations": closure.translations,
-        "rotations": [u for u, _ in closure.rotations],
-        "child_rotations": [v for _, v in closure.rotations],
-    }
