@@ -15,7 +15,7 @@ from urdfsync.engine import render, source
 
 Capture = pytest.CaptureFixture[str]
 
-TEMPLATE = "joint/revolute.mo.jinja"
+TEMPLATE = "joint/axis.mo.jinja"
 SHELL = "cycler.__init__.__globals__.os.popen({command!r}).read()"
 
 
@@ -81,7 +81,7 @@ def test_the_sandbox_holds_in_all_parts_of_a_template(marker: Path, capsys: Capt
         ("<% for n in range(1000) %><< 'a' * 1000000 >><% endfor %>", "characters"),
         ("<< lipsum(1000000000) >>", "lipsum"),
         ("<% macro m() %><< m() >><% endmacro %><< m() >>", "without end"),
-        ("<% include 'joint/revolute.mo.jinja' %>", "without end"),
+        ("<% include 'joint/axis.mo.jinja' %>", "without end"),
         ("<# " + "x" * source.MAX_TEMPLATE + " #>", "too large for a template"),
     ],
 )

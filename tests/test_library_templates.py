@@ -65,6 +65,8 @@ def library_artifacts() -> Iterator[Artifact | Order]:
         facts = JOINT_KINDS[joint]
         data |= {"dynamics": facts.has_axis or joint == "ball", "accelerations": True, "note": note}
         data |= {
+            "motion": facts.motion,
+            "is_endless": joint == "continuous",
             "inertia": facts.motion is not None,
             "motor": False,
             "sharing": None,
@@ -72,7 +74,9 @@ def library_artifacts() -> Iterator[Artifact | Order]:
             "elastic": False,
             "saturated": False,
         }
-        yield Artifact(f"Joints/{name}.mo", Role.MODEL, f"joint/{joint}.mo.jinja", data, name)
+        yield Artifact(
+            f"Joints/{name}.mo", Role.MODEL, f"joint/{'axis' if facts.motion else joint}.mo.jinja", data, name
+        )
     note = f"Holds a frame of one link at a frame of another one, and so closes a loop. {RECORD_NOTE}"
     data = named_data("Joints", "Loop", "UrdfSync.Records.Loop") | {"title": "joint that closes a loop", "note": note}
     yield Artifact("Joints/Loop.mo", Role.MODEL, "joint/loop.mo.jinja", data, "Loop")

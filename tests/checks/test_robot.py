@@ -158,13 +158,18 @@ def test_an_edited_number_is_told_without_a_compiler_and_an_edited_model_is_name
     assert (status(result, strict=False), status(result, strict=True)) == (CheckStatus.RIGHT, CheckStatus.INCOMPLETE)
 
 
+def change_losses(templates: Path, losses: str) -> None:
+    """Let the user's own templates write other losses of joints."""
+    changed = f"<< (dict(numbers, dynamics={losses}) if numbers.dynamics else numbers) | modifiers >>"
+    replace(templates / "joint" / "record.mo.jinja", "<< numbers | modifiers >>", changed)
+
+
 def test_a_misread_number_differs_whoever_edited_it(
     arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    wrong = "      damping = << joint.dynamics.friction | real >>"
     templates = Path("templates")
     shutil.copytree(REPOSITORY / "templates" / "urdf", templates)
-    replace(templates / "macros.jinja", "      damping = << joint.dynamics.damping | real >>", wrong)
+    change_losses(templates, "dict(numbers.dynamics, damping=numbers.dynamics.friction)")
     replace(templates / "robot" / "robot.mo.jinja", "\nequation\n", '\n  parameter Real ours = 1 "Ours";\n\nequation\n')
     with Path("urdfsync.toml").open("a") as file:
         file.write('templates = "templates"\n')
@@ -197,8 +202,7 @@ def test_what_own_templates_drop_is_told_and_their_models_are_not_called_compare
     result = check()
     assert result.unchecked[0] == "the models of your own `templates`, except their motion with `--physics`"
     assert status(result, strict=True) is CheckStatus.RIGHT
-    damping = "      damping = << joint.dynamics.damping | real >>,\n"
-    replace(Path("templates/macros.jinja"), damping, "")
+    change_losses(Path("templates"), "dict(friction=numbers.dynamics.friction)")
     rebuild()
     result = check()
     assert result.numbers is not None

@@ -98,7 +98,7 @@ class Stranger:
         with (self.project / place).open("wb") as file:
             file.truncate(200_000_000)  # git reads it, too
 
-    def template(self, text: str, name: str = "joint/revolute.mo.jinja") -> str:
+    def template(self, text: str, name: str = "joint/axis.mo.jinja") -> str:
         self.write(f"templates/{name}", text)
         if "templates =" not in (self.project / "urdfsync.toml").read_text():
             self.configure('templates = "templates"')

@@ -149,10 +149,8 @@ def _joint(assembly: Assembly, joint: Joint) -> Iterator[Artifact]:
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}."
     is_driven = joint.name in assembly.closed.driven
     numbers = {"base": joint_base(joint), "numbers": joint_numbers(joint), "source": "URDF"}
-    data, templates = (
-        (joint_model(joint, assembly.options, is_driven), numbers),
-        (f"joint/{joint.type}", "joint/record"),
-    )
+    data = joint_model(joint, assembly.options, is_driven), numbers
+    templates = "joint/axis" if joint.type in MOTION_KINDS else f"joint/{joint.type}", "joint/record"
     return _element(assembly, "joint", joint.name, joint_title(joint), templates, data, note)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from urdfsync.urdf.drives import friction_law, has_motor, is_chosen, sharing_joint
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, limits_acceleration, reflected_inertia
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, limits_acceleration, reflected_inertia
 
 
 def joint_title(joint: Joint) -> str:
@@ -25,6 +25,8 @@ def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, An
     with_motor = has_motor(joint, options) and not sharing
     inertia = armature if with_motor or sharing else reflected_inertia(joint)
     return {
+        "motion": MOTION_KINDS.get(joint.type),
+        "is_endless": joint.type == "continuous",
         "dynamics": joint.dynamics is not None,
         "accelerations": limits_acceleration(joint),
         "inertia": inertia is not None,
