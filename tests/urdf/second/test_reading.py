@@ -64,8 +64,8 @@ def test_both_readers_read_the_same(text: str) -> None:
 
 def test_values_have_the_lines_of_their_elements() -> None:
     read = read_again(TEXTS.encode(), Options())
-    assert read.links["b"].values["inertial.mass"] == ((2.0,), 4)
-    assert read.joints["j"].values["limits.lower"] == ((-1.0,), 5)
+    assert read.links["b"].values["inertial.mass"][:2] == ((2.0,), 4)
+    assert read.joints["j"].values["limits.lower"][:2] == ((-1.0,), 5)
     assert read.joints["j"].values["origin.xyz"].value == (1.0, 2.0, 3.0)
     assert (read.joints["j"].parent, read.joints["j"].child) == ("a", "b")
 
