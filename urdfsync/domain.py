@@ -166,10 +166,12 @@ class Version(msgspec.Struct, frozen=True):
 class CompanionKind(msgspec.Struct, frozen=True):
     """A kind of file that a source is read with."""
 
+    option: str
+    """The option with the file's path from the configuration's folder."""
     suffix: str = ""
-    """Such a file stands beside the source, with this suffix; empty if only the option names it."""
-    option: str = ""
-    """The option with the file's path from the configuration's folder; empty if no option names it."""
+    """Without a configuration, such a file stands beside the source, with this suffix; empty if it never does."""
+    mark: bytes = b""
+    """A word of such files: a file beside the source without this word is of another kind."""
     needed_by: str = ""
     """The option without which the file that `option` names is not read; empty if it is always read."""
 

@@ -125,15 +125,16 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command. Raises
     SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
     """
-    return with_named_companions(config, robot, _read_source(config, robot, store, options, name))
+    text = _read_source(config, robot, store, options, name)
+    text = with_companions(text, registry.domain(robot.domain), robot.source, robot.options)
+    return with_named_companions(config, robot, text)
 
 
 def _read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str) -> Source:
     if not robot.command:
         content = _read(config, robot)  # reports a file that xacro can't read
         if robot.arguments is None and not is_xacro(robot.source, content):
-            text = Source(content, shown(robot.source))
-            return with_companions(text, registry.domain(robot.domain), robot.source, robot.options)
+            return Source(content, shown(robot.source))
     from urdfsync.engine import expansion  # takes 5 ms, and few robots need it
 
     inputs = expansion.SourceFiles(config.root, robot.source, (*robot.package_paths, *options.package_paths))
@@ -197,7 +198,7 @@ def with_companions(
     found = list(text.companions)
     for kind, path in companions_beside(domain, source, options):
         content = revision.contents([path]).get(path) if revision else read_file(path) if is_file(path) else None
-        if content is not None:
+        if content is not None and kind.mark in content.replace(b"\0", b""):  # UTF-16 has a zero in each letter
             found.append(Companion(kind.option, revision.label(path) if revision else shown(path), content))
     return msgspec.structs.replace(text, companions=tuple(found))
 
@@ -205,7 +206,7 @@ def with_companions(
 def companions_beside(domain: Domain, source: Path, options: Any = None) -> Iterator[tuple[CompanionKind, Path]]:
     """Yield the paths of companions beside a source, existing or not, except those of kinds that `options` name."""
     for kind in domain.companions:
-        if kind.suffix and not (kind.option and getattr(options, kind.option, "")):
+        if kind.suffix and not getattr(options, kind.option, ""):
             yield kind, source.with_suffix(kind.suffix)
 
 
@@ -220,14 +221,13 @@ def with_named_companions(
     domain = registry.domain(robot.domain)
     if not config:
         return text
-    for kind, path in companions_beside(domain, robot.source, robot.options):
-        if kind.option and not revision and is_file(path):
-            message = f"robot `{robot.name}`: {shown(path)} stands beside the source, and no option names it"
-            hint = f"set `{kind.option}` to its path, or move the file away"
-            raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
+    for unnamed in text.companions if not revision else ():
+        message = f"robot `{robot.name}`: {unnamed.file} stands beside the source, and no option names it"
+        hint = f"set `{unnamed.option}` to its path, or move the file away"
+        raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
     found = list(text.companions)
     for kind in domain.companions:
-        named = kind.option and getattr(robot.options, kind.option)
+        named = getattr(robot.options, kind.option)
         if named and (not kind.needed_by or getattr(robot.options, kind.needed_by)):
             found.append(_read_named(config, robot, kind.option, config.root / named, revision))
     return msgspec.structs.replace(text, companions=tuple(found))

@@ -69,7 +69,7 @@ class TableDomain(Domain):
     warnings = ("not-modelled",)
     model = Table
     options = Options
-    companions = (CompanionKind(".connections.csv", "connections"),)
+    companions = (CompanionKind("connections", ".connections.csv"),)
     parts = _Columns()
     advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
 

@@ -70,7 +70,10 @@ class UrdfDomain(Domain):
     cured = ("loop-singular",)
     advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
     imports, simulation, pictures = _Module("meshes.lookup"), _Module("benches"), _Module("scene")
-    companions = CompanionKind(".yaml"), CompanionKind(option="catalogue", needed_by="motors")
+    companions = (
+        CompanionKind("closed_loops", ".yaml", b"closed_loop"),
+        CompanionKind("catalogue", needed_by="motors"),
+    )
     describe = staticmethod(describe)
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:

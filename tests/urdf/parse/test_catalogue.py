@@ -229,7 +229,9 @@ def test_numbers_of_the_source_that_a_row_replaces_are_not_told() -> None:
 def test_a_row_is_for_a_hinge_of_a_chain_too() -> None:
     ball = URDF.replace('"continuous"', '"ball"')
     loop = '<loop_joint name="l" type="fixed"><link1 link="c"/><link2 link="base"/></loop_joint></robot>'
-    yaml = Companion("", "a.yaml", b"closed_loop: []\ntype: []\njoint_name: [wheel]\njoint_type: [UJOINT_XY]\n")
+    yaml = Companion(
+        "closed_loops", "a.yaml", b"closed_loop: []\ntype: []\njoint_name: [wheel]\njoint_type: [UJOINT_XY]\n"
+    )
     options = Options(**{**OPTIONS, "motors": {"wheel_y": "N"}, "start": {"wheel_x": 0.5}})
     for urdf, companions in ((ball.replace("</robot>", loop), []), (URDF, [yaml])):
         found = joints(read_robot(urdf.encode(), "a.urdf", options, catalogue(), *companions))

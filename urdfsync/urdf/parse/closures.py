@@ -25,7 +25,6 @@ _TYPES = {
     "SPHERICAL": "xyz",
     **{f"UJOINT_{a}{b}": f"{a}{b}".lower() for a in "XYZ" for b in "XYZ" if a != b},
 }
-_MARK = b"closed_loop"
 _LARGEST = 100_000
 """The size limit of a YAML, in bytes: PyYAML needs up to 2 s and 60 MB. Even 10,000 loops need fewer bytes."""
 _MOST = 10_000_000
@@ -45,9 +44,6 @@ class Closures(NamedTuple):
 
 def read_closures(companion: Companion) -> Closures:
     """Read a YAML; one without loops states nothing. Raises SourceError for an unreadable YAML."""
-    text = companion.content.replace(b"\0", b"")  # UTF-16 has a zero in each letter of a key
-    if _MARK not in text:
-        return Closures()
     from yaml import YAMLError  # a late import saves most robots 20 ms
 
     try:
@@ -57,7 +53,8 @@ def read_closures(companion: Companion) -> Closures:
     # ValueError for `\uD800`, OverflowError for `\UFFFFFFFF`
     except (YAMLError, _LoopsError, RecursionError, ValueError, OverflowError) as error:
         mark = getattr(error, "problem_mark", None)
-        line = mark.line + 1 if mark else text.count(b"\n", 0, text.find(_MARK)) + 1
+        text = companion.content.replace(b"\0", b"")  # UTF-16 has a zero in each letter of the key
+        line = mark.line + 1 if mark else text.partition(b"closed_loop")[0].count(b"\n") + 1
         problem = "lists are nested too deep" if isinstance(error, RecursionError) else getattr(error, "problem", None)
         message = f"this is no list of loops: {problem or error}"
         hint = "write `closed_loop: [[FRAME, FRAME]]` and `type: [6d]`"

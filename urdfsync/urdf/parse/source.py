@@ -72,7 +72,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, *compani
     closures, rows = Closures(), dict[str, Row]()
     try:
         for companion in companions:
-            if companion.option:
+            if companion.option == "catalogue":
                 rows.update(read_rows(companion, options))
             else:
                 closures = read_closures(companion)

@@ -50,7 +50,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     names = {joint.name for joint in robot.joints}
     completed, notes = completion.completed_for_pinocchio(sample.content, names, stated)
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
-    catalogue = tuple(companion for companion in sample.companions if companion.option)
+    catalogue = tuple(companion for companion in sample.companions if companion.option == "catalogue")
     robot = _robot(read_robot(completed, file, options, *catalogue))
     trials = list[Trial]()
     # Pinocchio has smooth friction and rigid drives; rumoca can't start if two joints with stiction slide

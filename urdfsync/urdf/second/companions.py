@@ -52,9 +52,9 @@ def read_companions(companions: Iterable[Companion], options: Options) -> Compan
     """Return the statements of all companions."""
     stated = Companions()
     for companion in companions:
-        if companion.option:
+        if companion.option == "catalogue":
             stated = stated._replace(rows=_read_rows(companion, options))
-        elif b"closed_loop" in companion.content.replace(b"\0", b""):
+        else:
             loops, motors, axes = _read_yaml(companion)
             stated = stated._replace(loops=loops, motors=motors, axes=axes)
     return stated
@@ -65,7 +65,8 @@ def _read_yaml(companion: Companion) -> tuple[list[tuple[str, str, str, str, Pla
     import yaml  # a late import saves most robots 20 ms
 
     root = yaml.compose(companion.content, yaml.BaseLoader)
-    nodes = {key.value: value for key, value in root.value if root.id == "mapping" and key.id == "scalar"}
+    pairs = root.value if root is not None and root.id == "mapping" else ()
+    nodes = {key.value: value for key, value in pairs if key.id == "scalar"}
     keys = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
     lists = {key: nodes[key].value if key in nodes and nodes[key].id == "sequence" else () for key in keys}
 
