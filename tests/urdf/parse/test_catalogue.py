@@ -166,6 +166,9 @@ def test_a_fault_of_the_table_has_its_line(csv: str, line: int, message: str) ->
 def test_a_cell_that_other_rows_fill_is_not_left_empty_in_silence() -> None:
     assert read().diagnostics == ()
     findings = read(CSV.replace("N,5", "N,")).diagnostics
+    assert [(one.code, one.file, one.line) for one in findings if one.severity is Severity.WARNING] == [
+        ("missing-limit-value", "motors.csv", 4)  # a continuous joint without <limit> gets one from the row
+    ]
     (found,) = (one for one in findings if one.severity is Severity.NOTE)
     assert (found.code, found.file, found.line) == ("empty-cell", "motors.csv", 4)
     assert found.message == "the row `N` has no effort: that of joint `wheel` in the source counts"

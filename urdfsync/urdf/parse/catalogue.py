@@ -109,9 +109,16 @@ def with_rows(reader: Reader, joints: Sequence[Joint], rows: Mapping[str, Row]) 
         except SourceError as error:
             reader.diagnostics += [replace(fault, file=row.file, line=row.line) for fault in error.diagnostics]
             break
-        if "velocity" in row.cells and (limit := found[number].limit) and limit.velocity == 0:
-            message = f"joint {joint.name} / limit has velocity = 0: the joint may not move"
-            reader.diagnostics.append(replace(diagnostic("zero-limits", message, row.line), file=row.file))
+        if (limit := found[number].limit) is None:
+            continue
+        is_zero = "velocity" in row.cells and limit.velocity == 0
+        faults = [("zero-limits", "velocity = 0: the joint may not move")] if is_zero else []
+        if joint.limit is None and reader.version < (1, 2):
+            missing = [name for name in ("effort", "velocity") if name not in row.cells]
+            faults += [("missing-limit-value", f"no {name}, taken as unlimited") for name in missing]
+        for code, fault in faults:
+            entry = diagnostic(code, f"joint {joint.name} / limit has {fault}", row.line)
+            reader.diagnostics.append(replace(entry, file=row.file))
     return found
 
 
