@@ -7,11 +7,14 @@ from support.numbers import BOT, differences, of_package
 from support.packages import generate
 from support.urdfs import joint, link, robot
 
+from urdfsync.checks.experiment import Sample
 from urdfsync.domain import Companion
+from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.closures import read_closures
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.urdf.robot import Motor, Transmission
 from urdfsync.urdf.second.companions import read_companions
 
 URDF = robot(
@@ -122,6 +125,24 @@ def test_pinocchio_gets_the_joints_of_the_yaml(kind: bytes) -> None:
         for robot in (ours, theirs)
     ]
     assert chains[0] == chains[1]
+
+
+def test_the_experiment_with_pinocchio_is_read_with_the_catalogue_alone() -> None:
+    """Its copy of the URDF has the statements of the YAML."""
+    motors = Companion("catalogue", "motors.csv", b"name,effort [N.m],reduction [1]\nS,3,50\n")
+    options = Options(catalogue="motors.csv", motors={"m": "S"})
+    ours = read_robot(URDF, "a.urdf", options, beside(), motors).robot
+    found = DOMAIN.checks.experiment(Sample(URDF, "a.urdf", BOT, options, {}, companions=(beside(), motors)))
+    theirs = read_robot(found.content, "a.urdf", found.options, *found.companions).robot
+    assert ours is not None
+    assert theirs is not None
+    assert (found.companions, theirs.loops) == ((motors,), ours.loops)
+    drives = [
+        {joint.name: (joint.motor, joint.transmission, joint.actuated) for joint in each.joints}
+        for each in (ours, theirs)
+    ]
+    assert drives[0] == drives[1]
+    assert drives[0]["m"] == (Motor("S", ("effort", "reduction")), Transmission(50.0), True)
 
 
 @pytest.mark.parametrize(("old", "new", "code", "line"), [
