@@ -144,6 +144,14 @@ def test_the_loops_of_a_yaml_never_vanish_in_silence(project: Path, execute: Exe
     assert (project / "modelica/Bars/Joints/A_b.mo").exists()
 
 
+def test_another_file_is_compared_with_the_yaml_beside_it(project: Path, execute: Execute) -> None:
+    (project / "urdfsync.toml").write_text(CONFIGURATION)
+    (project / "bars.urdf").write_text(WITH_ENDS)
+    (project / "other.urdf").write_text(WITH_ENDS)
+    (project / "other.yaml").write_text(PAIR)
+    assert "loop a_b" in execute("diff", "--against", "other.urdf", code=1).out
+
+
 def test_the_yaml_beside_a_urdf_is_watched_and_compared(project: Path, execute: Execute) -> None:
     yaml = project / "bars.yaml"
     (project / "urdfsync.toml").write_text(NAMING)

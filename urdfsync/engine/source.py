@@ -124,9 +124,14 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     `name` is the robot's name in the state, if it differs. The source is expanded again, unless this machine has noted
     the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command. Raises
     SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
+    Raises SourceError for a companion beside the source that no option names: a rename would silently remove it.
     """
     text = _read_source(config, robot, store, options, name)
     text = with_companions(text, registry.domain(robot.domain), robot.source, robot.options)
+    for unnamed in text.companions:
+        message = f"robot `{robot.name}`: {unnamed.file} stands beside the source, and no option names it"
+        hint = f"set `{unnamed.option}` to its path, or move the file away"
+        raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
     return with_named_companions(config, robot, text)
 
 
@@ -215,20 +220,12 @@ def with_named_companions(
 ) -> Source:
     """Return a source with the companions that its robot's options name, on disk or in a revision.
 
-    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file. Raises
-    SourceError for a companion beside the source that no option names: a rename would silently remove its content.
+    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file.
     """
-    domain = registry.domain(robot.domain)
-    if not config:
-        return text
-    for unnamed in text.companions if not revision else ():
-        message = f"robot `{robot.name}`: {unnamed.file} stands beside the source, and no option names it"
-        hint = f"set `{unnamed.option}` to its path, or move the file away"
-        raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
     found = list(text.companions)
-    for kind in domain.companions:
+    for kind in registry.domain(robot.domain).companions:
         named = getattr(robot.options, kind.option)
-        if named and (not kind.needed_by or getattr(robot.options, kind.needed_by)):
+        if config and named and (not kind.needed_by or getattr(robot.options, kind.needed_by)):
             found.append(_read_named(config, robot, kind.option, config.root / named, revision))
     return msgspec.structs.replace(text, companions=tuple(found))
 

@@ -40,7 +40,6 @@ MOVING = robot(
 
 
 QUATERNION = URDF.replace("<robot", '<robot version="1.1"').replace("<parent", '<origin quat_xyzw="0 0 3 4"/><parent')
-ODD_AXES = URDF.replace("</robot>", '<joint_axes joint="j" axes="q"/><joint_axes joint="k" axes="x"/></robot>')
 COUPLED = robot(
     *links(a=1.0, b=1.0, c=1.0),
     joint("j", "continuous", "a", "b"),
@@ -52,7 +51,6 @@ DIALECTS = {
     "SDF": TEXTS,
     "moving": MOVING,
     "a quaternion": QUATERNION,
-    "unknown axes": ODD_AXES,
     "a coupling of Gazebo": COUPLED,
 }
 
