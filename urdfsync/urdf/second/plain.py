@@ -108,6 +108,8 @@ def _make_chain(root: Any, joint: Any, axes: str, *, has_damping: bool) -> None:
         joint.remove(part)
     if losses is not None:
         etree.SubElement(joint, "dynamics", damping=losses.get("damping") or losses.findtext("damping", "0"))
+    for end in root.xpath("loop_joint/*[@link=$name]", name=joint.get("name", "")):  # the joint stands for its child
+        end.set("link", joint.find("child").get("link"))
     names = [f"{joint.get('name', '')}_{axis}" for axis in axes]
     if not axes:
         joint.set("type", "fixed")
