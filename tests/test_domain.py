@@ -21,7 +21,6 @@ from urdfsync.diagnostics import Severity
 from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target, Version
 from urdfsync.engine import generate
 from urdfsync.engine.imports import Mentions
-from urdfsync.engine.source import Beside
 from urdfsync.files import Templates, digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
 from urdfsync.pages.scene import Pictures
@@ -32,7 +31,6 @@ from urdfsync.urdf import advice, benches, scene
 from urdfsync.urdf.diff import effects
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.parse import beside
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>
@@ -223,13 +221,13 @@ def test_names_are_identifiers_and_reversible(case: Case) -> None:
         assert len(set(names.values())) == len(names)
 
 
-ANSWERS: tuple[Advice, Beside, Mentions, Effects, Checks, Benches, Pictures]
-ANSWERS = advice, beside, lookup, effects, benches, benches, scene
+ANSWERS: tuple[Advice, Mentions, Effects, Checks, Benches, Pictures]
+ANSWERS = advice, lookup, effects, benches, benches, scene
 """mypy holds the modules of the URDF domain to the Protocols."""
 
 
 def test_modules_answer_what_is_asked_beside_the_domain() -> None:
-    names = "advice", "beside", "imports", "effects", "checks", "simulation", "pictures"
+    names = "advice", "imports", "effects", "checks", "simulation", "pictures"
     assert tuple(getattr(DOMAIN, name) for name in names) == ANSWERS
 
 
@@ -250,6 +248,4 @@ def test_a_domain_need_not_answer_more_than_a_build_asks() -> None:
     public = {name for name in vars(Domain) if not name.startswith("_")}
     methods = {name for name in public if callable(getattr(Domain, name))} - {"options"}
     assert len(methods) <= 10
-    assert {getattr(Least, name) for name in ("advice", "beside", "checks", "simulation", "pictures", "record")} == {
-        None
-    }
+    assert {getattr(Least, name) for name in ("advice", "checks", "simulation", "pictures", "record")} == {None}

@@ -93,13 +93,70 @@ def test_a_link_that_the_next_export_lacks_is_told(project: Path, execute: Execu
     assert "'rocker', which does not exist" in execute("build", code=2).err
 
 
-def test_the_yaml_beside_a_urdf_is_watched_and_compared(project: Path, execute: Execute) -> None:
-    yaml, ends = project / "bars.yaml", [link("a"), link("b")]
-    ends += [joint("fa", "fixed", "rod", "a", xyz="0.4 0.2 0", rpy="0 0 0")]
-    ends += [joint("fb", "fixed", "rocker", "b", xyz="0.2 0.3 0", rpy="0 0 0")]
+WITH_ENDS = URDF.replace(
+    "</robot>",
+    "\n".join(
+        [
+            *(link("a"), link("b")),
+            joint("fa", "fixed", "rod", "a", xyz="0.4 0.2 0", rpy="0 0 0"),
+            joint("fb", "fixed", "rocker", "b", xyz="0.2 0.3 0", rpy="0 0 0"),
+            "</robot>",
+        ]
+    ),
+)
+PAIR = "closed_loop: [[a, b]]\ntype: ['3d']\n"
+NAMING = f'{CONFIGURATION}closed_loops = "bars.yaml"\n'
+
+
+@pytest.mark.parametrize(("urdf", "yaml"), [
+    (f"{WITH_ENDS}<!-- the former end: </robot> -->\n".encode(), PAIR.encode()),
+    (WITH_ENDS.encode("utf-16"), PAIR.encode()),
+    (WITH_ENDS.encode(), PAIR.encode("utf-16")),
+], ids=["comment", "urdf", "yaml"])  # fmt: skip
+def test_comments_and_encodings_take_no_loop_away(project: Path, execute: Execute, urdf: bytes, yaml: bytes) -> None:
+    (project / "urdfsync.toml").write_text(NAMING)
+    (project / "bars.urdf").write_bytes(urdf)
+    (project / "bars.yaml").write_bytes(yaml)
+    execute("build")
+    assert (project / "modelica/Bars/Joints/A_b.mo").exists()
+    (project / "bars.yaml").write_text(PAIR.replace("b]", "x]"))
+    assert "bars.yaml:1: error: loop 'a_x' has a frame on link 'x'" in execute("build", code=2).err
+
+
+def test_the_loops_of_a_yaml_never_vanish_in_silence(project: Path, execute: Execute) -> None:
+    (project / "bars.urdf").write_text(WITH_ENDS)
+    (project / "bars.yaml").write_text(PAIR)
+    (project / "urdfsync.toml").unlink()
+    assert 'closed_loops = "bars.yaml"' in execute("init", "bars.urdf").words
     (project / "urdfsync.toml").write_text(CONFIGURATION)
-    (project / "bars.urdf").write_text(URDF.replace("</robot>", "\n".join([*ends, "</robot>"])))
-    yaml.write_text("closed_loop: [[a, b]]\ntype: ['3d']\n")
+    unnamed = "error: robot `bars`: bars.yaml stands beside the source, and no option names it; set `closed_loops`"
+    assert unnamed in execute("build", code=2).err
+    (project / "bars.yaml").write_text("gains: [1, 2]\n")  # of another program
+    execute("build")
+    (project / "bars.yaml").rename(project / "loops.yaml")
+    (project / "loops.yaml").write_text(PAIR)
+    (project / "urdfsync.toml").write_text(NAMING)
+    assert "the closed_loops bars.yaml can't be read" in execute("build", code=2).err
+    configure(project, "bars.yaml", "loops.yaml")
+    (project / "bars.urdf").rename(project / "renamed.urdf")
+    configure(project, "bars.urdf", "renamed.urdf")
+    execute("build")
+    assert (project / "modelica/Bars/Joints/A_b.mo").exists()
+
+
+def test_another_file_is_compared_with_the_yaml_beside_it(project: Path, execute: Execute) -> None:
+    (project / "urdfsync.toml").write_text(CONFIGURATION)
+    (project / "bars.urdf").write_text(WITH_ENDS)
+    (project / "other.urdf").write_text(WITH_ENDS)
+    (project / "other.yaml").write_text(PAIR)
+    assert "loop a_b" in execute("diff", "--against", "other.urdf", code=1).out
+
+
+def test_the_yaml_beside_a_urdf_is_watched_and_compared(project: Path, execute: Execute) -> None:
+    yaml = project / "bars.yaml"
+    (project / "urdfsync.toml").write_text(NAMING)
+    (project / "bars.urdf").write_text(WITH_ENDS)
+    yaml.write_text(PAIR)
     execute("build")
     assert (project / "modelica/Bars/Joints/A_b.mo").exists()
     execute("build", "--check")

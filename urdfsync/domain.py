@@ -163,6 +163,29 @@ class Version(msgspec.Struct, frozen=True):
     """The domain's options; None if they are unknown, or if the other version has the same."""
 
 
+class CompanionKind(msgspec.Struct, frozen=True):
+    """A kind of file that a source is read with."""
+
+    option: str
+    """The option with the file's path from the configuration's folder."""
+    suffix: str = ""
+    """Without a configuration, such a file stands beside the source, with this suffix; empty if it never does."""
+    mark: bytes = b""
+    """A word of such files: a file beside the source without this word is of another kind."""
+    needed_by: str = ""
+    """The option without which the file that `option` names is not read; empty if it is always read."""
+
+
+class Companion(msgspec.Struct, frozen=True):
+    """A file that a source is read with, on disk or in a revision."""
+
+    option: str
+    """The option of its kind."""
+    file: str
+    """The file's name in diagnostics."""
+    content: bytes
+
+
 class Reading(msgspec.Struct, frozen=True):
     """The result of reading a source: the snapshot, unless a diagnostic is an error, and the diagnostics."""
 
@@ -170,11 +193,17 @@ class Reading(msgspec.Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int] = msgspec.field(default_factory=dict)
     """Line of each element, by the domain's own keys; the core passes these lines to `Domain.dependencies`."""
+    files: Mapping[str, str] = msgspec.field(default_factory=dict)
+    """Companion of each element that is not in the source itself, by the same keys."""
     option_findings: tuple[tuple[str, Diagnostic], ...] = ()
     """Findings about options for this model: each option, with a diagnostic without file and line.
 
     An error stops the build of the robot. The core adds the option's line in the configuration.
     """
+
+    def place(self, element: str, source: str) -> tuple[str, int]:
+        """Return file and line of an element; an unknown element is in line 0 of the `source`."""
+        return self.files.get(element, source), self.lines.get(element, 0)
 
 
 class Lookup(msgspec.Struct, frozen=True):
@@ -224,12 +253,12 @@ class Domain(Protocol):
     cured: Collection[str] = ()
     """Codes of errors that an option from `Advice.propose` avoids; for sources that no configuration names, they are
     warnings."""
+    companions: Sequence[CompanionKind] = ()
+    """Kinds of files that a source is read with."""
 
     # Optional features. Each Protocol is defined beside the code that uses it; an object or a module implements it.
     advice: Any = None  # `urdfsync.config.advice.Advice`
     starter: Any = None  # `urdfsync.config.advice.Starter`
-    beside: Any = None  # `urdfsync.engine.source.Beside`
-    named_file: Any = None  # `urdfsync.engine.source.NamedFile`
     imports: Any = None  # `urdfsync.engine.imports.Mentions`
     describe: Any = None  # `urdfsync.changes.Describe`
     parts: Any = None  # `urdfsync.engine.unused.Parts`
@@ -240,8 +269,11 @@ class Domain(Protocol):
     drawing: Any = None  # `urdfsync.engine.stage.Drawing`
     pictures: Any = None  # `urdfsync.pages.scene.Pictures`
 
-    def read(self, content: bytes, file: str, options: Any) -> Reading:
-        """Read a source; `file` is its name in diagnostics. Pure. Errors of the input are in the `Reading`."""
+    def read(self, content: bytes, file: str, options: Any, *companions: Companion) -> Reading:
+        """Read a source; `file` is its name in diagnostics. Pure. Errors of the input are in the `Reading`.
+
+        A domain without kinds of `companions` gets none.
+        """
         ...
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:

@@ -23,6 +23,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import (
     Artifact,
     ChangeClass,
+    Companion,
     Conversion,
     Dependency,
     Domain,
@@ -97,7 +98,7 @@ class RcNetwork(Domain):
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
         return (("Modelica", "4.0.0"),)
 
-    def read(self, content: bytes, file: str, options: Options) -> Reading:
+    def read(self, content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
         text = content.decode(errors="replace")
         try:
             network = msgspec.json.decode(content, type=Network)
@@ -109,7 +110,7 @@ class RcNetwork(Domain):
         network = replace(network, elements=tuple(sorted(network.elements, key=lambda element: element.name)))
         lines = {element.name: _line_of_name(text, element.name) for element in network.elements}
         lines["signal"] = _line_of_name(text, network.signal or "")
-        return Reading(network, (), lines, tuple(_check_options(network, options)))
+        return Reading(network, (), lines, option_findings=tuple(_check_options(network, options)))
 
     def dependencies(
         self, snapshot: Network, lookup: Lookup, options: Options, lines: Mapping[str, int]

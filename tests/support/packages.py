@@ -10,7 +10,7 @@ from typing import Any, get_args
 
 from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Artifact, Import, Lookup, Order, Reading, Role, Target
+from urdfsync.domain import Artifact, Companion, Import, Lookup, Order, Reading, Role, Target
 from urdfsync.engine.render import Renderer
 from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.artifacts import record
@@ -68,12 +68,12 @@ def proposed_base(content: bytes) -> str:
     return str(next(proposal.value for proposal in DOMAIN.advice.propose(snapshot, ()) if proposal.option == "base"))
 
 
-def generate(source: Path | bytes, target: Target, **options: Any) -> Package:
+def generate(source: Path | bytes, target: Target, *companions: Companion, **options: Any) -> Package:
     """The package of a URDF that has no errors; `options` are those of the domain."""
     chosen = Options(**{"allow": get_args(LeftOut), **options})
     path = source if isinstance(source, Path) else Path("robot.urdf")
     content = source if isinstance(source, bytes) else source.read_bytes()
-    reading = DOMAIN.read(content, path.name, chosen)
+    reading = DOMAIN.read(content, path.name, chosen, *companions)
     assert reading.snapshot is not None, _texts(reading.diagnostics)
     imports, contents = _imports(reading, path, chosen)
     return _render(reading.snapshot, imports, contents, target, chosen)

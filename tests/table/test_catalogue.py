@@ -81,6 +81,20 @@ def test_an_edited_number_is_kept(project: Path, execute: Execute) -> None:
     assert "effort = 3)" in ELBOW.read_text()
 
 
+def test_rows_join_a_urdf_in_utf_16_with_a_comment_behind_the_robot(project: Path, execute: Execute) -> None:
+    text = Path("arm.urdf").read_text().replace('encoding="UTF-8"', 'encoding="UTF-16"')
+    Path("arm.urdf").write_bytes(f"{text}<!-- the former </robot> -->\n".encode("utf-16"))
+    assert "arm: in step" in execute("build", "arm").out
+    edit(SERVOS, "S41,410", "S41,four")
+    assert "catalogue/servos.csv:3: error: effort of joint `elbow`" in execute("build", "arm", code=Exit.ERROR).words
+
+
+def test_without_motors_no_catalogue_is_read(project: Path, execute: Execute) -> None:
+    Path(TOML).write_text(re.sub("(?m)^motors = .*\n", "", Path(TOML).read_text()))
+    SERVOS.unlink()
+    assert "the option `motors` changed" in execute("build", "arm").words
+
+
 def test_the_catalogue_is_a_dependency(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(facts, "YOUNG", 0)
     loaded = config.load(Path("urdfsync.toml"))

@@ -10,10 +10,9 @@ import pytest
 from support.commands import Execute
 from support.networks import edit
 
-from urdfsync.domain import Target
+from urdfsync.domain import Companion, Target
 from urdfsync.engine.result import Exit
 from urdfsync.table.domain import DOMAIN
-from urdfsync.table.formats import MARK
 from urdfsync.table.model import Options, Table
 
 MOTORS = "name,torque [N.cm],inertia [g.cm2],maker\nMX-64,600,12.5,Robotis\nXM 430,410,3,\n"
@@ -209,7 +208,8 @@ def test_a_check_names_each_edited_file(project: Path, execute: Execute) -> None
 def test_the_page_shows_elements_and_connections(project: Path, execute: Execute) -> None:
     Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\n")
     name_connections()
-    table = DOMAIN.read(MOTORS.encode() + MARK + b"from,to\nMX-64,XM 430\n", "motors.csv", Options()).snapshot
+    links = Companion("connections", "links.csv", b"from,to\nMX-64,XM 430\n")
+    table = DOMAIN.read(MOTORS.encode(), "motors.csv", Options(), links).snapshot
     picture, meshes = DOMAIN.pictures.scene(table, {}, Target("Motors", "Motors"), Options())
     assert [body.element for body in picture.bodies] == ["table Motors", "element MX-64", "element XM 430"]
     assert [len(body.shapes) for body in picture.bodies] == [1, 1, 1]

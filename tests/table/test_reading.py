@@ -12,20 +12,21 @@ from typing import Any
 import openpyxl
 import pytest
 
-from urdfsync.domain import Reading
-from urdfsync.table.formats import MARK
+from urdfsync.domain import Companion, Reading
 from urdfsync.table.model import Options, Table
 from urdfsync.table.reading import read
 
 HEADER = "name,mass [kg]\n"
 
 
-def reading(content: str | bytes, file: str = "parts.csv", **options: Any) -> Reading:
-    return read(content.encode() if isinstance(content, str) else content, file, Options(**options))
+def reading(content: str | bytes, file: str = "parts.csv", links: str = "", **options: Any) -> Reading:
+    """The reading of a table, perhaps with connections in a CSV of their own."""
+    companions = [Companion("connections", "links.csv", links.encode())] if links else []
+    return read(content.encode() if isinstance(content, str) else content, file, Options(**options), *companions)
 
 
-def table(content: str | bytes, file: str = "parts.csv", **options: Any) -> Table:
-    found = reading(content, file, **options)
+def table(content: str | bytes, file: str = "parts.csv", links: str = "", **options: Any) -> Table:
+    found = reading(content, file, links, **options)
     assert isinstance(found.snapshot, Table), list(map(str, found.diagnostics))
     return found.snapshot
 
@@ -69,10 +70,10 @@ def test_connections_have_a_list_a_sheet_or_a_file_of_their_own() -> None:
 
     links = "from,to,length [mm]\na,b,20\na,b,30\n"
     entries = '[{"from": "a", "to": "b", "length [mm]": 20}, {"from": "a", "to": "b", "length [mm]": 30}]'
-    sources: list[tuple[str | bytes, str]] = [
-        ((HEADER + "a,1\nb,2\n").encode() + MARK + links.encode(), "a.csv"),
-        (f'{{"elements": {{"a": {{}}, "b": {{}}}}, "connections": {entries}}}', "a.json"),
-        (workbook(fill), "a.xlsx"),
+    sources: list[tuple[str | bytes, str, str]] = [
+        (HEADER + "a,1\nb,2\n", "a.csv", links),
+        (f'{{"elements": {{"a": {{}}, "b": {{}}}}, "connections": {entries}}}', "a.json", ""),
+        (workbook(fill), "a.xlsx", ""),
     ]
     for source in sources:
         assert table(*source).connections == {
@@ -190,10 +191,14 @@ def test_files_that_are_no_tables(content: str | bytes, file: str, words: str) -
 
 @pytest.mark.parametrize(
     ("links", "words"),
-    [("from,to\na,c\n", "parts.csv:6: error: there is no element `c`"), ("x,y\na,a\n", "have no column `from`")],
+    [
+        ("from,to\na,c\n", "links.csv:2: error: there is no element `c`"),
+        ("x,y\na,a\n", "links.csv: error: the connections have no column `from`"),
+        ("from,to,from\na,a,a\n", "links.csv:1: error: there are two columns `from`"),
+    ],
 )
 def test_connections_name_elements(links: str, words: str) -> None:
-    assert words in str(reading((HEADER + "a,1\n").encode() + MARK + links.encode()).diagnostics[0])
+    assert words in str(reading(HEADER + "a,1\n", links=links).diagnostics[0])
 
 
 @pytest.mark.parametrize(
@@ -248,9 +253,9 @@ def test_numbers_without_a_unit_are_told_with_commas_too() -> None:
 
 def test_an_equal_connection_is_told_with_the_line_of_the_other() -> None:
     links = "from,to,length [m]\na,a,1\na,a,2\na,a,1\n"
-    found = reading((HEADER + "a,1\n").encode() + MARK + links.encode())
+    found = reading(HEADER + "a,1\n", links=links)
     (finding,) = found.diagnostics
-    assert str(finding).startswith("parts.csv:8: warning: the connection `a a` stands in line 6, too; delete one")
+    assert str(finding).startswith("links.csv:4: warning: the connection `a a` stands in line 2, too; delete one")
     assert len(found.snapshot.connections) == 3
 
 
@@ -345,7 +350,7 @@ def test_the_places_of_escaped_names_are_not_searched_for_ever() -> None:
 
 
 def test_many_equal_connections_are_numbered_at_once() -> None:
-    found = table((HEADER + "a,1\n").encode() + MARK + b"from,to\n" + 20_000 * b"a,a\n")
+    found = table(HEADER + "a,1\n", links="from,to\n" + 20_000 * "a,a\n")
     assert [*found.connections][-1] == "a a 20000"
     assert len(found.connections) == 20_000
 
@@ -364,7 +369,7 @@ def test_a_header_that_is_no_name_and_unit_takes_no_time(header: str, words: str
 def test_only_the_first_unknown_names_get_hints() -> None:
     links = "".join(f"part{number},parts{number}x\n" for number in range(3000))
     parts = "".join(f"part{number},1\n" for number in range(3000))
-    found = reading((HEADER + parts).encode() + MARK + b"from,to\n" + links.encode()).diagnostics
+    found = reading(HEADER + parts, links=f"from,to\n{links}").diagnostics
     assert len(found) == 3000
     assert sum("did you mean" in finding.hint for finding in found) == 20
 

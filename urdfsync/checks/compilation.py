@@ -107,8 +107,10 @@ class Compilation:
         """Return jobs that simulate the generated package, the edited one, and packages with one edit each."""
         package = self._package
         move = [_task(trial) for trial in experiment.trials]
-        amended = experiment.content, experiment.options
-        is_same = amended == (package.inputs.source.content, package.robot.options)
+        source = package.inputs.source
+        text = msgspec.structs.replace(source, content=experiment.content, companions=experiment.companions)
+        amended = text, experiment.options
+        is_same = amended == (source, package.robot.options)
         self._completed = package.generated if is_same else generated_texts(package.inputs, package.generation, amended)
         jobs: dict[str, _Job] = {"completed": (with_flags(self._completed), move)}
         if experiment.laws:

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import msgspec
 
-from urdfsync.domain import Import, Snapshot, Target
+from urdfsync.domain import Companion, Import, Snapshot, Target
 
 
 class Part(enum.StrEnum):
@@ -217,6 +217,8 @@ class Experiment(msgspec.Struct, frozen=True):
     """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
     """Parts that are not compared, with reasons: one sentence each, without a full stop."""
+    companions: tuple[Companion, ...] = ()
+    """The files that `content` is read with."""
 
 
 class Sample(msgspec.Struct, frozen=True):
@@ -230,8 +232,8 @@ class Sample(msgspec.Struct, frozen=True):
     imports: Mapping[str, Import]
     texts: Mapping[str, bytes] = {}
     """The package on disk, by paths. Its edits may have other variables."""
-    parts: tuple[bytes, ...] = ()
-    """The text of the source before others were joined with it, and these; empty if there are none."""
+    companions: tuple[Companion, ...] = ()
+    """The files that the source is read with."""
 
 
 class Checks(Protocol):

@@ -62,7 +62,7 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         needed = libraries.find_libraries(config, robot, every, [name for name, _ in domain.uses(robot.options)])
         others = {**needed.others, **package.users_models(robot, users).libraries}
         request = BuildOptions(dry=True, package_paths=options.package_paths)
-        content = source.read_source(config, robot, Store(config.root), request).content
+        text = source.read_source(config, robot, Store(config.root), request)
         templates = source.templates(config, robot, domain).digest
     except Exception:  # noqa: BLE001 - the check meets this error, too, and reports it
         return None
@@ -70,7 +70,7 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         robot,
         options.tools,
         msgspec.structs.replace(needed, others=others),
-        *(robot.options, content, templates),
+        *(robot.options, text.content, text.companions, templates),
         shown(robot.folder),  # findings name files relative to the working folder
         *(sorted(files.items()) for files in (texts, around, users)),
     )

@@ -159,7 +159,7 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
 def _sample(package: RobotPackage) -> Sample:
     robot, source, imports = package.robot, package.inputs.source, package.generation.now.imports or {}
     place = shown(robot.source)
-    return Sample(source.content, place, robot.target, robot.options, imports, package.on_disk, source.parts)
+    return Sample(source.content, place, robot.target, robot.options, imports, package.on_disk, source.companions)
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:

@@ -182,9 +182,10 @@ def _guess(
     fleet = [one.arguments for one in known if (root / one.source).resolve() == source.resolve()]
     robot, package = _free_names(source, given, own_name, fleet, known)
     proposals = tuple(advice.propose(snapshot, reading.diagnostics)) if advice else ()
-    beside = source_files.file_beside(domain, path)
-    if beside and domain.beside.OPTION and (root / beside).is_file():
-        proposals += (Proposal(domain.beside.OPTION, beside.as_posix(), "the file stands beside the source"),)
+    found = {companion.option for companion in text.companions}
+    for kind, beside in source_files.companions_beside(domain, path):
+        if kind.option in found:
+            proposals += (Proposal(kind.option, beside.as_posix(), "the file stands beside the source"),)
     templates = domain.starter(snapshot) if domain.starter else {}
     guess = Guess(robot, path.as_posix(), values, package, proposals, templates)
     return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))

@@ -72,7 +72,7 @@ def find_lasting(inputs: Inputs, generation: Generation, decision: Decision) -> 
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
     findings += _unmerged(inputs)
     findings += () if inputs.has_moved else _twin(inputs)
-    findings += tell_unused(decision.differences.unused, (), shown(inputs.robot.source), generation.lines)
+    findings += tell_unused(decision.differences.unused, (), shown(inputs.robot.source), generation.reading)
     return list(map(inputs.source.locate, findings))
 
 
@@ -87,10 +87,10 @@ def find_news(inputs: Inputs, generation: Generation, decision: Decision) -> lis
     changes, last = decision.differences.changes, inputs.last.version
     if effects and changes is not None and last is not None and changes.changes:
         for path, finding in effects.find_doubtful(last, generation.now, changes.renames):
-            line = generation.lines.get(path, 0)
-            findings.append(msgspec.structs.replace(finding, file=shown(inputs.robot.source), line=line))
+            file, line = generation.reading.place(path, shown(inputs.robot.source))
+            findings.append(msgspec.structs.replace(finding, file=file, line=line))
     unshown = changes.unshown if changes else ()
-    findings += tell_unused((), unshown, shown(inputs.robot.source), generation.lines)
+    findings += tell_unused((), unshown, shown(inputs.robot.source), generation.reading)
     if decision.is_complete:
         findings += _changed_connectors(inputs, generation, changes)
     return list(map(inputs.source.locate, findings))
@@ -218,8 +218,8 @@ def _changed_connectors(inputs: Inputs, generation: Generation, changes: Changes
         if connector_change.old is not None:
             now = f"is now `{connector_change.new}`" if connector_change.new else "is gone"
             message = f"{element}: its {connector} `{connector_change.old}` {now}"
-            line = generation.lines.get(element, 0)
-            yield Diagnostic(Severity.NOTE, CONNECTORS, message, file, line, hint=connector_change.hint)
+            place = generation.reading.place(element, file)
+            yield Diagnostic(Severity.NOTE, CONNECTORS, message, *place, hint=connector_change.hint)
 
 
 def orphaned_state(config: Config) -> list[Diagnostic]:

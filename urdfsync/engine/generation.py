@@ -8,13 +8,14 @@ from typing import Any
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Lookup, Role, Version
+from urdfsync.domain import Lookup, Reading, Role, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import with_line_ends
 from urdfsync.engine.renames import check_declared
+from urdfsync.engine.source import Source
 from urdfsync.files import shown
 
 
@@ -23,8 +24,8 @@ class Generation(msgspec.Struct, frozen=True):
 
     now: Version
     """The model of the source, with its imports."""
-    lines: Mapping[str, int]
-    """Line of each element in the source."""
+    reading: Reading
+    """The reading of the source, with the line of each element."""
     diagnostics: tuple[Diagnostic, ...]
     """Findings about source, options and imports."""
     imported: Imported
@@ -44,11 +45,11 @@ def generate_robot(inputs: Inputs) -> Generation:
     """
     if inputs.options.removes:
         nothing = Package((), inputs.templates, inputs.robot.target.package)
-        return Generation(inputs.last.version or Version(None), {}, (), Imported(), nothing)
+        return Generation(inputs.last.version or Version(None), Reading(None, ()), (), Imported(), nothing)
     domain, robot, options, last = inputs.domain, inputs.robot, inputs.options, inputs.last
     file = shown(robot.source)
     with inputs.source.locating():
-        snapshot, reading = source.read(domain, robot.options, inputs.source.content, file)
+        snapshot, reading = source.read(domain, robot.options, inputs.source)
         findings = [
             *inputs.source.diagnostics,
             *reading.diagnostics,
@@ -68,17 +69,17 @@ def generate_robot(inputs: Inputs) -> Generation:
         package = generate(domain, version, robot.target, robot.options, inputs.templates)
         if last.notes.program == inputs.program and not options.full:
             package.skip(last.notes.texts, last.base)
-        return Generation(version, reading.lines, tuple(findings), imported, package)
+        return Generation(version, reading, tuple(findings), imported, package)
 
 
 def generated_texts(
-    inputs: Inputs, generation: Generation, amended: tuple[bytes, Any] | None = None
+    inputs: Inputs, generation: Generation, amended: tuple[Source, Any] | None = None
 ) -> Mapping[str, bytes]:
     """Return the Modelica files of the package by path; `amended` has another source and other options."""
     package = generation.package
     if amended is not None:
-        content, options = amended
-        snapshot, _ = source.read(inputs.domain, options, content, shown(inputs.robot.source))
+        text, options = amended
+        snapshot, _ = source.read(inputs.domain, options, text)
         version = Version(snapshot, generation.imported.imports)
         package = generate(inputs.domain, version, inputs.robot.target, options, inputs.templates)
     orders = {path: "".join(f"{name}\n" for name in names).encode() for path, names in package.orders.items()}

@@ -9,7 +9,7 @@ import stat
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -28,7 +28,7 @@ from urdfsync.dependencies.reads import (
     read_file,
 )
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
-from urdfsync.domain import Domain, Reading, Snapshot
+from urdfsync.domain import Companion, CompanionKind, Domain, Reading, Snapshot
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import Templates, digest, kind_of, shown, templates_digest
 from urdfsync.state.expansion import Expansion, dumps
@@ -61,7 +61,7 @@ def is_xacro(file: Path, content: bytes) -> bool:
 
 
 class Source(msgspec.Struct, frozen=True):
-    """The text of a source, and its inputs."""
+    """The text of a source, the files that it is read with, and its inputs."""
 
     content: bytes
     name: str
@@ -74,8 +74,7 @@ class Source(msgspec.Struct, frozen=True):
     """Changed inputs of the source, if this build could not expand it again."""
     is_made_here: bool = False
     """Whether this machine has expanded the source, now or before."""
-    parts: tuple[bytes, ...] = ()
-    """The text and the files that were joined with it; empty if there is no such file."""
+    companions: tuple[Companion, ...] = ()
 
     @property
     def is_missing(self) -> bool:
@@ -120,20 +119,27 @@ class Source(msgspec.Struct, frozen=True):
 
 
 def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
-    """Read the robot's source, with the file that an option names; xacro or a command may make the source first.
+    """Read the robot's source with its companions; xacro or a command may make the source first.
 
     `name` is the robot's name in the state, if it differs. The source is expanded again, unless this machine has noted
     the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command. Raises
     SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
+    Raises SourceError for a companion beside the source that no option names: a rename would silently remove it.
     """
-    return with_named_file(config, robot, _read_source(config, robot, store, options, name))
+    text = _read_source(config, robot, store, options, name)
+    text = with_companions(text, registry.domain(robot.domain), robot.source, robot.options)
+    for unnamed in text.companions:
+        message = f"robot `{robot.name}`: {unnamed.file} stands beside the source, and no option names it"
+        hint = f"set `{unnamed.option}` to its path, or move the file away"
+        raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
+    return with_named_companions(config, robot, text)
 
 
 def _read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str) -> Source:
     if not robot.command:
         content = _read(config, robot)  # reports a file that xacro can't read
         if robot.arguments is None and not is_xacro(robot.source, content):
-            return _with_file_beside(registry.domain(robot.domain), robot.source, content, robot.options)
+            return Source(content, shown(robot.source))
     from urdfsync.engine import expansion  # takes 5 ms, and few robots need it
 
     inputs = expansion.SourceFiles(config.root, robot.source, (*robot.package_paths, *options.package_paths))
@@ -187,99 +193,54 @@ def _expand(config: Config, robot: RobotConfig, inputs: SourceFiles, options: Bu
     return made
 
 
-class Beside(Protocol):
-    """Reads a second file beside a source, if there is one; a domain's attribute `beside`."""
+def with_companions(
+    text: Source, domain: Domain, source: Path, options: Any = None, revision: Revision | None = None
+) -> Source:
+    """Return a source with the companions beside the file `source`, on disk or in a revision.
 
-    SUFFIX: str
-    """The suffix of this file; its path is the source's path with this suffix."""
-    OPTION: str
-    """The option that must name this file in a configuration (see `NamedFile.OPTION`); empty if it needs no option."""
-
-    def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
-        """Return a source with new lines for the other file's content, and the numbers of these lines in both files.
-
-        `file` is the other file's name in diagnostics. Raises SourceError for an unreadable content.
-        """
-        ...
-
-
-class NamedFile(Protocol):
-    """Adds to a source the content of a file that options name; a domain's attribute `named_file`."""
-
-    OPTION: str
-    """The option with the file's path from the configuration's folder."""
-
-    def file(self, options: Any) -> str:
-        """Return this path; empty if the source needs no such file."""
-        ...
-
-    def join(self, content: bytes, other: bytes, file: str, options: Any) -> tuple[bytes, Sequence[tuple[int, int]]]:
-        """Return a source with new lines for the content of the file; see `Beside.join`."""
-        ...
+    A kind of companion that `options` name is left out: see `with_named_companions`.
+    """
+    found = list(text.companions)
+    for kind, path in companions_beside(domain, source, options):
+        content = revision.contents([path]).get(path) if revision else read_file(path) if is_file(path) else None
+        if content is not None and kind.mark in content.replace(b"\0", b""):  # UTF-16 has a zero in each letter
+            found.append(Companion(kind.option, revision.label(path) if revision else shown(path), content))
+    return msgspec.structs.replace(text, companions=tuple(found))
 
 
-def with_named_file(
+def companions_beside(domain: Domain, source: Path, options: Any = None) -> Iterator[tuple[CompanionKind, Path]]:
+    """Yield the paths of companions beside a source, existing or not, except those of kinds that `options` name."""
+    for kind in domain.companions:
+        if kind.suffix and not getattr(options, kind.option, ""):
+            yield kind, source.with_suffix(kind.suffix)
+
+
+def with_named_companions(
     config: Config | None, robot: RobotConfig, text: Source, revision: Revision | None = None
 ) -> Source:
-    """Return a source with the content of the file that its robot's options name, on disk or in a revision.
+    """Return a source with the companions that its robot's options name, on disk or in a revision.
 
-    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file. Raises
-    SourceError for a file beside the source that no option names: a rename would silently remove its content.
+    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file.
     """
-    domain = registry.domain(robot.domain)
-    named: NamedFile | None = domain.named_file
-    if not (config and named and named.file(robot.options)):
-        path = file_beside(domain, robot.source)
-        if config and path and domain.beside.OPTION and not revision and is_file(path):
-            message = f"robot `{robot.name}`: {shown(path)} stands beside the source, and no option names it"
-            hint = f"set `{domain.beside.OPTION}` to its path, or move the file away"
-            raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
-        return text
-    path, label = config.root / named.file(robot.options), revision.label if revision else shown
+    found = list(text.companions)
+    for kind in registry.domain(robot.domain).companions:
+        named = getattr(robot.options, kind.option)
+        if config and named and (not kind.needed_by or getattr(robot.options, kind.needed_by)):
+            found.append(_read_named(config, robot, kind.option, config.root / named, revision))
+    return msgspec.structs.replace(text, companions=tuple(found))
+
+
+def _read_named(config: Config, robot: RobotConfig, option: str, path: Path, revision: Revision | None) -> Companion:
+    """Return the companion at a path that an option names. Raises SourceError at the line of the option."""
+    label = revision.label if revision else shown
     try:
         content = revision.contents([path])[path] if revision and revision.holds(path) else read_file(path)
     except (OSError, KeyError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it does not exist"
-        message = f"robot `{robot.name}`: the {named.OPTION} {label(path)} can't be read: {reason}"
-        hint = "name a revision that has the file" if revision else f"put the file there, or correct `{named.OPTION}`"
-        raise SourceError.of("no-source", message, label(config.file), robot.lines[named.OPTION], hint=hint) from None
-    return _with_lines(text, *named.join(text.content, content, label(path), robot.options), content, path)
-
-
-def file_beside(domain: Domain, source: Path, options: Any = None) -> Path | None:
-    """Return the path of the second file beside a source, existing or not; None if `options` name the file."""
-    beside: Beside | None = domain.beside
-    if beside is None or (beside.OPTION and getattr(options, beside.OPTION, "")):
-        return None
-    return source.with_suffix(beside.SUFFIX)
-
-
-def _with_file_beside(domain: Domain, source: Path, content: bytes, options: Any) -> Source:
-    """Return a source with the content of the file beside it, unless the options name that file. Raises SourceError."""
-    path = file_beside(domain, source, options)
-    return joined(domain, content, shown(source), read_file(path) if path and is_file(path) else b"", path)
-
-
-def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path | None) -> Source:
-    """Return a source joined with `other`, the content of the file beside it at `path`. Raises SourceError."""
-    beside: Beside | None = domain.beside
-    text, lines = beside.join(content, other, shown(path)) if beside and path and other else (content, ())
-    return _with_lines(Source(content, name), text, lines, other, path)
-
-
-def _with_lines(
-    source: Source, text: bytes, lines: Sequence[tuple[int, int]], other: bytes, path: Path | None
-) -> Source:
-    """Return a source with another text, which has the content `other` of the file at `path`.
-
-    `lines` pairs lines of the text with their lines in that file.
-    """
-    if not lines or path is None:
-        return source
-    own = source.places or [(line, source.name, line) for line in range(1, lines[0][0])]
-    places = (*own, *((line, shown(path), other) for line, other in lines))
-    parts = (*(source.parts or (source.content,)), other)
-    return msgspec.structs.replace(source, content=text, places=places, parts=parts)
+        message = f"robot `{robot.name}`: the {option} {label(path)} can't be read: {reason}"
+        hint = "name a revision that has the file" if revision else f"put the file there, or correct `{option}`"
+        raise SourceError.of("no-source", message, label(config.file), robot.lines[option], hint=hint) from None
+    return Companion(option, label(path), content)
 
 
 def read_file_source(
@@ -287,7 +248,7 @@ def read_file_source(
 ) -> Source:
     """Read a source that no configuration names, with these arguments if it is xacro. Raises SourceError.
 
-    A file beside the source is left out if `options` name it: see `with_named_file`.
+    A companion that `options` name is left out: see `with_named_companions`.
     """
     try:
         content = read_unrecorded(file)
@@ -295,7 +256,7 @@ def read_file_source(
         message, hint = f"the source can't be read: {error.strerror}", "name an existing, readable file"
         raise SourceError.of("no-source", message, shown(file), hint=hint) from None
     if not is_xacro(file, content):
-        return _with_file_beside(domain, file, content, options)
+        return with_companions(Source(content, shown(file)), domain, file, options)
     from urdfsync.engine import expansion
 
     inputs = expansion.SourceFiles(file.absolute().parent, file.absolute(), package_paths)
@@ -394,12 +355,13 @@ def check_options(config: Config, robot: RobotConfig, reading: Reading) -> tuple
     return findings
 
 
-def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snapshot, Reading]:
-    """Return the model in a source, and its reading; `name` is the source's name in diagnostics.
+def read(domain: Domain, options: Any, text: Source) -> tuple[Snapshot, Reading]:
+    """Return the model in a source, and its reading. Raises SourceError with all faults."""
+    return _without_errors(_read_text(domain, options, text))
 
-    Raises SourceError with all faults.
-    """
-    return _without_errors(_read_model(domain, msgspec.json.encode(options), content, name))  # type: ignore[arg-type] # the domain is an object
+
+def _read_text(domain: Domain, options: Any, text: Source) -> Reading:
+    return _read_model(domain, msgspec.json.encode(options), text.content, text.name, text.companions)  # type: ignore[arg-type] # the domain is an object
 
 
 def _without_errors(reading: Reading) -> tuple[Snapshot, Reading]:
@@ -414,9 +376,8 @@ def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
 
     Errors that the domain cures become warnings.
     """
-    options = msgspec.json.encode(domain.permissive_options or domain.options())
     with text.locating():
-        reading = _read_model(domain, options, text.content, text.name)  # type: ignore[arg-type] # the domain is an object
+        reading = _read_text(domain, domain.permissive_options or domain.options(), text)
         diagnostics = tuple(
             msgspec.structs.replace(one, severity=Severity.WARNING) if one.code in domain.cured else one
             for one in reading.diagnostics
@@ -425,9 +386,11 @@ def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
 
 
 @functools.lru_cache(maxsize=4)
-def _read_model(domain: Domain, options: bytes, content: bytes, name: str) -> Reading:
+def _read_model(
+    domain: Domain, options: bytes, content: bytes, name: str, companions: tuple[Companion, ...]
+) -> Reading:
     """Read a source. The last result is kept: the daemon confirms each build by a second build.
 
     Serves the rows "one mass changed in the daemon" of docs/speed.md. Options are JSON, since they may not be hashable.
     """
-    return domain.read(content, name, msgspec.json.decode(options, type=domain.options))
+    return domain.read(content, name, msgspec.json.decode(options, type=domain.options), *companions)

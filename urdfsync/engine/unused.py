@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.domain import Artifact, ChangeClass, ChangeKind, Domain, Order, Snapshot, Target, Version
+from urdfsync.domain import Artifact, ChangeClass, ChangeKind, Domain, Order, Reading, Snapshot, Target, Version
 from urdfsync.engine.generate import Package
 from urdfsync.files import Templates
 
@@ -112,9 +112,7 @@ def with_unshown(
     return msgspec.structs.replace(news, changes=tuple(changes), unshown=tuple(told))
 
 
-def tell_unused(
-    unused: Iterable[str], unshown: Iterable[Change], file: str, lines: Mapping[str, int]
-) -> Iterator[Diagnostic]:
+def tell_unused(unused: Iterable[str], unshown: Iterable[Change], file: str, reading: Reading) -> Iterator[Diagnostic]:
     """Yield a warning for each part that no template uses, and for each change of other parts that no text shows."""
     places = {f"no template uses {part}": part for part in sorted(unused)}
     verbs = {ChangeKind.ADDED: "is new", ChangeKind.REMOVED: "is gone"}
@@ -123,4 +121,4 @@ def tell_unused(
     }
     hint = f'use it in a template, or set `ignore = ["{CODE}"]`'
     for message, place in places.items():
-        yield Diagnostic(Severity.WARNING, CODE, message, file, lines.get(place, 0), hint=hint)
+        yield Diagnostic(Severity.WARNING, CODE, message, *reading.place(place, file), hint=hint)

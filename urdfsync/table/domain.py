@@ -9,7 +9,19 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Artifact, Domain, ElementKey, Features, Import, Order, Reading, Role, Target
+from urdfsync.domain import (
+    Artifact,
+    Companion,
+    CompanionKind,
+    Domain,
+    ElementKey,
+    Features,
+    Import,
+    Order,
+    Reading,
+    Role,
+    Target,
+)
 from urdfsync.modelica.literals import capitalize_first
 from urdfsync.table.model import FROM, TO, Options, Table, Value, shown_unit
 from urdfsync.table.names import column_name, component_name
@@ -26,28 +38,6 @@ class _Module:
     def __get__(self, domain: TableDomain, owner: type[TableDomain]) -> ModuleType:
         """Return the module."""
         return importlib.import_module(self._name)
-
-
-class _Connections:
-    """The connections in a CSV, such as `rooms.connections.csv` beside `rooms.csv`."""
-
-    SUFFIX, OPTION = ".connections.csv", "connections"
-
-    def file(self, options: Options) -> str:
-        """Return the path of the CSV; see `NamedFile`."""
-        return options.connections
-
-    def join(
-        self,
-        content: bytes,
-        other: bytes,
-        file: str,
-        options: Options | None = None,  # noqa: ARG002 - see `NamedFile`
-    ) -> tuple[bytes, Sequence[tuple[int, int]]]:
-        """Return the source with the connections at its end; see `Beside`."""
-        from urdfsync.table.formats import join
-
-        return join(content, other, file)
 
 
 class _Columns:
@@ -79,7 +69,7 @@ class TableDomain(Domain):
     warnings = ("not-modelled",)
     model = Table
     options = Options
-    beside = named_file = _Connections()
+    companions = (CompanionKind("connections", ".connections.csv"),)
     parts = _Columns()
     advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
 
@@ -94,11 +84,11 @@ class TableDomain(Domain):
         """Return the libraries in the configuration."""
         return tuple(options.uses.items())
 
-    def read(self, content: bytes, file: str, options: Options) -> Reading:
-        """Read a source."""
+    def read(self, content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
+        """Read a source, and the connections in a CSV such as `rooms.connections.csv` beside `rooms.csv`."""
         from urdfsync.table.reading import read
 
-        return read(content, file, options)
+        return read(content, file, options, *companions)
 
     def names(self, snapshot: Table, target: Target) -> Mapping[str, Mapping[str, str]]:  # noqa: ARG002 - see `Domain`
         """Return the component names of the elements."""

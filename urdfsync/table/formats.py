@@ -14,6 +14,7 @@ from pathlib import PurePath
 from typing import Any
 
 from urdfsync.diagnostics import SourceError
+from urdfsync.domain import Companion
 from urdfsync.extras import install_command
 from urdfsync.numerals import MarkError, find_separator, with_points
 from urdfsync.table.model import NOTHING, Sheet
@@ -27,21 +28,20 @@ _LAST_ROW = 1_048_576
 _MERGED = re.compile(rb"""<(?:\w++:)?mergeCell\s[^<>]*?\bref\s*+=\s*+["']([A-Z]++(\d++)[^"'<>]*)""")
 _MOST_MISSES = 100
 """The greatest number of entries whose place is looked for in vain, as if a file escapes its letters."""
-MARK = b"\n\0connections\0\n"
-"""Separates a source from the connections in the CSV beside it."""
 
 
-def read_sheets(content: bytes, file: str) -> tuple[Sheet, Sheet]:
-    """Return elements and connections. Raises SourceError for a source without a table."""
-    content, _, beside = content.partition(MARK)
+def read_sheets(content: bytes, file: str, *companions: Companion) -> tuple[Sheet, Sheet]:
+    """Return elements and connections; a companion is a CSV with the connections.
+
+    Raises SourceError for a source without a table.
+    """
     suffix = PurePath(file).suffix.lower()
     if suffix not in _READERS:
         hint = f"use one of {', '.join(sorted(filter(None, _READERS)))}"
         raise SourceError.of("table-format", f"`{suffix}` is no format of tables", file, hint=hint)
-    elements, connections = _READERS[suffix](content, file)
-    if beside:
-        first = content.count(b"\n") + MARK.count(b"\n")
-        connections = _read_csv(beside, file, first)[0]
+    elements, connections = (sheet._replace(file=file) for sheet in _READERS[suffix](content, file))
+    for companion in companions:
+        connections = _read_csv(companion.content, companion.file)[0]._replace(file=companion.file)
     if not elements.rows:
         raise SourceError.of(
             "table-file", "the table has no rows", file, hint="write a header and a row for each element"
@@ -49,24 +49,18 @@ def read_sheets(content: bytes, file: str) -> tuple[Sheet, Sheet]:
     return elements, connections
 
 
-def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:  # noqa: ARG001 - see `Beside`
-    """Return a source with the connections of the CSV beside it, and the line of each connection in both texts."""
-    first = content.count(b"\n") + MARK.count(b"\n")
-    return content + MARK + other, [(first + line, line) for line in range(1, other.count(b"\n") + 2)]
-
-
-def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
+def _read_csv(content: bytes, file: str) -> tuple[Sheet, Sheet]:
     """Read a CSV."""
-    separator, text = find_separator(_decode(content, file, first))
+    separator, text = find_separator(_decode(content, file))
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     rows, line = list[tuple[int, Sequence[object]]](), 1
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
-                rows.append((first + line, row))
+                rows.append((line, row))
             line = reader.line_num + 1
     except csv.Error as error:
-        raise SourceError.of("table-file", f"this is no CSV: {error}", file, first + line, hint="correct it") from None
+        raise SourceError.of("table-file", f"this is no CSV: {error}", file, line, hint="correct it") from None
     if not rows:
         return NOTHING, NOTHING
     if not rows[0][1][-1]:  # spreadsheets write a separator for each column that ever had a cell
@@ -75,12 +69,12 @@ def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
     return Sheet([str(cell) for cell in rows[0][1]], rows[1:], may_have_commas=separator != ","), NOTHING
 
 
-def with_decimal_points(sheet: Sheet, columns: Collection[int], file: str) -> Sheet:
+def with_decimal_points(sheet: Sheet, columns: Collection[int]) -> Sheet:
     """Return a sheet whose numbers in these columns have decimal points. Raises SourceError if the mark is unknown."""
     try:
         return sheet._replace(rows=with_points(sheet.rows, columns)) if sheet.may_have_commas else sheet
     except MarkError as error:
-        raise SourceError.of("decimal-mark", error.message, file, error.line, hint=error.hint) from None
+        raise SourceError.of("decimal-mark", error.message, sheet.file, error.line, hint=error.hint) from None
 
 
 def _read_data(content: bytes, file: str) -> tuple[Sheet, Sheet]:
@@ -284,11 +278,11 @@ def _read_epanet(content: bytes, file: str) -> tuple[Sheet, Sheet]:
     return epanet.read(content, file)
 
 
-def _decode(content: bytes, file: str, first: int = 0) -> str:
+def _decode(content: bytes, file: str) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line = first + error.object.count(b"\n", 0, error.start) + 1
+        line = error.object.count(b"\n", 0, error.start) + 1
         is_csv = PurePath(file).suffix.lower() not in (".json", ".toml", ".yaml", ".yml")
         hint = f"save the file as {'`CSV UTF-8`, as Excel calls it' if is_csv else 'UTF-8'}, then try again"
         message = "the file is not UTF-8"

@@ -26,6 +26,8 @@ class Sheet(NamedTuple):
     """Names of parts of the source that the sheet lacks."""
     may_have_commas: bool = False
     """Whether numbers may have decimal commas, since no comma separates cells; see `numerals`."""
+    file: str = ""
+    """The sheet's file in diagnostics."""
 
 
 NOTHING = Sheet((), ())

@@ -10,7 +10,7 @@ from decimal import Decimal
 from typing import NamedTuple
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
-from urdfsync.domain import Reading
+from urdfsync.domain import Companion, Reading
 from urdfsync.spelling import counted, name_and_unit, nearest
 from urdfsync.table import formats
 from urdfsync.table.model import FROM, NOTHING, TO, TYPES, Options, Sheet, Table, Value
@@ -33,26 +33,27 @@ class _Column(NamedTuple):
     type: Unit | str
 
 
-def read(content: bytes, file: str, options: Options) -> Reading:
+def read(content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
     """Read a source; see `Domain.read`."""
-    reader = _Reader(file, options)
+    reader = _Reader(options)
     try:
-        elements, connections = formats.read_sheets(content, file)
+        elements, connections = formats.read_sheets(content, file, *companions)
         table = reader.read(elements, connections)
     except SourceError as error:
         return Reading(None, (*reader.findings, *error.diagnostics))
     is_wrong = any(finding.severity is Severity.ERROR for finding in reader.findings)
-    return Reading(None if is_wrong else table, tuple(reader.findings), reader.lines, tuple(reader.of_options))
+    files = {path: connections.file for path in reader.lines if companions and path.startswith("connection ")}
+    return Reading(None if is_wrong else table, tuple(reader.findings), reader.lines, files, tuple(reader.of_options))
 
 
 class _Reader:
     """Reads one source, and collects its findings."""
 
-    def __init__(self, file: str, options: Options) -> None:
+    def __init__(self, options: Options) -> None:
         self.findings: list[Diagnostic] = []
         self.of_options: list[tuple[str, Diagnostic]] = []
         self.lines: dict[str, int] = {}
-        self._file, self._options = file, options
+        self._options = options
 
     def read(self, elements: Sheet, connections: Sheet) -> Table:
         """Return the table, which is complete if no finding is an error."""
@@ -60,7 +61,7 @@ class _Reader:
         columns = self._columns(elements, {key, self._options.kind} - {""})
         links = self._columns(connections, {FROM, TO})
         elements, connections = (
-            formats.with_decimal_points(sheet, [n for n, c in enumerate(found) if c.type not in _TEXTS], self._file)
+            formats.with_decimal_points(sheet, [n for n, c in enumerate(found) if c.type not in _TEXTS])
             for sheet, found in ((elements, columns), (connections, links))
         )
         known = {column.name for column in (*columns, *links)}
@@ -74,19 +75,17 @@ class _Reader:
                 hint = f"did you mean `{near}`?" if near else f"the columns are {', '.join(sorted(known))}"
                 self._of_option(option, f"there is no column `{name}`", hint)
         if connections.rows and (lacking := {FROM, TO} - known):
-            self._error(
-                "no-column", f"the connections have no column `{min(lacking)}`", 0, "name both elements in each row"
-            )
+            message = f"the connections have no column `{min(lacking)}`"
+            self._error(connections, "no-column", message, 0, "name both elements in each row")
             connections = NOTHING
         rows = {} if self.of_options else self._rows(elements, columns, key)
         for name, reason in find_clashes(rows):
-            self._error(
-                "key-clash", f"the key `{name}` is no name: {reason}", self.lines[f"element {name}"], "rename it"
-            )
+            message = f"the key `{name}` is no name: {reason}"
+            self._error(elements, "key-clash", message, self.lines[f"element {name}"], "rename it")
         is_whole = not self.of_options and len(rows) == len(elements.rows)
         joined = self._connections(connections, links, rows) if is_whole else {}
         self.findings += [
-            Diagnostic(Severity.NOTE, "not-modelled", f"not modelled: {note}", self._file) for note in elements.notes
+            Diagnostic(Severity.NOTE, "not-modelled", f"not modelled: {note}", elements.file) for note in elements.notes
         ]
         types, of_links = (
             {c.name: c.type if isinstance(c.type, str) else c.type.si for c in each} for each in (columns, links)
@@ -99,18 +98,18 @@ class _Reader:
         for number, cell in enumerate(sheet.header):
             name, unit = name_and_unit(cell)
             if not name or not name.isprintable():
-                self._error("no-column", f"column {number + 1} has no name", 1, "name the column in the header")
+                self._error(sheet, "no-column", f"column {number + 1} has no name", 1, "name the column in the header")
             elif name in names:
-                self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
+                self._error(sheet, "no-column", f"there are two columns `{name}`", 1, "rename one")
             if name in texts and unit not in ("", "text"):
                 hint = "name columns of texts as `key` and `kind` in the configuration"
-                self._error("no-key", f"column `{name}` has the unit {unit}: it can't name elements", 1, hint)
+                self._error(sheet, "no-key", f"column `{name}` has the unit {unit}: it can't name elements", 1, hint)
             names.add(name)
             is_text = name in texts or not name
             columns.append(_Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
         for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
             if "same name" in reason and f"`{name}`" not in reason:
-                self._error("no-column", f"column `{name}` can't be told apart: {reason}", 1, "rename it")
+                self._error(sheet, "no-column", f"column `{name}` can't be told apart: {reason}", 1, "rename it")
         return columns
 
     def _type(self, name: str, unit: str, sheet: Sheet, number: int) -> Unit | str:
@@ -120,23 +119,24 @@ class _Reader:
             if (unit or declared) in TYPES:
                 return unit or declared
             if unit and declared and not is_same_kind(unit, declared):
-                self._error(
-                    "bad-unit", f"column `{name}` is in {unit}, but the configuration says {declared}", 1, "correct one"
-                )
+                message = f"column `{name}` is in {unit}, but the configuration says {declared}"
+                self._error(sheet, "bad-unit", message, 1, "correct one")
             if unit or declared:
                 return find_unit(unit or declared)
         except ValueError as error:
-            self._error("bad-unit", f"column `{name}`: {error}", 1, "write a unit such as `kg.m2`, or `1` for none")
+            self._error(
+                sheet, "bad-unit", f"column `{name}`: {error}", 1, "write a unit such as `kg.m2`, or `1` for none"
+            )
             return "text"
         except SourceError as error:
-            self._error(error.diagnostics[0].code, error.diagnostics[0].message, 1, error.diagnostics[0].hint)
+            self._error(sheet, error.diagnostics[0].code, error.diagnostics[0].message, 1, error.diagnostics[0].hint)
             return "text"
         cells = [cells[number] for _, cells in sheet.rows if number < len(cells) and cells[number] not in (None, "")]
         if sheet.may_have_commas:
             cells = [cell.replace(",", ".") if isinstance(cell, str) else cell for cell in cells]
         if cells and all(_is_number(cell) for cell in cells):
             hint = f"write `{name} [kg]` with the unit, `{name} [1]` without a unit, or `{name} [text]`"
-            self._error("no-unit", f"column `{name}` has numbers but no unit", 1, hint)
+            self._error(sheet, "no-unit", f"column `{name}` has numbers but no unit", 1, hint)
         return "text"
 
     def _rows(self, sheet: Sheet, columns: Sequence[_Column], key: str) -> dict[str, dict[str, Value]]:
@@ -145,13 +145,13 @@ class _Reader:
             name = str(row.pop(key, None) or "")
             kind = row.get(self._options.kind) if self._options.kind else None
             if not name:
-                self._error("no-key", "the row has no key", line, f"fill its column `{key}`")
+                self._error(sheet, "no-key", "the row has no key", line, f"fill its column `{key}`")
             elif name in rows:
                 first = self.lines[f"element {name}"]
-                self._error("duplicate-key", f"the key `{name}` stands in line {first}, too", line, "rename one")
+                self._error(sheet, "duplicate-key", f"the key `{name}` stands in line {first}, too", line, "rename one")
             elif self._options.kind and not (isinstance(kind, str) and _KIND.fullmatch(kind)):
                 hint = "use letters, digits, `_` and `-`: the kind names a template"
-                self._error("no-kind", f"the kind `{kind or ''}` of `{name}` can't be a template", line, hint)
+                self._error(sheet, "no-kind", f"the kind `{kind or ''}` of `{name}` can't be a template", line, hint)
             else:
                 rows[name], self.lines[f"element {name}"] = row, line
         return rows
@@ -167,13 +167,13 @@ class _Reader:
                 if name not in elements:
                     near = nearest(name, elements) if len(self.findings) < _MOST_HINTS else ""
                     hint = f"did you mean `{near}`?" if near else "add the element, or correct the connection"
-                    self._error("no-element", f"there is no element `{name}`", line, hint)
+                    self._error(sheet, "no-element", f"there is no element `{name}`", line, hint)
             cells = tuple(sorted(row.items()))
             if cells in first_lines:
                 message = f"the connection `{' '.join(ends)}` stands in line {first_lines[cells]}, too"
                 hint = "delete one, or number equal connections in a column of their own"
                 self.findings.append(
-                    Diagnostic(Severity.WARNING, "equal-connections", message, self._file, line, hint=hint)
+                    Diagnostic(Severity.WARNING, "equal-connections", message, sheet.file, line, hint=hint)
                 )
             first_lines.setdefault(cells, line)
             key, number = " ".join(ends), numbers.get(" ".join(ends), 2)
@@ -188,7 +188,9 @@ class _Reader:
         for line, cells in sheet.rows:
             if len(cells) != len(columns):
                 message = f"the row has {counted(len(cells), 'cell')}, but the header has {len(columns)}"
-                self._error("ragged-row", message, line, "fill each cell, or quote a text that has the separator")
+                self._error(
+                    sheet, "ragged-row", message, line, "fill each cell, or quote a text that has the separator"
+                )
                 continue
             row = dict[str, Value]()
             for column, cell in zip(columns, cells, strict=True):
@@ -196,11 +198,11 @@ class _Reader:
                     if (value := read_value(cell, column.type)) is not None:
                         row[column.name] = value
                 except ValueError as error:
-                    self._error("bad-cell", f"column `{column.name}`: {error}", line, "correct the cell")
+                    self._error(sheet, "bad-cell", f"column `{column.name}`: {error}", line, "correct the cell")
             yield line, row
 
-    def _error(self, code: str, message: str, line: int, hint: str) -> None:
-        self.findings.append(Diagnostic(Severity.ERROR, code, message, self._file, line, hint=hint))
+    def _error(self, sheet: Sheet, code: str, message: str, line: int, hint: str) -> None:
+        self.findings.append(Diagnostic(Severity.ERROR, code, message, sheet.file, line, hint=hint))
 
     def _of_option(self, option: str, message: str, hint: str) -> None:
         self.of_options.append((option, Diagnostic(Severity.ERROR, "no-column", message, hint=hint)))

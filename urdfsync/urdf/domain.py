@@ -9,7 +9,19 @@ from types import ModuleType
 from typing import get_args
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Artifact, Conversion, Dependency, Domain, Import, Lookup, Order, Reading, Target
+from urdfsync.domain import (
+    Artifact,
+    Companion,
+    CompanionKind,
+    Conversion,
+    Dependency,
+    Domain,
+    Import,
+    Lookup,
+    Order,
+    Reading,
+    Target,
+)
 from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
 from urdfsync.urdf.assembly import Assembly
@@ -57,23 +69,26 @@ class UrdfDomain(Domain):
     permissive_options = Options(allow=get_args(LeftOut))
     cured = ("loop-singular",)
     advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
-    beside, named_file, imports = _Module("parse.beside"), _Module("parse.catalogue"), _Module("meshes.lookup")
-    simulation, pictures = _Module("benches"), _Module("scene")
+    imports, simulation, pictures = _Module("meshes.lookup"), _Module("benches"), _Module("scene")
+    companions = (
+        CompanionKind("closed_loops", ".yaml", b"closed_loop"),
+        CompanionKind("catalogue", needed_by="motors"),
+    )
     describe = staticmethod(describe)
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
         """Return the Modelica Standard Library, UrdfSync, and the library of the visualizer."""
         return options.uses
 
-    def read(self, content: bytes, file: str, options: Options) -> Reading:
+    def read(self, content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
         """Read a URDF.
 
         A robot without errors is also checked for implausible values and for joints that no simulation can move. Names
         in options are checked against the robot.
         """
-        robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
+        robot, diagnostics, lines, files, unmodelled = read_robot(content, file, options, *companions)
         if robot is None:
-            return Reading(None, diagnostics, lines)
+            return Reading(None, diagnostics, lines, files)
         assembly = Assembly(robot, options)
         tree, closed = assembly.tree, assembly.closed
         about_options = list(option_names.check_options(assembly))
@@ -85,11 +100,12 @@ class UrdfDomain(Domain):
                 about_options.append((option, diagnostic(finding.code, finding.message, 0, finding.hint)))
             else:
                 of_source.append(finding)
-        diagnostics += located(find_implausible(tree), file, lines) + unmodelled + located(of_source, file, lines)
+        places = file, lines, files
+        diagnostics += located(find_implausible(tree), *places) + unmodelled + located(of_source, *places)
         if not closed.faults:
-            diagnostics += located(find_unsimulated(assembly), file, lines)
+            diagnostics += located(find_unsimulated(assembly), *places)
         is_wrong = any(entry.severity is Severity.ERROR and entry.code not in self.cured for entry in diagnostics)
-        return Reading(None if is_wrong else robot.by_name(), diagnostics, lines, tuple(about_options))
+        return Reading(None if is_wrong else robot.by_name(), diagnostics, lines, files, tuple(about_options))
 
     def names(self, snapshot: Robot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return the component names of links, joints and loops."""
@@ -143,7 +159,7 @@ class UrdfDomain(Domain):
         """Return the record of the whole robot, and findings about parts that the generic robot lacks."""
         robot = reading.snapshot
         findings = out_of_scope(KinematicTree.of(robot))
-        return package.record(robot, target, options), located(findings, file, reading.lines)
+        return package.record(robot, target, options), located(findings, file, reading.lines, reading.files)
 
 
 DOMAIN = UrdfDomain()

@@ -83,6 +83,8 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     inputs: Literal["names", "vector"] = "names"
     """`names`: Run has an input per driven joint; `vector`: one vector of all inputs, in the order of the chain."""
 
+    closed_loops: str = ""
+    """Path of a YAML with loops, motors and joints of several axes, from the folder of the configuration."""
     loops: tuple[LoopOption, ...] = ()
     """Joints that close loops, in addition to those of the source."""
     allow: tuple[LeftOut, ...] = ()

@@ -21,7 +21,7 @@ from urdfsync.changes import Changes, Effect, Effects
 from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.config.load import parse as parse_config
 from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
-from urdfsync.domain import ChangeClass, Domain, Lookup, Role, Target, Version
+from urdfsync.domain import ChangeClass, Domain, Lookup, Reading, Role, Target, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Reason
@@ -185,7 +185,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions, 
     missing = "" if last else "the record of the last build is lost" if inputs.last.record.files else "never built"
     effects: tuple[Effect, ...] = ()
     if last is not None and differences is not None and (differences.changes or differences.generator):
-        snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
+        snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source)
         with contextlib.suppress(*NO_MODEL):  # the recorded model may be invalid
             effects = _effects(inputs.domain, last, Version(snapshot), differences, robot)
     return Comparison(result, shown(robot.source), None, missing, effects)
@@ -231,17 +231,18 @@ def _with_version(
         if _is_file(against, source, folder):
             file = folder / against
             text = source_files.read_file_source(domain, file, arguments, folders, robot.options)
-            other = _VersionedSource(source_files.with_named_file(config, robot, text), (file, source))
+            other = _VersionedSource(source_files.with_named_companions(config, robot, text), (file, source))
         else:
             revision = Revision(source.parent, against)
             before = _configured_in(revision, robot, config)
-            text = source_files.with_named_file(config, before, _in_revision(revision, before, config), revision)
+            text = _in_revision(revision, before, config)
+            text = source_files.with_named_companions(config, before, text, revision)
             other = _VersionedSource(text, (before.source,), revision, Path(scratch))
         if config and not robot.command:  # the file may be an expanded source
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
             text = source_files.read_file_source(domain, source, arguments, folders, robot.options)
-            text = source_files.with_named_file(config, robot, text)
+            text = source_files.with_named_companions(config, robot, text)
         current = _VersionedSource(text, (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, imported_before, told_before = _read(domain, robot, other, imported, options)
@@ -262,7 +263,7 @@ def _with_version(
     unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
     owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
     differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
-    told_unused = tell_unused(unused, differences.unshown, shown(robot.source), {})
+    told_unused = tell_unused(unused, differences.unshown, shown(robot.source), Reading(None, ()))
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored((*new_findings, *told_unused)))
     changed = packages[1].changed_since(packages[0])
     older, newer = (_files_of(*pair, changed) for pair in zip(packages, (old, new), strict=True))
@@ -302,10 +303,8 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
     if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
         content = revision.read(robot.source)
         if config is None or not source_files.is_xacro(robot.source, content):
-            domain = registry.domain(robot.domain)
-            beside = source_files.file_beside(domain, robot.source, robot.options)
-            other = revision.contents([beside]).get(beside, b"") if beside else b""
-            return source_files.joined(domain, content, label, other, beside)
+            domain, text = registry.domain(robot.domain), Source(content, label)
+            return source_files.with_companions(text, domain, robot.source, robot.options, revision)
     path = Store(config.root).expansion(robot.name)
     if (recorded := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"
@@ -345,7 +344,7 @@ def _read(
     """
     text = version.text
     with text.locating():
-        snapshot, reading = source_files.read(domain, robot.options, text.content, text.name)
+        snapshot, reading = source_files.read(domain, robot.options, text)
     found_files = []
     for place in version.places:
         lookup = Lookup(place, robot.package_paths + options.package_paths)

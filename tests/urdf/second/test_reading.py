@@ -40,7 +40,6 @@ MOVING = robot(
 
 
 QUATERNION = URDF.replace("<robot", '<robot version="1.1"').replace("<parent", '<origin quat_xyzw="0 0 3 4"/><parent')
-ODD_AXES = URDF.replace("</robot>", '<joint_axes joint="j" axes="q"/><joint_axes joint="k" axes="x"/></robot>')
 COUPLED = robot(
     *links(a=1.0, b=1.0, c=1.0),
     joint("j", "continuous", "a", "b"),
@@ -52,7 +51,6 @@ DIALECTS = {
     "SDF": TEXTS,
     "moving": MOVING,
     "a quaternion": QUATERNION,
-    "unknown axes": ODD_AXES,
     "a coupling of Gazebo": COUPLED,
 }
 
@@ -64,8 +62,8 @@ def test_both_readers_read_the_same(text: str) -> None:
 
 def test_values_have_the_lines_of_their_elements() -> None:
     read = read_again(TEXTS.encode(), Options())
-    assert read.links["b"].values["inertial.mass"] == ((2.0,), 4)
-    assert read.joints["j"].values["limits.lower"] == ((-1.0,), 5)
+    assert read.links["b"].values["inertial.mass"][:2] == ((2.0,), 4)
+    assert read.joints["j"].values["limits.lower"][:2] == ((-1.0,), 5)
     assert read.joints["j"].values["origin.xyz"].value == (1.0, 2.0, 3.0)
     assert (read.joints["j"].parent, read.joints["j"].child) == ("a", "b")
 

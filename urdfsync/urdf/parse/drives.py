@@ -18,6 +18,7 @@ import msgspec
 
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.closures import Closures
 from urdfsync.urdf.parse.fields import Reader, quoted
 from urdfsync.urdf.robot import MOTION_KINDS, Command, Joint, Mimic, Transmission
 from urdfsync.urdf.validate import Finding, perhaps
@@ -290,6 +291,13 @@ def configured_drives(options: Options) -> Iterator[Drive]:
         yield Drive("", name, command=options.commands.get(name), start=options.start.get(name), is_driven=False)
 
 
+def read_motors(reader: Reader, closures: Closures) -> Iterator[Drive]:
+    """Yield the drives of the joints that have a motor in a YAML."""
+    for name, line in closures.motors:
+        reader.put(f"motor {name}", line, closures.file)
+        yield Drive(f"motor {name}", name)
+
+
 def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
     """Return the joints with their drives; of contradictory drives the first counts.
 
@@ -363,7 +371,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
     return msgspec.structs.replace(
         joint,
         actuated=is_driven or None,
-        measured=(not is_driven and any(drive.is_measured for drive in drives)) or None,
+        measured=(not is_driven and (joint.measured or any(drive.is_measured for drive in drives))) or None,
         transmission=gear.transmission if gear else None,
         mimic=mimic.mimic if mimic else None,
         start=start.start if start else None,

@@ -11,6 +11,7 @@ import msgspec
 from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
+    MOTION_KINDS,
     Collision,
     Contact,
     Dynamics,
@@ -143,8 +144,8 @@ def resolve_materials(
     )
 
 
-def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
-    """Read a joint, with its axis as written.
+def read_joint(reader: Reader, element: Element, path: str, given: Collection[str] = ()) -> Joint | None:
+    """Read a joint, with its axis as written. Numbers that the catalogue has `given` are left out.
 
     Return None, after an error, for a joint without parent or child. A joint of unknown type becomes a plain fixed
     joint. Isaac Sim writes `spherical` for a ball. SDFormat has limits and losses inside of the axis. Drake's page on
@@ -158,6 +159,10 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
             message = f"{path}: <{part.tag}> stands in <axis> as in SDFormat, and is read"
             reader.add(part, "sdf-spelling", message)
     limit, dynamics = element.find("limit"), element.find("dynamics")
+    given = given if element.get("type") in MOTION_KINDS else ()
+    for part in [part for part in (limit, dynamics) if part is not None]:
+        for number in given:
+            part.attrib.pop(number, None)
     if limit is not None:
         reader.drop_newer(limit, f"{path} / limit", ("acceleration", "deceleration", "jerk"), (1, 2))
         if acceleration := limit.attrib.pop("drake:acceleration", ""):
@@ -174,7 +179,7 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
         return None
     if axis is not None and "xyz" not in axis.attrib and JOINT_KINDS[joint.type].has_axis:
         reader.add(axis, "missing-value", f"{path} / axis has no 'xyz', and is taken as 1 0 0", 'write xyz="…"')
-    if dynamics is not None and not {*Dynamics.__struct_fields__} & dynamics.attrib.keys():
+    if dynamics is not None and not {*Dynamics.__struct_fields__} & {*dynamics.attrib, *given}:
         reader.add(dynamics, "missing-value", f"{path} / dynamics has none of {', '.join(Dynamics.__struct_fields__)}")
     safety = element.find("safety_controller")
     if safety is not None and "k_velocity" not in safety.attrib:
@@ -192,7 +197,8 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
         message = f"{path} / limit has no {' and '.join(zero)}, which URDF 1.2 requires"
         reader.add(limit, "missing-attribute", message)
         return joint
-    unlimited = [name for name in ("effort", "velocity") if name not in limit.attrib and kind.motion and not is_new]
+    stated = {*limit.attrib, *given}
+    unlimited = [name for name in ("effort", "velocity") if name not in stated and kind.motion and not is_new]
     if joint.limit and kind.motion:
         names = ["velocity"] if joint.limit.velocity == 0 else []
         if kind.has_limits and not zero and joint.limit.lower == joint.limit.upper == 0:

@@ -77,6 +77,8 @@ class Reader:
         """Version of URDF of the file."""
         self.lines: dict[str, int] = {}
         """Line of each path: see `RobotReading`."""
+        self.files: dict[str, str] = {}
+        """File of each path that is not in the source itself."""
         self.diagnostics: list[Diagnostic] = []
         """Diagnostics so far, without the name of the file."""
         self.extensions: list[tuple[str, Element]] = []
@@ -106,7 +108,8 @@ class Reader:
             place = path
             while place not in self.lines and " / " in place:
                 place = place.rpartition(" / ")[0]
-            self.diagnostics.append(diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint))
+            entry = diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint)
+            self.diagnostics.append(msgspec.structs.replace(entry, file=self.files.get(place, "")))
 
     def drop_newer(self, element: Element, path: str, attributes: Iterable[str], version: tuple[int, int]) -> None:
         """Remove attributes of URDF `version` from an element of an older file, with a warning."""
@@ -122,6 +125,11 @@ class Reader:
         """Remember the line of an element; return its path."""
         self.lines.setdefault(path, self.element_lines[element])
         return path
+
+    def put(self, path: str, line: int, file: str) -> None:
+        """Remember line and file of a new path; no `file` means the source itself."""
+        self.lines[path] = line
+        self.files |= {path: file} if file else {}
 
     def children(
         self, element: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False
@@ -396,25 +404,29 @@ def quoted(text: str) -> str:
     return repr(cut(text, _TEXT_SHOWN))
 
 
-def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) -> tuple[Diagnostic, ...]:
-    """Return diagnostics for findings about a file; `lines` are those of `RobotReading`."""
+def located(
+    findings: Iterable[Finding], file: str, lines: Mapping[str, int], files: Mapping[str, str]
+) -> tuple[Diagnostic, ...]:
+    """Return diagnostics for findings about a file; `lines` and `files` are those of `RobotReading`."""
     reader = Reader({})
     reader.lines.update(lines)
+    reader.files.update(files)
     reader.extend(findings)
     return summary(reader.diagnostics, file)
 
 
 def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of a file in order of lines.
+    """Return the diagnostics of a file and its companions in order of lines. Those without a file are of `file`.
 
     More than three warnings with one code become one warning. All warnings about one unknown name become one warning.
     """
-    by_code: dict[tuple[Severity, str, str], list[Diagnostic]] = {}
-    for entry in sorted(diagnostics, key=lambda entry: (entry.line, entry.column)):
+    by_code: dict[tuple[Severity, str, str, str], list[Diagnostic]] = {}
+    named = (entry if entry.file else msgspec.structs.replace(entry, file=file) for entry in diagnostics)
+    for entry in sorted(named, key=lambda entry: (entry.line, entry.column)):
         kind = entry.message.rpartition(": ")[2] if entry.code in _BY_KIND else ""
-        by_code.setdefault((entry.severity, entry.code, kind), []).append(msgspec.structs.replace(entry, file=file))
+        by_code.setdefault((entry.severity, entry.code, kind, entry.file), []).append(entry)
     shown: list[Diagnostic] = []
-    for (severity, _, kind), group in by_code.items():
+    for (severity, _, kind, _), group in by_code.items():
         if severity is Severity.ERROR or len(group) <= (1 if kind else _SHOWN_ALONE):
             shown += group
             continue
@@ -422,4 +434,4 @@ def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, .
         listed = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
         more = f"(and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {listed})"
         shown.append(msgspec.structs.replace(group[0], message=f"{group[0].message} {more}"))
-    return tuple(sorted(shown, key=lambda entry: (entry.line, entry.column)))
+    return tuple(sorted(shown, key=lambda entry: (entry.file != file, entry.line, entry.column)))

@@ -27,6 +27,7 @@ from urdfsync.urdf import validate
 from urdfsync.urdf.kinematics.poses import Matrix, Pose, across, compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LoopFrame, LoopOption, Options
+from urdfsync.urdf.parse.closures import Closures
 from urdfsync.urdf.parse.fields import Reader, quoted
 from urdfsync.urdf.parse.gazebo import FORCES
 from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
@@ -63,7 +64,7 @@ class _Named(msgspec.Struct):
     name: str
 
 
-def find_loop_elements(root: Element) -> Iterator[Element]:
+def _find_loop_elements(root: Element) -> Iterator[Element]:
     """Yield the elements of a robot that close loops."""
     for child in root:
         if child.tag in TAGS:
@@ -112,16 +113,17 @@ def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Elem
         yield element, pair
 
 
-def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) -> tuple[Loop, ...]:
+def read_loops(reader: Reader, root: Element, robot: Robot, options: Options, closures: Closures) -> tuple[Loop, ...]:
     """Return the loops of a robot. `robot` is a tree, with all parts but the loops. Faulty loops are left out."""
     loops = list[Loop]()
-    elements = list(find_loop_elements(root))
+    elements = list(_find_loop_elements(root))
     poses = link_poses(KinematicTree.of(robot), {}) if elements else {}
     links = {link.name for link in robot.links}
     ends = {joint.name: joint.child for joint in robot.joints if joint.name not in links}
     names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
     in_gazebo = {link.get("name") for part in root.iterfind("gazebo") for link in part.iterfind("link")} - links
-    for element, name, path in zip(elements, names, validate.element_paths("loop", names), strict=True):
+    paths = validate.element_paths("loop", [*names, *(loop.name for loop, _ in closures.loops)])
+    for element, name, path in zip(elements, names, paths, strict=False):
         reader.place(element, path)
         if element.tag == "joint":
             loop = _read_joint(reader, element, path, name, poses, in_gazebo)
@@ -138,6 +140,9 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
                 loop = _read_ball(reader, element, path, name)
         if loop is not None and loop.parent and loop.child:  # reader.read reports a missing name
             loops.append(loop)
+    for (loop, line), path in zip(closures.loops, paths[len(names) :], strict=True):
+        reader.put(path, line, closures.file)
+        loops.append(loop)
     # a loop may name a joint instead of the joint's child link: both have one frame
     loops = [
         replace(loop, parent=ends.get(loop.parent, loop.parent), child=ends.get(loop.child, loop.child))

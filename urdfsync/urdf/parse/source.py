@@ -8,19 +8,21 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, cut
+from urdfsync.diagnostics import Diagnostic, SourceError, cut
+from urdfsync.domain import Companion
 from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.beside import AXES, split_joints
-from urdfsync.urdf.parse.catalogue import Row, read_rows, with_row
-from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
+from urdfsync.urdf.parse.catalogue import Row, find_gaps, read_rows, with_rows
+from urdfsync.urdf.parse.chains import find_axes, find_balls_in_loops, split
+from urdfsync.urdf.parse.closures import Closures, read_closures
+from urdfsync.urdf.parse.drives import configured_drives, read_drives, read_motors, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
@@ -29,7 +31,7 @@ from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
-_DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint", AXES})
+_DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint"})
 """Children of `<robot>` that other code reads, or that do not concern links and joints."""
 _XACRO = ("include", "macro", "if", "unless", "property")
 """Elements of xacro that need the prefix `xacro:` since ROS Noetic."""
@@ -53,50 +55,38 @@ class RobotReading(NamedTuple):
     robot: Robot | None
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int]
+    files: Mapping[str, str] = {}
+    """File of each path that is not in the URDF itself."""
     unmodelled: tuple[Diagnostic, ...] = ()
     """The note on unmodelled elements, if the URDF has such elements."""
 
 
-def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: Sequence[str] = ()) -> RobotReading:
+def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, *companions: Companion) -> RobotReading:
     """Read a URDF; `file` is its name in diagnostics.
 
-    Raises nothing for bad input. The options choose drives and loops, and parts that may be left out. Each ball joint
-    in `balls` becomes a chain of three joints.
+    `companions` are a YAML with loops and the catalogue. Raises nothing for bad input. The options choose drives and
+    loops, and parts that may be left out.
 
-    Reports all faults of the model, but only the first fault of the XML.
+    Reports all faults of the model, but only the first fault of a companion or of the XML.
     """
+    closures, rows = Closures(), dict[str, Row]()
     try:
-        document = split_joints(xml.parse(content), balls)
+        for companion in companions:
+            if companion.option == "catalogue":
+                rows.update(read_rows(companion, options))
+            else:
+                closures = read_closures(companion)
+        document = xml.parse(content)
+    except SourceError as error:
+        return RobotReading(None, error.diagnostics, {})
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines, options.allow)
-    rows = read_rows(reader, document.root)
-    robot = _read(reader, document, options, rows) if not reader.failed and _is_urdf(reader, document) else None
+    robot = _read(reader, document, options, closures, rows) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:
-        return RobotReading(None, diagnostics, reader.lines)
-    if held := [] if balls else _balls_in_loops(robot):
-        reading = read_robot(content, file, options, held)  # the first reading finds the balls to split
-        told = [entry for entry in diagnostics if entry.code in ("limit-without-effect", "dynamics-without-effect")]
-        for name in held:
-            message = f"joint {name!r} is a ball in a loop: three continuous joints replace the ball"
-            told.append(validate.diagnostic("loop-ball", message, reader.lines[f"joint {name}"]))
-        return reading._replace(diagnostics=summary([*told, *reading.diagnostics], file))
-    return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file))
-
-
-def _balls_in_loops(robot: Robot) -> list[str]:
-    """Return the names of the ball joints between the two ends of a loop."""
-    balls = [joint.name for joint in robot.joints if joint.type == "ball"]
-    parents, held = {joint.child: joint for joint in robot.joints}, set[str]()
-    for loop in robot.loops if balls else ():
-        ways = [set[str](), set[str]()]
-        for way, link in zip(ways, (loop.parent, loop.child), strict=True):
-            while link in parents:
-                way.add(parents[link].name)
-                link = parents[link].parent
-        held |= ways[0] ^ ways[1]
-    return [name for name in balls if name in held]
+        return RobotReading(None, diagnostics, reader.lines, reader.files)
+    return RobotReading(robot, diagnostics, reader.lines, reader.files, summary(_note_unmodelled(reader), file))
 
 
 def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
@@ -162,7 +152,9 @@ def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
     return version
 
 
-def _read(reader: Reader, document: xml.Document, options: Options, rows: Mapping[str, Row]) -> Robot:
+def _read(
+    reader: Reader, document: xml.Document, options: Options, closures: Closures, rows: Mapping[str, Row]
+) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
@@ -171,14 +163,11 @@ def _read(reader: Reader, document: xml.Document, options: Options, rows: Mappin
     name = root.get("name", "")
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
+    axes = find_axes(reader, root, closures)
     for child in root:
         if child.tag == "drake:joint":
             message = f"<drake:joint> {quoted(child.get('name', ''))} is of a type that URDF does not have"
             reader.add(child, "unknown-joint-type", message)
-        elif child.tag == AXES:
-            joint, axes = (quoted(child.get(name, "")) for name in ("joint", "axes"))
-            message = f"there is no joint {joint}, or its axes {axes} are unknown"
-            reader.add(child, "unknown-reference", message)
         if child.tag in _DIALECTS:
             reader.extensions.append(("", child))
         elif child.tag in _XACRO or (child.tag != "link" and any(map(len, child.iter("link")))):
@@ -202,25 +191,23 @@ def _read(reader: Reader, document: xml.Document, options: Options, rows: Mappin
 
     driving = [place for tag in ("ros2_control", "transmission", "gazebo") for place in elements(tag)]
     drives = [drive for element, path in driving for drive in read_drives(reader, element, path)]
+    drives += read_motors(reader, closures)
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
     all_links = [
         read_link(reader, element, path, contacts.get(element.get("name", ""))) for element, path in elements("link")
     ]
-    all_joints = [read_joint(reader, *place) for place in elements("joint")]
+    given = {name: row.cells.keys() for name, row in rows.items()}
+    all_joints = [
+        read_joint(reader, element, path, given.get(element.get("name", ""), ())) for element, path in elements("joint")
+    ]
     links = [link for link in all_links if link.name]
-    all_drives = [*configured_drives(options), *drives]
-    joints = with_drives(reader, (joint for joint in all_joints if joint and joint.name), all_drives)
-    joints = [with_row(reader, joint, rows.get(joint.name)) for joint in joints]
+    joints = [joint for joint in all_joints if joint and joint.name]
     complete = len(links) == len(all_links) and len(joints) == len(all_joints)
+    links, joints = split(reader, links, joints, axes)
+    joints = with_rows(reader, with_drives(reader, joints, [*configured_drives(options), *drives]), rows)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}
-    linked = resolve_materials(reader, by_path, materials, defined)
-    sensors = read_sensors(reader, root, {link.name for link in links}, joints) if complete else ()
-    extensions = dict[str, dict[str, tuple[str, ...]]]()
-    for owner, tag, text in sorted((owner, part.tag, xml.canonical(part)) for owner, part in reader.unmodelled()):
-        tags = extensions.setdefault(owner, {})
-        tags[tag] = (*tags.get(tag, ()), text)
-    robot = Robot(name, tuple(linked), tuple(joints), extensions, sensors)
+    robot = Robot(name, resolve_materials(reader, by_path, materials, defined), tuple(joints))
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # the joint of a transmission may be missing in an incomplete robot
         names = {joint.name for joint in joints}
@@ -232,5 +219,29 @@ def _read(reader: Reader, document: xml.Document, options: Options, rows: Mappin
                 reader.extend([validate.Finding("unknown-actuated-joint", drive.path, message, hint)])
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
     robot = msgspec.structs.replace(robot, joints=tuple(moving))
-    loops = () if reader.failed else read_loops(reader, root, robot, options)
-    return msgspec.structs.replace(robot, loops=loops)
+    if not reader.failed:
+        robot = msgspec.structs.replace(robot, loops=read_loops(reader, root, robot, options, closures))
+        robot = _without_balls_in_loops(reader, robot, options, rows)
+    reader.diagnostics += find_gaps(robot.joints, rows)
+    sensors = read_sensors(reader, root, {link.name for link in robot.links}, robot.joints) if complete else ()
+    extensions = dict[str, dict[str, tuple[str, ...]]]()
+    for owner, tag, text in sorted((owner, part.tag, xml.canonical(part)) for owner, part in reader.unmodelled()):
+        tags = extensions.setdefault(owner, {})
+        tags[tag] = (*tags.get(tag, ()), text)
+    return msgspec.structs.replace(robot, extensions=extensions, sensors=sensors)
+
+
+def _without_balls_in_loops(reader: Reader, robot: Robot, options: Options, rows: Mapping[str, Row]) -> Robot:
+    """Return the robot with three hinges instead of each ball in a loop."""
+    held = find_balls_in_loops(robot.joints, robot.loops)
+    if not held:
+        return robot
+    for name in held:
+        message = f"joint {name!r} is a ball in a loop: three continuous joints replace the ball"
+        reader.extend([validate.Finding("loop-ball", f"joint {name}", message)])
+    links, joints = split(reader, robot.links, robot.joints, dict.fromkeys(held, "xyz"))
+    hinges = with_drives(reader, joints[-3 * len(held) :], list(configured_drives(options)))
+    joints[-3 * len(held) :] = with_rows(reader, hinges, rows)
+    known, robot = {*validate.check(robot)}, msgspec.structs.replace(robot, links=tuple(links), joints=tuple(joints))
+    reader.extend(finding for finding in validate.check(robot) if finding not in known)
+    return robot

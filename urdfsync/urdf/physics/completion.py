@@ -17,6 +17,7 @@ import msgspec
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.robot import Inertia
+from urdfsync.urdf.second.companions import Companions
 from urdfsync.urdf.second.plain import plain_urdf
 
 _NEEDED = {
@@ -27,6 +28,7 @@ _NEEDED = {
     "link/inertial/inertia": dict.fromkeys(Inertia.__struct_fields__, "0"),
 }
 """Attributes that Pinocchio's reader requires."""
+_NOTHING = Companions()
 _PER_MASS = (0.013, 0.002, -0.003, 0.016, 0.001, 0.012)
 """Made-up inertia tensor of 1 kg, in the order of `Inertia`'s fields: not diagonal, and physically possible."""
 
@@ -38,12 +40,15 @@ class CompletedSource(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def completed_for_pinocchio(content: bytes, joints: Collection[str] | None = None) -> CompletedSource:
+def completed_for_pinocchio(
+    content: bytes, joints: Collection[str] | None = None, companions: Companions = _NOTHING
+) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires.
 
-    `joints` are the names of the joints in the first reading, see `plain_root`.
+    `joints` are the names of the joints in the first reading, see `plain_root`. The copy has the statements of a YAML,
+    but not the gears of a catalogue.
     """
-    root = xml.parse(content := plain_urdf(content, joints)).root
+    root = xml.parse(content := plain_urdf(content, joints, companions)).root
     added = set() if root.get("name") else {"the robot's name"}
     root.set("name", root.get("name") or "robot")
     for joint in root.findall("joint"):

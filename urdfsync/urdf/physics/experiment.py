@@ -22,6 +22,7 @@ from urdfsync.urdf.physics.probe import RobotVariables
 from urdfsync.urdf.physics.reference import pinocchio
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
+from urdfsync.urdf.second.companions import read_companions
 from urdfsync.urdf.second.reading import read_again
 
 _ITERATED = 1e-7
@@ -37,7 +38,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     Pinocchio is missing or can't read the source.
     """
     file, options = sample.file, sample.options
-    reading = read_robot(sample.content, file, options)
+    reading = read_robot(sample.content, file, options, *sample.companions)
     # the package lacks a part of the robot
     if left_out := [entry.message for entry in reading.diagnostics if entry.code in options.allow]:
         return left_out[0]
@@ -45,15 +46,19 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     has_package = "package" in options.approach
     if loose := [joint for joint in obstacles(robot.joints) if joint.type != "ball" or not has_package]:
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes its motion"
-    completed, notes = completion.completed_for_pinocchio(sample.content, {joint.name for joint in robot.joints})
+    stated = read_companions(sample.companions, options)
+    names = {joint.name for joint in robot.joints}
+    completed, notes = completion.completed_for_pinocchio(sample.content, names, stated)
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
-    robot = _robot(read_robot(completed, file, options))
+    catalogue = tuple(companion for companion in sample.companions if companion.option == "catalogue")
+    robot = _robot(read_robot(completed, file, options, *catalogue))
     trials = list[Trial]()
     # Pinocchio has smooth friction and rigid drives; rumoca can't start if two joints with stiction slide
     simplified = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # infinite numbers in the source
         try:
-            subject = Subject(msgspec.structs.replace(sample, content=completed, options=simplified), robot)
+            copy = msgspec.structs.replace(sample, content=completed, companions=catalogue, options=simplified)
+            subject = Subject(copy, robot)
         except OpenLoopError:
             return "Pinocchio can't close the loops of the robot at or near the start"
         tree = subject.tree
@@ -64,13 +69,15 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         for approach in options.approach:
             if approach == "package" or has_record:
                 trials += _trials(subject, approach, step)
+    second = read_again(sample.content, options, *sample.companions)
     return Experiment(
         reference=f"Pinocchio {pinocchio().__version__}",
         content=completed,
         options=simplified,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        laws=laws_trial(subject, read_again(sample.content, options), options) if has_package else None,
+        laws=laws_trial(subject, second, options) if has_package else None,
+        companions=catalogue,
         unchecked=(*_simplified(subject, options), *_not_compared(subject), *subject.unchecked),
     )
 

@@ -27,6 +27,7 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.robot import Mimic, Vector
+from urdfsync.urdf.second.companions import Row
 from urdfsync.urdf.second.gears import Gear, read_gears
 from urdfsync.urdf.second.reading import Element, origin
 
@@ -51,8 +52,12 @@ class PinocchioRobot(NamedTuple):
     """The part of the rotors in the mass matrix: Pinocchio's `armature` can't couple two joints."""
 
 
-def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRobot:
-    """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file.
+def read(
+    content: bytes, file: str, loose: Collection[str] = (), rows: Mapping[str, Row] | None = None
+) -> PinocchioRobot:
+    """Read a URDF with Pinocchio; its gears have the numbers of `rows` of the catalogue.
+
+    Raises SourceError if Pinocchio is not installed or refuses the file.
 
     Pinocchio merges fixed joints and gives no forces in them, so fixed joints in `loose` become movable. Pinocchio's
     reader lacks ball joints: this function adds them.
@@ -87,7 +92,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
         hint = "correct the file, or check without --physics"
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
     model = _with_balls(pin, model, balls) if balls else model
-    gears, rotors = read_gears(root), np.zeros((model.nv, model.nv))
+    gears, rotors = read_gears(root, rows or {}), np.zeros((model.nv, model.nv))
     for joint in root.findall("joint"):
         name, armature = joint.get("name", ""), joint.find("dynamics[@armature]")
         if model.existJointName(name) and (coordinates := model.joints[model.getJointId(name)]).nv == 1:

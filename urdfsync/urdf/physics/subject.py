@@ -22,6 +22,7 @@ from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
 from urdfsync.urdf.physics.reference import Configuration, Reference, Solution, read
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Robot
+from urdfsync.urdf.second.companions import read_companions
 from urdfsync.urdf.second.reading import Reading, read_again
 
 _MARGIN = 0.9
@@ -47,13 +48,14 @@ class Subject:
         assembly = Assembly(robot, sample.options, sample.target)
         self.tree, self.closed, self.connectors = assembly.tree, assembly.closed, assembly.connectors
         self.target, self.options = sample.target, assembly.options
-        self.content, self.texts, tree = sample.content, sample.texts, self.tree
+        self.sample, self.texts, tree = sample, sample.texts, self.tree
         driven = (joint for joint in motion.driven_axes(tree) if joint.name not in self.closed.dependent)
         self.balls = tuple(joint for joint in tree.joints if joint.type == "ball")
         self.axes = (*driven, *self.balls)
         sensed = {sensor.at for sensor in tree.sensors if sensor.is_in_joint}
         names = [joint.name for joint in self.axes]
-        self.reference = Reference(read(sample.content, sample.file, sensed), names, self.closed)
+        rows = read_companions(sample.companions, sample.options).rows
+        self.reference = Reference(read(sample.content, sample.file, sensed, rows), names, self.closed)
         self.base = motion.base_courses()
         self.stand: contacts.Stand | None = None
         self.unchecked = dict[str, None]()
@@ -80,7 +82,7 @@ class Subject:
     @cached_property
     def second(self) -> Reading:
         """The second reading of the source."""
-        return read_again(self.content, self.options)
+        return read_again(self.sample.content, self.options, *self.sample.companions)
 
     @cached_property
     def checked_by_robot(self) -> Collection[str]:

@@ -52,12 +52,7 @@ def compare_numbers(sample: Sample, robot: Robot, packages: Sequence[Mapping[str
     """Compare the records of packages, and the first reading `robot`. Raises SourceError if the second reader fails."""
     with np.errstate(all="ignore"):  # source or edits may have infinite numbers
         try:
-            content = sample.content
-            if sample.parts:
-                from urdfsync.urdf.second.beside import join_again  # saves most robots 40 ms
-
-                content = join_again(sample.parts, sample.options)
-            reading = read_again(content, sample.options)
+            reading = read_again(sample.content, sample.options, *sample.companions)
             first = _Comparison(packages[0], reading, robot, sample).numbers()
             return [  # equal if there are no edits: saves 0.1 s with 70 links
                 first if texts == packages[0] else _Comparison(texts, reading, robot, sample).numbers()
@@ -112,7 +107,7 @@ class _Comparison:
             for name in sorted(elements.keys() - {name for of, name in self.components if of == kind}):
                 if kind in ("link", "joint") or "package" in self.sample.options.approach:
                     element = f"{kind} {name}"
-                    self._compare(f"{self.name}.mo", element, (), {"name": Stated(name, elements[name].line)})
+                    self._compare(f"{self.name}.mo", element, (), {"name": elements[name].state(name)})
         self._attributes()
         for contradiction in self.reading.contradictions:
             place = Value("elements", "", "", 0)
@@ -140,7 +135,7 @@ class _Comparison:
 
     def _differ(self, file: str, element: str, value: Value, stated: Stated, given: Any) -> None:
         words = _shown(stated.value), _shown(given)
-        place = file, value.line, self.sample.file, stated.line
+        place = file, value.line, stated.file or self.sample.file, stated.line
         self.differences.append(Difference(element, value.path, *words, *place))
 
     def _element(self, file: str, component: str, type_: str, values: Sequence[Value], *, whole: bool = False) -> None:
@@ -347,7 +342,7 @@ class _Comparison:
                 continue
             expected = second_attributes(key[0], element)
             given = [Value(path, "", string(first[key][path] or "nothing"), line) for path in expected]
-            stated = {path: Stated(word or "nothing", element.line) for path, word in expected.items()}
+            stated = {path: element.state(word or "nothing") for path, word in expected.items()}
             self._compare(file, " ".join(key), given, stated)
 
 
@@ -384,7 +379,7 @@ def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
         case _:
             is_right = is_right and not len(u)
     right = dict(zip(keys, numbers if is_right else [f"those of a {loop.type} joint"] * 3, strict=True))
-    return {key: Stated(value, loop.line) for key, value in right.items()}
+    return {key: loop.state(value) for key, value in right.items()}
 
 
 def _shown(value: Any) -> str:

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from urdfsync.urdf.second.catalogue import read_motors
+from urdfsync.urdf.second.companions import Row
 from urdfsync.urdf.second.plain import decimal
 
 
@@ -23,8 +23,11 @@ class Gear(NamedTuple):
     joint_reduction: float = 0.0
 
 
-def read_gears(root: Any) -> dict[str, Gear]:
-    """Return the gears of a URDF by joint. Endings of names identify tags and attributes."""
+def read_gears(root: Any, rows: Mapping[str, Row]) -> dict[str, Gear]:
+    """Return the gears of a URDF by joint, with the numbers of `rows` of the catalogue.
+
+    Endings of names identify tags and attributes.
+    """
     gears = dict[str, Gear]()
     turning = {
         joint.get("name")
@@ -42,7 +45,7 @@ def read_gears(root: Any) -> dict[str, Gear]:
         for name, each in (found or {}).items():
             if each != Gear() and (not each.joint or {name, each.joint} <= turning):
                 gears.setdefault(name, each)
-    for name, row in read_motors(root).items():
+    for name, (row, _) in rows.items():
         gear = gears.get(name, Gear())
         gear = gear._replace(reduction=row.get("reduction", gear.reduction), rotor=row.get("rotor_inertia", gear.rotor))
         if gear != Gear():

@@ -1,6 +1,6 @@
 """Writes a source as plain URDF: SDFormat's elements become attributes, and joints with several axes become chains.
 
-Numbers of the catalogue become attributes of joints, except the numbers of gears.
+Numbers of the catalogue become attributes of joints, except the numbers of gears; `read_gears` has these.
 
 The second reader and Pinocchio read the result. The first reader shares only the decoding of bytes.
 """
@@ -15,7 +15,7 @@ from typing import Any
 from lxml import etree
 
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.second.catalogue import PATHS, read_motors
+from urdfsync.urdf.second.companions import PATHS, Companions
 
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
 """Elements whose text SDFormat uses instead of an attribute."""
@@ -23,14 +23,27 @@ _NAMES = "xyz lower upper effort velocity damping friction multiplier offset ixx
 """Elements that SDFormat uses instead of an attribute of the parent element."""
 
 
-def plain_urdf(content: bytes, joints: Collection[str] | None = None) -> bytes:
-    """Return a source as plain URDF. A plain URDF is returned unchanged. See `plain_root`."""
-    plain = etree.tostring(plain_root(content, joints))
+_NOTHING = Companions()
+
+
+def plain_urdf(content: bytes, joints: Collection[str] | None = None, companions: Companions = _NOTHING) -> bytes:
+    """Return a source as plain URDF, with loops and motors of the YAML. A plain URDF is returned unchanged.
+
+    See `plain_root`.
+    """
+    root = plain_root(content, joints, companions)
+    for name, kind, first, second, _ in companions.loops:
+        loop = etree.SubElement(root, "loop_joint", name=name, type=kind)
+        etree.SubElement(loop, "link1", link=first)
+        etree.SubElement(loop, "link2", link=second)
+    for joint, _ in companions.motors:
+        etree.SubElement(etree.SubElement(root, "transmission", name=joint), "joint", name=joint)
+    plain = etree.tostring(root)
     return content if plain == etree.tostring(_parse(content)) else bytes(plain)
 
 
-def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
-    """Return the root of a source as plain URDF.
+def plain_root(content: bytes, joints: Collection[str] | None = None, companions: Companions = _NOTHING) -> Any:
+    """Return the root of a source as plain URDF. Loops and motors of the YAML are not in it.
 
     `joints` are the names of joints in the first reading. A ball joint without such a name becomes a chain of hinges.
     """
@@ -45,9 +58,8 @@ def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
             joint.set("type", "ball")
             if joints is not None and name not in joints:
                 _make_chain(root, joint, "xyz", has_damping=True)
-        for axes in root.xpath("joint_axes[@joint=$name and not(translate(@axes, 'xyz', ''))]", name=name):
-            root.remove(axes)
-            _make_chain(root, joint, axes.get("axes", ""), has_damping=False)
+        if name in companions.axes:
+            _make_chain(root, joint, companions.axes[name], has_damping=False)
     for element in [part for top in root if top.tag in ("link", "joint") for part in top.iter()]:
         for part in element.xpath("axis/limit | axis/dynamics"):
             if element.find(part.tag) is None:
@@ -65,8 +77,8 @@ def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
         for name, text in texts.items():
             if name not in element.attrib and (text or "").strip():
                 element.set(name, text.strip())
-    for name, numbers in read_motors(root).items():
-        for number, size in numbers.items():
+    for name, row in companions.rows.items():
+        for number, size in row.numbers.items():
             tag = PATHS[number].partition(".")[0].replace("limits", "limit")
             for joint in root.xpath("joint[@name=$name]", name=name) if tag != "transmission" else ():
                 part = joint.find(tag)
@@ -91,11 +103,13 @@ def _parse(content: bytes) -> Any:
 def _make_chain(root: Any, joint: Any, axes: str, *, has_damping: bool) -> None:
     """Replace a joint by hinges about the given axes, with massless links between the hinges. No hinge is driven."""
     root.remove(joint)
-    damping = joint.xpath("dynamics/@damping") if has_damping else ()
+    losses = joint.find("dynamics") if has_damping else None
     for part in joint.xpath("axis | limit | dynamics"):
         joint.remove(part)
-    if damping:
-        etree.SubElement(joint, "dynamics", damping=damping[0])
+    if losses is not None:
+        etree.SubElement(joint, "dynamics", damping=losses.get("damping") or losses.findtext("damping", "0"))
+    for end in root.xpath("loop_joint/*[@link=$name]", name=joint.get("name", "")):  # the joint stands for its child
+        end.set("link", joint.find("child").get("link"))
     names = [f"{joint.get('name', '')}_{axis}" for axis in axes]
     if not axes:
         joint.set("type", "fixed")

@@ -19,8 +19,9 @@ import numpy as np
 import yourdfpy
 from lxml import etree
 
+from urdfsync.domain import Companion
 from urdfsync.urdf.options import LoopFrame, Options
-from urdfsync.urdf.second.catalogue import PATHS, read_motors
+from urdfsync.urdf.second.companions import PATHS, Companions, read_companions
 from urdfsync.urdf.second.gears import Gear, read_gears
 from urdfsync.urdf.second.plain import decimal, plain_root
 
@@ -69,6 +70,8 @@ class Stated(NamedTuple):
 
     value: Any
     line: int
+    file: str = ""
+    """The companion that states the value; empty for the source itself."""
 
 
 class Element(msgspec.Struct):
@@ -98,12 +101,19 @@ class Element(msgspec.Struct):
     has_limit: bool = False
     shares: str = ""
     """Another joint that the joint's motor turns."""
+    file: str = ""
+    """The companion that states a loop; empty for an element of the source itself."""
     axes: tuple[Any, ...] = ()
     """The axes of a loop, or two flags of a force-torque sensor: axes of the parent, measures parent to child."""
 
     def put(self, path: str, value: Any, at: Any) -> None:
-        """Store a value with the line of an XML element. A single number becomes a tuple."""
-        self.values[path] = Stated((value,) if isinstance(value, float) else value, getattr(at, "sourceline", 0))
+        """Store a value with the line of an XML element or of a companion. A single number becomes a tuple."""
+        place = getattr(at, "sourceline", 0), getattr(at, "file", "")
+        self.values[path] = Stated((value,) if isinstance(value, float) else value, *place)
+
+    def state(self, value: Any) -> Stated:
+        """Return a value with the place of the element."""
+        return Stated(value, self.line, self.file)
 
     def number(self, path: str) -> float:
         """Return the first number of a value."""
@@ -124,29 +134,33 @@ class Reading(msgspec.Struct):
     """Links and joints that only yourdfpy or only this module reads."""
 
 
-def read_again(content: bytes, options: Options, names: Collection[str] | None = None) -> Reading:
-    """Return the second reading of a source.
+def read_again(content: bytes, options: Options, *companions: Companion) -> Reading:
+    """Return the second reading of a source. Raises ValueError or LookupError for an unreadable source."""
+    stated = read_companions(companions, options)
+    reading = _read(content, options, stated, None)
+    held = {name for name, joint in reading.joints.items() if joint.in_loop and joint.type == "ball"}
+    return _read(content, options, stated, reading.joints.keys() - held) if held else reading
 
-    Raises ValueError or LookupError for an unreadable source. A ball joint whose name is not in `names` becomes a chain
-    of hinges.
-    """
-    root = plain_root(content, names)
-    gears = read_gears(root)
+
+def _read(content: bytes, options: Options, stated: Companions, names: Collection[str] | None) -> Reading:
+    """Read a source; a ball joint whose name is not in `names` becomes a chain of hinges."""
+    root = plain_root(content, names, stated)
+    gears = read_gears(root, stated.rows)
     for part in root.iter():  # yourdfpy refuses prefixes
         part.tag = part.tag.replace(":", "_")
         for name in [name for name in part.attrib if ":" in name]:
             part.set(name.replace(":", "_"), part.attrib.pop(name))
     version = tuple(map(int, re.findall(r"\d+", root.get("version", "1.0"))[:2]))
     links = {each.name: each for each in _links(root, version)}
-    joints = {each.name: each for each in _joints(root, gears, options, version)}
+    motors = ({"joint": joint, "at": at, "is_driven": True} for joint, at in stated.motors)
+    joints = {each.name: each for each in _joints(root, gears, [*_drives(root), *motors], options, version)}
     reading = Reading(root.get("name", ""), links, joints)
     _ask_yourdfpy(reading, root)
-    rows = {row.get("joint"): row.sourceline for row in root.iterchildren("catalogue_row")}
-    for name, motor in read_motors(root).items():
-        for path in (PATHS[number] for number in motor if name in joints):
-            joints[name].values[path] = joints[name].values[path]._replace(line=rows[name])
+    for name, (row, place) in stated.rows.items():
+        for path in (PATHS[number] for number in row if name in joints):
+            joints[name].values[path] = Stated(joints[name].values[path].value, place.sourceline, place.file)
     reading.sensors = {each.name: each for each in _sensors(root, reading)}
-    reading.loops = {each.name: each for each in _loops(root, reading, options)}
+    reading.loops = {each.name: each for each in _loops(root, reading, options, stated)}
     above = {joint.child: joint for joint in joints.values()}
     for loop in reading.loops.values():
         ways = {end: set[str]() for end in (loop.parent, loop.child)}
@@ -157,8 +171,7 @@ def read_again(content: bytes, options: Options, names: Collection[str] | None =
         for name in set.symmetric_difference(*ways.values()):
             while name in joints:
                 joints[name].in_loop, name = True, joints[name].leader
-    held = {joint.name for joint in joints.values() if joint.in_loop and joint.type == "ball"}
-    return read_again(content, options, joints.keys() - held) if held else reading
+    return reading
 
 
 def rotation(rpy: Sequence[float]) -> Any:
@@ -306,9 +319,11 @@ def _put_shape(
 # Joints
 
 
-def _joints(root: Any, gears: Mapping[str, Gear], options: Options, version: tuple[int, ...]) -> Iterator[Element]:
+def _joints(
+    root: Any, gears: Mapping[str, Gear], found: Sequence[dict[str, Any]], options: Options, version: tuple[int, ...]
+) -> Iterator[Element]:
     drives, joints = defaultdict[str, list[dict[str, Any]]](list), list[Element]()
-    for drive in _drives(root):
+    for drive in found:
         drives[drive["joint"]].append(drive)
     for element in root.iterchildren("joint"):
         joint = Element(element.get("name"), element.sourceline, element.get("type"))
@@ -388,7 +403,7 @@ def _put_drive(
                 first.setdefault(key, (drive[key], drive["at"]))
     if gear:
         joint.shares = gear.joint
-        at = next((drive["at"] for drive in drives if drive["at"].tag == "transmission"), element)
+        at = next((drive["at"] for drive in drives if getattr(drive["at"], "tag", "") == "transmission"), element)
         gears = gear.reduction, gear.offset, gear.rotor, gear.joint_reduction if gear.joint else None
         for field, number in zip(("reduction", "offset", "rotorInertia", "otherReduction"), gears, strict=True):
             if number is not None:
@@ -509,7 +524,7 @@ def _find_sensors(root: Any) -> Iterator[tuple[Any, str, str, str]]:
 # Loops
 
 
-def _loops(root: Any, reading: Reading, options: Options) -> Iterator[Element]:
+def _loops(root: Any, reading: Reading, options: Options, stated: Companions) -> Iterator[Element]:
     """Yield the loops of the configuration, then other loops of the source."""
     ends, known = {name: joint.child for name, joint in reading.joints.items()}, set[Any]()
     for option in options.loops:
@@ -517,7 +532,11 @@ def _loops(root: Any, reading: Reading, options: Options) -> Iterator[Element]:
         places = [(frame.link, frame.xyz, frame.rpy) for frame in frames]
         yield _loop(option.name, option.kind, None, places, option.axis, option.child_axis)
         known |= {option.name, str(sorted(map(str, places)))}
-    for name, kind, element, places, axis, second in (*_loops_in(root, reading), *_loops_by_name(reading)):
+    beside = [
+        (name, kind, at, [(end, ZERO, ZERO) for end in ends], (1.0, 0.0, 0.0), None)
+        for name, kind, *ends, at in stated.loops
+    ]
+    for name, kind, element, places, axis, second in (*_loops_in(root, reading), *beside, *_loops_by_name(reading)):
         places = [(link if link in reading.links else ends.get(link, link), *rest) for link, *rest in places]
         if known.isdisjoint({name, str(sorted(map(str, places)))}):
             yield _loop(name, kind, element, places, axis, second)
@@ -526,6 +545,7 @@ def _loops(root: Any, reading: Reading, options: Options) -> Iterator[Element]:
 def _loop(name: str, kind: str, element: Any, places: Sequence[Any], axis: Any, second: Any) -> Element:
     """Return a loop between two frames; `places` has link, position and angles of each frame."""
     loop = Element(name, getattr(element, "sourceline", 0), kind, places[0][0], places[1][0])
+    loop.file = getattr(element, "file", "")
     loop.put("name", name, element)
     for path, (_, xyz, rpy) in zip(("origin", "childOrigin"), places, strict=True):
         loop.put(f"{path}.xyz", xyz, element)
@@ -600,11 +620,11 @@ def _ask_yourdfpy(reading: Reading, root: Any) -> None:
     for elements, theirs in zip((reading.links, reading.joints), sides[1], strict=True):
         for their in theirs:
             own = elements[their.name].values if their.name in elements else {}
-            for path, (value, line) in own.items():
-                other = _of_yourdfpy(their, path)
+            for path, stated in own.items():
+                other, value = _of_yourdfpy(their, path), stated.value
                 # yourdfpy ignores quaternions; this reader makes matrices of them
                 if other is not None and not isinstance(value, np.ndarray) and not same(value, other):
-                    own[path] = Stated(other, line)
+                    own[path] = stated._replace(value=other)
 
 
 def _of_yourdfpy(their: Any, path: str) -> Any:

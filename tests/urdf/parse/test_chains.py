@@ -81,6 +81,23 @@ def test_a_ball_that_a_loop_holds_is_three_hinges_and_another_one_is_not() -> No
     assert plain(again) == plain(reading.robot)
 
 
+def test_a_loop_may_name_the_ball_that_it_holds() -> None:
+    text = HELD.replace('<link1 link="rod"', '<link1 link="foot"')
+    assert parsed(text).loops == parsed(HELD).loops
+    assert differences(text.encode()) == []
+    names = {each.name for each in parsed(text).joints}
+    assert parsed(completed_for_pinocchio(text.encode(), names).content.decode()).loops == parsed(HELD).loops
+
+
+def test_a_drive_of_a_ball_in_a_loop_is_told_as_that_of_any_ball() -> None:
+    drive = '<transmission name="t"><joint name="foot"/></transmission></robot>'
+    found = read_robot(HELD.replace("</robot>", drive).encode(), "a.urdf")
+    assert found.robot is not None
+    codes = {each.code for each in found.diagnostics}
+    assert ("ball-not-driven" in codes, "unknown-actuated-joint" in codes) == (True, False)
+    assert not any(joint.actuated for joint in found.robot.joints)
+
+
 def test_a_loop_of_the_configuration_holds_balls_too() -> None:
     text = to_urdf(FOUR_BAR).replace('"continuous"', '"ball"', 1)
     assert "ball" in text
