@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -22,13 +22,13 @@ from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.catalogue import Row, find_gaps, read_rows, with_rows
 from urdfsync.urdf.parse.chains import find_axes, find_balls_in_loops, split
 from urdfsync.urdf.parse.closures import Closures, read_closures
-from urdfsync.urdf.parse.drives import configured_drives, read_drives, read_motors, with_drives
+from urdfsync.urdf.parse.drives import Drive, configured_drives, read_drives, read_motors, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
 from urdfsync.urdf.parse.loops import TAGS, read_loops, tell_foreign_loops
 from urdfsync.urdf.parse.sensors import read_sensors
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import Contact, Joint, Link, Material, Robot
 
 _MODELLED = ("link", "joint", "material")
 _DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint"})
@@ -157,13 +157,41 @@ def _read(
 ) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
+    name, axes = _read_root(reader, root), find_axes(reader, root, closures)
+    _classify(reader, root)
+    contacts = read_contacts(reader, root)
+    warn_of_left_out(reader, root)
+    tell_foreign_loops(reader, root, options)
+    parts = _read_parts(reader, root, contacts, closures, rows)
+    links, joints = split(reader, parts.links, parts.joints, axes)
+    joints = with_rows(reader, with_drives(reader, joints, [*configured_drives(options), *parts.drives]), rows)
+    robot = Robot(name, _with_materials(reader, root, links, parts.materials), tuple(joints))
+    reader.extend(validate.check(robot, complete=parts.complete))
+    if parts.complete:  # the joint of a transmission may be missing in an incomplete robot
+        reader.extend(_find_idle_drives(parts.drives, {joint.name for joint in joints}))
+    moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
+    robot = msgspec.structs.replace(robot, joints=tuple(moving))
+    if not reader.failed:
+        robot = msgspec.structs.replace(robot, loops=read_loops(reader, root, robot, options, closures))
+        robot = _without_balls_in_loops(reader, robot, options, rows)
+    reader.diagnostics += find_gaps(robot.joints, rows)
+    sensors = read_sensors(reader, root, {link.name for link in robot.links}, robot.joints) if parts.complete else ()
+    return msgspec.structs.replace(robot, extensions=_extensions(reader), sensors=sensors)
+
+
+def _read_root(reader: Reader, root: Element) -> str:
+    """Read the version of URDF; return the robot's name."""
     reader.place(root, "robot")
     reader.expect(root, "robot", ("name", "version"), moves=False)
     reader.version = _read_version(reader, root)
     name = root.get("name", "")
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
-    axes = find_axes(reader, root, closures)
+    return name
+
+
+def _classify(reader: Reader, root: Element) -> None:
+    """Report the elements of the robot that URDF does not have, and keep those that are not modelled."""
     for child in root:
         if child.tag == "drake:joint":
             message = f"<drake:joint> {quoted(child.get('name', ''))} is of a type that URDF does not have"
@@ -180,9 +208,24 @@ def _read(
             reader.used.add(child)  # other code reads or reports each of its parts
     for element in root.iterfind("gazebo/joint"):
         reader.used.update((element, *(part for part in element if part.tag in ("parent", "child", "pose"))))
-    contacts = read_contacts(reader, root)
-    warn_of_left_out(reader, root)
-    tell_foreign_loops(reader, root, options)
+
+
+class _Parts(NamedTuple):
+    """The elements of a robot, each read alone."""
+
+    links: list[Link]
+    joints: list[Joint]
+    drives: list[Drive]
+    materials: dict[str, Material]
+    """Materials of the robot by path."""
+    complete: bool
+    """Whether each link and joint could be read."""
+
+
+def _read_parts(
+    reader: Reader, root: Element, contacts: Mapping[str, Contact], closures: Closures, rows: Mapping[str, Row]
+) -> _Parts:
+    """Read each element of the robot."""
 
     def elements(tag: str) -> list[tuple[Element, str]]:
         children = root.findall(tag)
@@ -193,42 +236,44 @@ def _read(
     drives = [drive for element, path in driving for drive in read_drives(reader, element, path)]
     drives += read_motors(reader, closures)
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
-    all_links = [
+    links = [
         read_link(reader, element, path, contacts.get(element.get("name", ""))) for element, path in elements("link")
     ]
     given = {name: row.cells.keys() for name, row in rows.items()}
-    all_joints = [
+    joints = [
         read_joint(reader, element, path, given.get(element.get("name", ""), ())) for element, path in elements("joint")
     ]
-    links = [link for link in all_links if link.name]
-    joints = [joint for joint in all_joints if joint and joint.name]
-    complete = len(links) == len(all_links) and len(joints) == len(all_joints)
-    links, joints = split(reader, links, joints, axes)
-    joints = with_rows(reader, with_drives(reader, joints, [*configured_drives(options), *drives]), rows)
+    named_links, named_joints = [link for link in links if link.name], [each for each in joints if each and each.name]
+    complete = len(named_links) == len(links) and len(named_joints) == len(joints)
+    return _Parts(named_links, named_joints, drives, materials, complete)
+
+
+def _with_materials(
+    reader: Reader, root: Element, links: Sequence[Link], materials: dict[str, Material]
+) -> tuple[Link, ...]:
+    """Return the links with the colours of the materials that they name."""
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}
-    robot = Robot(name, resolve_materials(reader, by_path, materials, defined), tuple(joints))
-    reader.extend(validate.check(robot, complete=complete))
-    if complete:  # the joint of a transmission may be missing in an incomplete robot
-        names = {joint.name for joint in joints}
-        for drive in drives:
-            if drive.joint not in names:
-                verb = "drives" if drive.is_driven else "names"
-                message = f"{drive.path.partition(' / ')[0]} {verb} joint {drive.joint!r}, which does not exist"
-                hint = validate.perhaps(drive.joint, names)
-                reader.extend([validate.Finding("unknown-actuated-joint", drive.path, message, hint)])
-    moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
-    robot = msgspec.structs.replace(robot, joints=tuple(moving))
-    if not reader.failed:
-        robot = msgspec.structs.replace(robot, loops=read_loops(reader, root, robot, options, closures))
-        robot = _without_balls_in_loops(reader, robot, options, rows)
-    reader.diagnostics += find_gaps(robot.joints, rows)
-    sensors = read_sensors(reader, root, {link.name for link in robot.links}, robot.joints) if complete else ()
+    return resolve_materials(reader, by_path, materials, defined)
+
+
+def _find_idle_drives(drives: Iterable[Drive], joints: Collection[str]) -> Iterator[validate.Finding]:
+    """Yield a finding for each drive of a joint that does not exist."""
+    for drive in drives:
+        if drive.joint not in joints:
+            verb = "drives" if drive.is_driven else "names"
+            message = f"{drive.path.partition(' / ')[0]} {verb} joint {drive.joint!r}, which does not exist"
+            hint = validate.perhaps(drive.joint, joints)
+            yield validate.Finding("unknown-actuated-joint", drive.path, message, hint)
+
+
+def _extensions(reader: Reader) -> dict[str, dict[str, tuple[str, ...]]]:
+    """Return what no model shows, as text by owner and tag."""
     extensions = dict[str, dict[str, tuple[str, ...]]]()
     for owner, tag, text in sorted((owner, part.tag, xml.canonical(part)) for owner, part in reader.unmodelled()):
         tags = extensions.setdefault(owner, {})
         tags[tag] = (*tags.get(tag, ()), text)
-    return msgspec.structs.replace(robot, extensions=extensions, sensors=sensors)
+    return extensions
 
 
 def _without_balls_in_loops(reader: Reader, robot: Robot, options: Options, rows: Mapping[str, Row]) -> Robot:
