@@ -85,12 +85,7 @@ class Reads:
         `written` has the hash of each file by path, None for a deleted file. The list becomes incomplete if anybody
         else has changed one of these files or folders since the plan looked at it, or if it lacks a new folder.
         """
-        before, inside = dict(self.entries), dict[str, set[str]]()
-        for path in written:
-            folder, name = os.path.split(path)
-            while name and name not in inside.setdefault(folder, set()):
-                inside[folder].add(name)
-                folder, name = os.path.split(folder)
+        before, inside = dict(self.entries), _names_by_folder(written)
         for path, sha256 in written.items():
             self.entries[PATH, path] = look(PATH, path)
             self.hashes.pop((PATH, path), None)
@@ -101,31 +96,44 @@ class Reads:
         for folder in inside:
             if f"{folder}/".startswith(f"{package}/") and before.get((PATH, folder)) == NOTHING:
                 before.setdefault((MODELICA, folder), NOTHING)
-        listed = {(kind.partition("/")[0], path) for kind, path in before}
         for (kind, path), facts in before.items():
-            if path not in inside:
-                continue
-            if kind == PATH:
-                now = look(kind, path)
+            if path in inside and kind == PATH:
+                now = self.entries[kind, path] = look(kind, path)
                 self.complete &= now == facts or {now, facts} == {NOTHING, FOLDER}
-            else:
-                try:
-                    present = list_names(kind, path)
-                    now = checksum(present)
-                except OSError as error:
-                    present, now = set(), failed(error)
+            elif path in inside:
                 places = {name: os.path.join(path, name) for name in inside[path]}
-                new = {name for name, at in places.items() if before.get((PATH, at), NOTHING) == NOTHING}
-                is_folder = {name: place in inside for name, place in places.items()}.__getitem__
-                old = counting(kind, places.keys() - new, is_folder)
-                former = present - places.keys() | old
-                self.complete &= facts == checksum(former) or (facts[0] <= 0 and not former)
-                folders = counting(kind, filter(is_folder, new), is_folder)
-                self.complete &= all((kind.partition("/")[0], places[name]) in listed for name in folders)
-            self.entries[kind, path] = now
+                self._renew_listing(kind, path, {name: place in inside for name, place in places.items()}, before)
+
+    def _renew_listing(
+        self, kind: str, folder: str, written: Mapping[str, bool], before: Mapping[Entry, Facts]
+    ) -> None:
+        """Renew the list of a folder's names; `written` has the names that may have changed, and which are folders."""
+        facts, is_folder = before[kind, folder], written.__getitem__
+        try:
+            present = list_names(kind, folder)
+            self.entries[kind, folder] = checksum(present)
+        except OSError as error:
+            present, self.entries[kind, folder] = set(), failed(error)
+        new = {name for name in written if before.get((PATH, os.path.join(folder, name)), NOTHING) == NOTHING}
+        former = present - written.keys() | counting(kind, written.keys() - new, is_folder)
+        self.complete &= facts == checksum(former) or (facts[0] <= 0 and not former)
+        if folders := counting(kind, filter(is_folder, new), is_folder):
+            listed = {(kind.partition("/")[0], path) for kind, path in before}
+            self.complete &= all((kind.partition("/")[0], os.path.join(folder, name)) in listed for name in folders)
 
 
 _current: ContextVar[Reads | None] = ContextVar("reads", default=None)
+
+
+def _names_by_folder(paths: Iterable[str]) -> dict[str, set[str]]:
+    """Return the names of files, and of all folders around them, by the folder that they are in."""
+    inside = dict[str, set[str]]()
+    for path in paths:
+        folder, name = os.path.split(path)
+        while name and name not in inside.setdefault(folder, set()):
+            inside[folder].add(name)
+            folder, name = os.path.split(folder)
+    return inside
 
 
 @contextlib.contextmanager
