@@ -34,7 +34,7 @@ from urdfsync.modelica.scopes import Element, Scopes
 from urdfsync.modelica.statements import (
     TOO_LONG,
     Difference,
-    Reading,
+    ShortText,
     compare,
     component_of,
     mentioning,
@@ -92,7 +92,7 @@ class _Package(PackageAfter):
 
     def __init__(self, after: PackageAfter) -> None:
         super().__init__(after.inputs, after.package, after.actions, after.merged, is_open=after.is_open)
-        self._readings, self._differences = dict[bytes, Reading](), dict[str, Difference]()
+        self._readings, self._differences = dict[bytes, ShortText](), dict[str, Difference]()
 
     def class_name(self, path: str) -> ClassName:
         """Return the full name of a file's class, by the file's path below the package."""
@@ -120,7 +120,7 @@ class _Package(PackageAfter):
                 return path
         return self.inputs.users_files.tops.get(name)
 
-    def _reading(self, content: bytes) -> Reading:
+    def _reading(self, content: bytes) -> ShortText:
         """Parse a file; in a generated file, read only the statements that matter to other files."""
         if content not in self._readings:
             text = text_of(content)
@@ -310,7 +310,7 @@ class _Package(PackageAfter):
 
 
 def _faults(
-    reading: Reading,
+    reading: ShortText,
     findings: Sequence[Diagnostic],
     nodes: Sequence[Node],
     scopes: Scopes,

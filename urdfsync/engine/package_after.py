@@ -30,7 +30,7 @@ def as_file(path: str) -> str:
     return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
 
 
-class _File(NamedTuple):
+class _FileAfter(NamedTuple):
     """A file of the package after the build."""
 
     key: str
@@ -69,9 +69,9 @@ class PackageAfter(Mapping[str, bytes]):
         self._contents, self._generated = dict[str, bytes](), set[bytes]()
 
     @cached_property
-    def _files(self) -> dict[str, _File]:
+    def _files(self) -> dict[str, _FileAfter]:
         """The files of the package after the build, by their paths below it."""
-        inputs, files, merged, found = self.inputs, self.inputs.files, self.merged, dict[str, _File]()
+        inputs, files, merged, found = self.inputs, self.inputs.files, self.merged, dict[str, _FileAfter]()
         inside, classes, keys = inputs.folder.key(""), set[str](), set[str]()
         for action in self.actions:
             key = action.path
@@ -81,7 +81,7 @@ class PackageAfter(Mapping[str, bytes]):
                 continue
             keys.add(key)
             classes |= {key} if action.generated else set()
-            file = _File(key, is_expected=action.generated is not None)
+            file = _FileAfter(key, is_expected=action.generated is not None)
             if not action.is_waiting and key in merged:
                 is_edited = text_hash(merged[key]) != action.generated
                 found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
@@ -99,7 +99,9 @@ class PackageAfter(Mapping[str, bytes]):
         for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
             is_expected = as_file(key) in classes
             text = merged.get(key)
-            found[inputs.folder.path(key)] = _File(key, text, is_edited=True, is_users=True, is_expected=is_expected)
+            found[inputs.folder.path(key)] = _FileAfter(
+                key, text, is_edited=True, is_users=True, is_expected=is_expected
+            )
         return found
 
     @cached_property

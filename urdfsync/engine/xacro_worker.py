@@ -193,12 +193,12 @@ class _Files:
         self.hashes[path] = None
         content = read_unrecorded(path)
         self.hashes[path] = text_digest(content)
-        file = _File(io.BytesIO(content), encoding="utf-8")
+        file = _OpenedFile(io.BytesIO(content), encoding="utf-8")
         file.name = path
         return file
 
 
-class _File(io.TextIOWrapper):
+class _OpenedFile(io.TextIOWrapper):
     """A text with the name of its file, for messages about YAML."""
 
     name = ""
@@ -239,7 +239,7 @@ _uses: dict[str, None] = {}
 """Names of the arguments in all files that were read, in order of use."""
 
 
-def _parse(file: _File) -> Any:
+def _parse(file: _OpenedFile) -> Any:
     """Parse a file as `minidom.parse` does. Raises ExpatError."""
     builder = _Builder()
     builder.file = file.name

@@ -43,7 +43,7 @@ class Difference(NamedTuple):
     """The generated class without equal statements; None if there is none."""
 
 
-class Reading(NamedTuple):
+class ShortText(NamedTuple):
     """A parsed text without some statements."""
 
     text: str
@@ -54,14 +54,14 @@ class Reading(NamedTuple):
 
 # saves 110 ms in the row "robot model edited: 1,000 links, in the daemon" of docs/speed.md
 @functools.lru_cache(maxsize=64)
-def parse_without(text: str, passed: frozenset[str]) -> Reading:
+def parse_without(text: str, passed: frozenset[str]) -> ShortText:
     """Parse a text without these plain statements; components in them get only types and names.
 
     The parsed text is `TOO_LONG` if there are too many characters to read.
     """
     shortened, lines = _shorten(text, passed)
     size = len(text) - sum(map(len, passed))
-    return Reading(shortened, parse(shortened) if size <= _LONGEST else TOO_LONG, lines)
+    return ShortText(shortened, parse(shortened) if size <= _LONGEST else TOO_LONG, lines)
 
 
 @functools.lru_cache(maxsize=8)  # saves 100 ms in the row of `parse_without`

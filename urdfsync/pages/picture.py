@@ -42,7 +42,7 @@ class Picture(msgspec.Struct, frozen=True):
     """Sentences about missing parts, then about meshes whose simplification is visible."""
 
 
-class _File(NamedTuple):
+class _MeshFile(NamedTuple):
     """A file with a mesh: an imported one, or, if that is too large for the package, the source's file."""
 
     path: str
@@ -58,13 +58,13 @@ def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> P
     if pictures is None:
         message = f"packages of the domain `{robot.domain}` have no picture"
         raise UrdfsyncError.of("no-picture", message, shown(robot.source))
-    imports, sources = dict(generation.now.imports or {}), dict[str, _File]()
+    imports, sources = dict(generation.now.imports or {}), dict[str, _MeshFile]()
     for dependency, file in imported.refused[:_MOST_REFUSED]:
         if dependency.key not in imports:  # otherwise the copy of an earlier build is used
             with contextlib.suppress(OSError):
                 content = read_file(file)
                 imports[dependency.key] = Import(dependency.target, digest(content), "", {})
-                sources[dependency.key] = _File(dependency.target, content, dependency.key, is_source=True)
+                sources[dependency.key] = _MeshFile(dependency.target, content, dependency.key, is_source=True)
     now, names = pictures.scene(generation.now.snapshot, imports, robot.target, robot.options)
     before, files = None, _by_name(names, imports, imported.contents, sources)
     if older:
@@ -97,11 +97,14 @@ def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> P
 
 
 def _by_name(
-    names: Mapping[str, str], imports: Mapping[str, Import], contents: Mapping[str, bytes], sources: Mapping[str, _File]
-) -> dict[str, _File]:
+    names: Mapping[str, str],
+    imports: Mapping[str, Import],
+    contents: Mapping[str, bytes],
+    sources: Mapping[str, _MeshFile],
+) -> dict[str, _MeshFile]:
     """Return the available file of each mesh."""
     present = {key: file.target for key, file in imports.items() if file.target in contents}
-    files = {**{key: _File(target, contents[target], key) for key, target in present.items()}, **sources}
+    files = {**{key: _MeshFile(target, contents[target], key) for key, target in present.items()}, **sources}
     return {names[key]: files[key] for key in sorted(files, reverse=True)}
 
 
@@ -117,7 +120,7 @@ def _shares(faces: Mapping[str, int], most: int) -> dict[str, int]:
 
 
 def _read(
-    pictures: Pictures, cache: caches.UserCache, file: _File, most: int, code: Iterable[object]
+    pictures: Pictures, cache: caches.UserCache, file: _MeshFile, most: int, code: Iterable[object]
 ) -> Triangles | str:
     """Return the triangles of a mesh, or why it can't be shown."""
     key = caches.digest(digest(file.content), file.path, file.key, most, *code)
@@ -129,7 +132,7 @@ def _read(
     return mesh
 
 
-def _coarse(meshes: Mapping[str, Triangles], files: Mapping[str, _File]) -> Iterable[str]:
+def _coarse(meshes: Mapping[str, Triangles], files: Mapping[str, _MeshFile]) -> Iterable[str]:
     """Yield one line about all meshes whose simplification is visible, if there are any."""
     coarse = sorted((mesh.faces / mesh.total, name) for name, mesh in meshes.items() if 0 < mesh.cells < _FINE)
     if coarse:

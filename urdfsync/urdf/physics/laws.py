@@ -15,7 +15,7 @@ from urdfsync.checks.experiment import Compared, Part, Probe, Quantity, Trial
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import probe
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.second.reading import MOVES, TURNS, Element, Reading
+from urdfsync.urdf.second.reading import MOVES, TURNS, Element, SecondReading
 
 _STEP, _STOP = 0.02, 1.0  # s
 _STROKE = 0.2  # Motion of an axis, in rad or m.
@@ -32,7 +32,7 @@ _BREAKAWAY = 1.5
 _RUN = "saturated drive in Run"
 
 
-def laws_trial(subject: Subject, reading: Reading, options: Options) -> Trial | None:
+def laws_trial(subject: Subject, reading: SecondReading, options: Options) -> Trial | None:
     """Return the simulation of one joint with each combination of laws; None if Pinocchio has all laws.
 
     `reading` and `options` have the laws of the source; the subject has simpler laws.

@@ -23,7 +23,7 @@ from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
 from urdfsync.urdf.physics.reference import Configuration, Reference, Solution, read
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Robot
 from urdfsync.urdf.second.companions import read_companions
-from urdfsync.urdf.second.reading import Reading, read_again
+from urdfsync.urdf.second.reading import SecondReading, read_again
 
 _MARGIN = 0.9
 """Fraction of ranges and speeds that Test uses."""
@@ -80,7 +80,7 @@ class Subject:
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
 
     @cached_property
-    def second(self) -> Reading:
+    def second(self) -> SecondReading:
         """The second reading of the source."""
         return read_again(self.sample.content, self.options, *self.sample.companions)
 

@@ -28,7 +28,7 @@ from urdfsync.urdf.second.reading import (
     TENSOR,
     ZERO,
     Element,
-    Reading,
+    SecondReading,
     Stated,
     origin,
     poses,
@@ -74,7 +74,7 @@ def compare_numbers(sample: Sample, robot: Robot, packages: Sequence[Mapping[str
 class _Comparison:
     """Counts the values of a package's texts in `right`, `total` and `uncompared`, and lists `differences`."""
 
-    def __init__(self, texts: Mapping[str, bytes], reading: Reading, robot: Robot, sample: Sample) -> None:
+    def __init__(self, texts: Mapping[str, bytes], reading: SecondReading, robot: Robot, sample: Sample) -> None:
         self.reading, self.robot, self.sample, self.name = reading, robot, sample, sample.target.name
         elements = reading.links, reading.joints, reading.loops, reading.sensors
         self.elements = dict(zip(("link", "joint", "loop", "sensor"), elements, strict=True))

@@ -120,7 +120,7 @@ class Element(msgspec.Struct):
         return float(self.values[path].value[0])
 
 
-class Reading(msgspec.Struct):
+class SecondReading(msgspec.Struct):
     """A whole robot."""
 
     name: str
@@ -134,7 +134,7 @@ class Reading(msgspec.Struct):
     """Links and joints that only yourdfpy or only this module reads."""
 
 
-def read_again(content: bytes, options: Options, *companions: Companion) -> Reading:
+def read_again(content: bytes, options: Options, *companions: Companion) -> SecondReading:
     """Return the second reading of a source. Raises ValueError or LookupError for an unreadable source."""
     stated = read_companions(companions, options)
     reading = _read(content, options, stated, None)
@@ -142,7 +142,7 @@ def read_again(content: bytes, options: Options, *companions: Companion) -> Read
     return _read(content, options, stated, reading.joints.keys() - held) if held else reading
 
 
-def _read(content: bytes, options: Options, stated: Companions, names: Collection[str] | None) -> Reading:
+def _read(content: bytes, options: Options, stated: Companions, names: Collection[str] | None) -> SecondReading:
     """Read a source; a ball joint whose name is not in `names` becomes a chain of hinges."""
     root = plain_root(content, names, stated)
     gears = read_gears(root, stated.rows)
@@ -154,7 +154,7 @@ def _read(content: bytes, options: Options, stated: Companions, names: Collectio
     links = {each.name: each for each in _links(root, version)}
     motors = ({"joint": joint, "at": at, "is_driven": True} for joint, at in stated.motors)
     joints = {each.name: each for each in _joints(root, gears, [*_drives(root), *motors], options, version)}
-    reading = Reading(root.get("name", ""), links, joints)
+    reading = SecondReading(root.get("name", ""), links, joints)
     _ask_yourdfpy(reading, root)
     for name, (row, place) in stated.rows.items():
         for path in (PATHS[number] for number in row if name in joints):
@@ -195,7 +195,7 @@ def origin(element: Element, path: str = "origin") -> Any:
     return pose(element.values[f"{path}.xyz"].value, element.values[f"{path}.rpy"].value)
 
 
-def poses(reading: Reading, positions: Mapping[str, float]) -> dict[str, Any]:
+def poses(reading: SecondReading, positions: Mapping[str, float]) -> dict[str, Any]:
     """Return the poses of all links in the root frame."""
     placed = {name: np.eye(4) for name in reading.links.keys() - {joint.child for joint in reading.joints.values()}}
     for link in (waiting := list(placed)):  # the list grows in this loop
@@ -469,7 +469,7 @@ def _transmission(element: Any) -> Iterator[dict[str, Any]]:
 # Sensors
 
 
-def _sensors(root: Any, reading: Reading) -> Iterator[Element]:
+def _sensors(root: Any, reading: SecondReading) -> Iterator[Element]:
     """Yield the sensors of existing links and joints.
 
     If several sensors have the same name on the same link or joint, only the first counts.
@@ -524,7 +524,7 @@ def _find_sensors(root: Any) -> Iterator[tuple[Any, str, str, str]]:
 # Loops
 
 
-def _loops(root: Any, reading: Reading, options: Options, stated: Companions) -> Iterator[Element]:
+def _loops(root: Any, reading: SecondReading, options: Options, stated: Companions) -> Iterator[Element]:
     """Yield the loops of the configuration, then other loops of the source."""
     ends, known = {name: joint.child for name, joint in reading.joints.items()}, set[Any]()
     for option in options.loops:
@@ -554,7 +554,7 @@ def _loop(name: str, kind: str, element: Any, places: Sequence[Any], axis: Any, 
     return loop
 
 
-def _loops_in(root: Any, reading: Reading) -> Iterator[tuple[Any, ...]]:
+def _loops_in(root: Any, reading: SecondReading) -> Iterator[tuple[Any, ...]]:
     within = {"loop_joint": "self::*", "drake_ball_constraint": "self::*", "gazebo": "joint"}
     elements = [part for top in root if top.tag in within for part in top.xpath(within[top.tag])]
     placed = poses(reading, {})
@@ -589,7 +589,7 @@ def _loops_in(root: Any, reading: Reading) -> Iterator[tuple[Any, ...]]:
             yield name, kind, element, places, axis, second
 
 
-def _loops_by_name(reading: Reading) -> Iterator[tuple[Any, ...]]:
+def _loops_by_name(reading: SecondReading) -> Iterator[tuple[Any, ...]]:
     """Yield a ball joint for each pair of links with onshape-to-robot's names for a loop."""
     for name in reading.links:
         other = f"{name[:-1]}2"
@@ -600,7 +600,7 @@ def _loops_by_name(reading: Reading) -> Iterator[tuple[Any, ...]]:
 # yourdfpy
 
 
-def _ask_yourdfpy(reading: Reading, root: Any) -> None:
+def _ask_yourdfpy(reading: SecondReading, root: Any) -> None:
     """Replace values that yourdfpy reads differently by yourdfpy's values."""
     logger = logging.getLogger("yourdfpy.urdf")
     before, logger.disabled = logger.disabled, True
