@@ -104,6 +104,7 @@ WITH_ENDS = URDF.replace(
         ]
     ),
 )
+XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 PAIR = "closed_loop: [[a, b]]\ntype: ['3d']\n"
 NAMING = f'{CONFIGURATION}closed_loops = "bars.yaml"\n'
 
@@ -131,17 +132,36 @@ def test_the_loops_of_a_yaml_never_vanish_in_silence(project: Path, execute: Exe
     (project / "urdfsync.toml").write_text(CONFIGURATION)
     unnamed = "error: robot `bars`: bars.yaml stands beside the source, and no option names it; set `closed_loops`"
     assert unnamed in execute("build", code=2).err
-    (project / "bars.yaml").write_text("gains: [1, 2]\n")  # of another program
-    execute("build")
+    for other in ("gains: [1, 2]", "pid:\n  closed_loop: true  # odometry", "{control: {closed_loop_control: true}}"):
+        (project / "bars.yaml").write_text(f"{other}\n")  # of another program
+        execute("build")
     (project / "bars.yaml").rename(project / "loops.yaml")
     (project / "loops.yaml").write_text(PAIR)
     (project / "urdfsync.toml").write_text(NAMING)
-    assert "the closed_loops bars.yaml can't be read" in execute("build", code=2).err
+    assert "`closed_loops` names bars.yaml, which can't be read" in execute("build", code=2).err
     configure(project, "bars.yaml", "loops.yaml")
     (project / "bars.urdf").rename(project / "renamed.urdf")
     configure(project, "bars.urdf", "renamed.urdf")
     execute("build")
     assert (project / "modelica/Bars/Joints/A_b.mo").exists()
+
+
+def test_a_named_yaml_without_a_list_takes_no_loop_away_in_silence(project: Path, execute: Execute) -> None:
+    (project / "urdfsync.toml").write_text(NAMING)
+    (project / "bars.urdf").write_text(WITH_ENDS)
+    for text in ("", "a: 1\n"):  # an editor may be saving it
+        (project / "bars.yaml").write_text(text)
+        assert "bars.yaml:1: error: this is no list of loops: it states no loop" in execute("build", code=2).err
+    (project / "bars.yaml").write_text("closed_loop: []\n")
+    execute("build")
+
+
+def test_no_yaml_is_looked_for_beside_xacro(project: Path, execute: Execute) -> None:
+    (project / "urdfsync.toml").write_text(CONFIGURATION.replace("bars.urdf", "bars.urdf.xacro"))
+    (project / "bars.urdf.xacro").write_text(WITH_ENDS.replace("<robot", f"<robot {XACRO}", 1))
+    (project / "bars.urdf.yaml").write_text(PAIR)
+    (project / "bars.yaml").write_text(PAIR)
+    execute("build")
 
 
 def test_another_file_is_compared_with_the_yaml_beside_it(project: Path, execute: Execute) -> None:

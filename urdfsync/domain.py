@@ -171,7 +171,7 @@ class CompanionKind(msgspec.Struct, frozen=True):
     suffix: str = ""
     """Without a configuration, such a file stands beside the source, with this suffix; empty if it never does."""
     mark: bytes = b""
-    """A word of such files: a file beside the source without this word is of another kind."""
+    """A pattern in such files: a file beside the source without it is of another kind."""
     needed_by: str = ""
     """The option without which the file that `option` names is not read; empty if it is always read."""
 

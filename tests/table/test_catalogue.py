@@ -126,8 +126,8 @@ def test_a_revision_has_the_catalogue_that_it_names(
     found = execute("diff", "arm", "--against", "HEAD", code=1).words
     assert "1 parameter change since HEAD joint elbow: motor S41 / effort 4.1 → 4.3 N·m" in found
     found = execute("diff", "arm", "--against", "HEAD~1", code=Exit.ERROR).words
-    missing = "HEAD~1:catalogue/servos.csv can't be read: it does not exist; name a revision that has the file"
-    assert f"HEAD~1:urdfsync.toml:10: error: robot `arm`: the catalogue {missing}" in found
+    missing = "HEAD~1:catalogue/servos.csv, which can't be read: it does not exist; name a revision that has the file"
+    assert f"HEAD~1:urdfsync.toml:10: error: robot `arm`: `catalogue` names {missing}" in found
     found = execute("diff", "arm", "--against", "HEAD~2", code=1).words
     assert "joint elbow: motor S41 / effort 100 → 4.3 N·m" in found
     Path("later.urdf").rename("arm.urdf")
@@ -170,7 +170,7 @@ TOML, CSV = "urdfsync.toml", str(SERVOS)
 @pytest.mark.parametrize(("file", "old", "new", "place"), [
     (TOML, 'elbow = "S41"', 'elbow = "S14"', f"{TOML}:11: error: robot `arm`: the catalogue has no row `S14`"),
     (TOML, 'elbow = "S41"', 'elbo = "S41"', f"{TOML}:11: error: robot `arm`: `motors` names `elbo`"),
-    (TOML, 'servos.csv"\nmotors', 'x.csv"\nmotors', f"{TOML}:10: error: robot `arm`: the catalogue catalogue/x.csv"),
+    (TOML, 'servos.csv"\nmotors', 'x.csv"\nmotors', f"{TOML}:10: error: robot `arm`: `catalogue` names catalogue/x"),
     (TOML, '"rotor"', '"roter"', f"{CSV}:1: error: there is no column `roter`; did you mean `rotor`?"),
     (TOML, "damping =", "damper =", f"{TOML}:13: error: `motor_columns` must be a table of"),
     (CSV, "[N.cm]", "[kg]", f"{CSV}:2: error: effort of joint `shoulder` in the row `S60`: kg can't"),

@@ -127,8 +127,9 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     Raises SourceError for a companion beside the source that no option names: a rename would silently remove it.
     """
     text = _read_source(config, robot, store, options, name)
-    text = with_companions(text, registry.domain(robot.domain), robot.source, robot.options)
-    for unnamed in text.companions:
+    is_plain = not (robot.command or text.expansion)
+    beside = with_companions(text, registry.domain(robot.domain), robot.source, robot.options) if is_plain else text
+    for unnamed in beside.companions:
         message = f"robot `{robot.name}`: {unnamed.file} stands beside the source, and no option names it"
         hint = f"set `{unnamed.option}` to its path, or move the file away"
         raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
@@ -203,7 +204,7 @@ def with_companions(
     found = list(text.companions)
     for kind, path in companions_beside(domain, source, options):
         content = revision.contents([path]).get(path) if revision else read_file(path) if is_file(path) else None
-        if content is not None and kind.mark in content.replace(b"\0", b""):  # UTF-16 has a zero in each letter
+        if content is not None and re.search(kind.mark, content.replace(b"\0", b"")):  # UTF-16 has a zero in a letter
             found.append(Companion(kind.option, revision.label(path) if revision else shown(path), content))
     return msgspec.structs.replace(text, companions=tuple(found))
 
@@ -237,7 +238,7 @@ def _read_named(config: Config, robot: RobotConfig, option: str, path: Path, rev
         content = revision.contents([path])[path] if revision and revision.holds(path) else read_file(path)
     except (OSError, KeyError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it does not exist"
-        message = f"robot `{robot.name}`: the {option} {label(path)} can't be read: {reason}"
+        message = f"robot `{robot.name}`: `{option}` names {label(path)}, which can't be read: {reason}"
         hint = "name a revision that has the file" if revision else f"put the file there, or correct `{option}`"
         raise SourceError.of("no-source", message, label(config.file), robot.lines[option], hint=hint) from None
     return Companion(option, label(path), content)

@@ -32,6 +32,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import LeftOut, Options
+from urdfsync.urdf.parse.closures import CLOSED_LOOP
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
@@ -71,7 +72,7 @@ class UrdfDomain(Domain):
     advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
     imports, simulation, pictures = _Module("meshes.lookup"), _Module("benches"), _Module("scene")
     companions = (
-        CompanionKind("closed_loops", ".yaml", b"closed_loop"),
+        CompanionKind("closed_loops", ".yaml", CLOSED_LOOP),
         CompanionKind("catalogue", needed_by="motors"),
     )
     describe = staticmethod(describe)

@@ -98,6 +98,27 @@ def test_a_drive_of_a_ball_in_a_loop_is_told_as_that_of_any_ball() -> None:
     assert not any(joint.actuated for joint in found.robot.joints)
 
 
+@pytest.mark.parametrize(
+    "drive",
+    [
+        '<transmission name="t"><joint name="foot_x"/><actuator name="m"><mechanicalReduction>20</mechanicalReduction>'
+        "</actuator></transmission>",
+        '<ros2_control name="c" type="system"><joint name="foot_x"><command_interface name="position"/></joint>'
+        "</ros2_control>",
+    ],
+    ids=["transmission", "ros2_control"],
+)
+def test_a_hinge_of_a_ball_in_a_loop_may_have_a_drive(drive: str) -> None:
+    text = HELD.replace("</robot>", f"{drive}</robot>").encode()
+    found = read_robot(text, "a.urdf")
+    assert found.robot is not None
+    (hinge,) = (joint for joint in found.robot.joints if joint.name == "foot_x")
+    assert hinge.actuated
+    assert (hinge.transmission is not None and hinge.transmission.reduction == 20) is ("20" in drive)
+    assert "unknown-actuated-joint" not in {each.code for each in found.diagnostics}
+    assert differences(text) == []
+
+
 def test_a_loop_of_the_configuration_holds_balls_too() -> None:
     text = to_urdf(FOUR_BAR).replace('"continuous"', '"ball"', 1)
     assert "ball" in text

@@ -8,6 +8,7 @@ from support.packages import generate
 from support.urdfs import joint, link, robot
 
 from urdfsync.checks.experiment import Sample
+from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Companion
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -155,9 +156,16 @@ def test_a_name_that_the_urdf_lacks_is_told(old: bytes, new: bytes, code: str, l
     assert (code, "a.yaml", line) in [(finding.code, finding.file, finding.line) for finding in found]
 
 
-def test_another_yaml_says_nothing() -> None:
-    for other in (b"controller: {gain: 3}\n", b"- closed_loop\n", b"drive: {closed_loop: true}\n", b"closed_loop:\n"):
-        assert not any(read_closures(beside(other))[1:])
+def test_an_empty_list_states_nothing() -> None:
+    assert not any(read_closures(beside(b"closed_loop:\n"))[1:])
+
+
+@pytest.mark.parametrize(
+    "other", [b"controller: {gain: 3}\n", b"- closed_loop\n", b"drive: {closed_loop: true}\n", b""]
+)
+def test_a_yaml_of_another_kind_is_told(other: bytes) -> None:
+    with pytest.raises(SourceError, match="it states no loop, no motor and no joint"):
+        read_closures(beside(other))
 
 
 @pytest.mark.parametrize(("yaml", "line", "words"), [

@@ -56,7 +56,8 @@ def split(
     all_links, all_joints = list(links), [joint for joint in joints if joint.name not in axes]
     for joint in [joint for joint in joints if joint.name in axes]:
         names = [f"{joint.name}_{axis}" for axis in axes[joint.name]]
-        inner, losses = names[:-1], joint.dynamics and Dynamics(joint.dynamics.damping)
+        damping = joint.dynamics.damping if joint.dynamics else 0.0
+        inner, losses = names[:-1], Dynamics(damping) if damping else None
         ends = zip(names, axes[joint.name], [joint.parent, *inner], [*inner, joint.child], strict=True)
         first, *others = (
             Joint(name, "continuous", parent, child, axis=_DIRECTIONS[axis], dynamics=losses, measured=True)

@@ -25,6 +25,11 @@ _TYPES = {
     "SPHERICAL": "xyz",
     **{f"UJOINT_{a}{b}": f"{a}{b}".lower() for a in "XYZ" for b in "XYZ" if a != b},
 }
+CLOSED_LOOP = rb"""(?mx)^(?:\xef\xbb\xbf|\xff\xfe|\xfe\xff)?(?:\{\s*+)?  # at the top of the file, no nested key
+    ["']?closed_loop["']?[ \t]*+:[ \t]*+(?:[\[&!]|(?:\#.*)?\r?$)  # with a list"""
+"""A pattern of files with loops; other programs may have a key of this name."""
+_KEYS = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
+_NOTHING = "it states no loop, no motor and no joint"
 _LARGEST = 100_000
 """The size limit of a YAML, in bytes: PyYAML needs up to 2 s and 60 MB. Even 10,000 loops need fewer bytes."""
 _MOST = 10_000_000
@@ -43,7 +48,7 @@ class Closures(NamedTuple):
 
 
 def read_closures(companion: Companion) -> Closures:
-    """Read a YAML; one without loops states nothing. Raises SourceError for an unreadable YAML."""
+    """Read a YAML. Raises SourceError for an unreadable YAML, and for one that states nothing."""
     from yaml import YAMLError  # a late import saves most robots 20 ms
 
     try:
@@ -54,7 +59,8 @@ def read_closures(companion: Companion) -> Closures:
     except (YAMLError, _LoopsError, RecursionError, ValueError, OverflowError) as error:
         mark = getattr(error, "problem_mark", None)
         text = companion.content.replace(b"\0", b"")  # UTF-16 has a zero in each letter of the key
-        line = mark.line + 1 if mark else text.partition(b"closed_loop")[0].count(b"\n") + 1
+        before, is_there, _ = text.partition(b"closed_loop")
+        line = mark.line + 1 if mark else before.count(b"\n") + 1 if is_there else 1
         problem = "lists are nested too deep" if isinstance(error, RecursionError) else getattr(error, "problem", None)
         message = f"this is no list of loops: {problem or error}"
         hint = "write `closed_loop: [[FRAME, FRAME]]` and `type: [6d]`"
@@ -70,14 +76,14 @@ class _LoopsError(Exception):
 
 
 def _lists(content: bytes) -> Iterator[tuple[str, Sequence[Any]]]:
-    """Yield the nodes of each list; nothing for a YAML of another kind, which contains the word `closed_loop`."""
+    """Yield the nodes of each list, also of an empty one; checks the size of the file and the shape of the lists."""
     import yaml
 
     if len(content) > _LARGEST:
         raise _LoopsError(f"the file has more than {_LARGEST:,} bytes")
     document = yaml.compose(content, yaml.SafeLoader)
     if document is None or document.id != "mapping":
-        return
+        raise _LoopsError(_NOTHING)
     parts = dict[str, Any]()
     for key, value in document.value:
         if key.id != "scalar":
@@ -88,10 +94,15 @@ def _lists(content: bytes) -> Iterator[tuple[str, Sequence[Any]]]:
     for key, node in parts.items():
         if key.startswith("closed_loop") and "closed_loop" not in parts and node.id == "sequence":
             raise _LoopsError(f"the key `{key}` is unknown; perhaps `closed_loop` is meant", node)
+    if parts.keys().isdisjoint(_KEYS):
+        raise _LoopsError(_NOTHING)
     size = 0
-    for key in ("closed_loop", "type", "name_mot", "joint_name", "joint_type"):
+    for key in _KEYS:
         node = parts.get(key)
-        if node is None or node.value in ("", "null", "~"):
+        if node is None:
+            continue
+        if node.value in ("", "null", "~"):
+            yield key, ()
             continue
         if node.id != "sequence":
             raise _LoopsError(f"`{key}` is no list", node)

@@ -167,13 +167,14 @@ def _read(
     joints = with_rows(reader, with_drives(reader, joints, [*configured_drives(options), *parts.drives]), rows)
     robot = Robot(name, _with_materials(reader, root, links, parts.materials), tuple(joints))
     reader.extend(validate.check(robot, complete=parts.complete))
-    if parts.complete:  # the joint of a transmission may be missing in an incomplete robot
-        reader.extend(_find_idle_drives(parts.drives, {joint.name for joint in joints}))
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
     robot = msgspec.structs.replace(robot, joints=tuple(moving))
     if not reader.failed:
         robot = msgspec.structs.replace(robot, loops=read_loops(reader, root, robot, options, closures))
-        robot = _without_balls_in_loops(reader, robot, options, rows)
+        robot = _without_balls_in_loops(reader, robot, [*configured_drives(options), *parts.drives], rows)
+    if parts.complete:  # the joint of a transmission may be missing in an incomplete robot
+        known = {joint.name for joint in (*joints, *robot.joints)}  # a ball in a loop, and its hinges
+        reader.extend(_find_idle_drives(parts.drives, known))
     reader.diagnostics += find_gaps(robot.joints, rows)
     sensors = read_sensors(reader, root, {link.name for link in robot.links}, robot.joints) if parts.complete else ()
     return msgspec.structs.replace(robot, extensions=_extensions(reader), sensors=sensors)
@@ -276,8 +277,8 @@ def _extensions(reader: Reader) -> dict[str, dict[str, tuple[str, ...]]]:
     return extensions
 
 
-def _without_balls_in_loops(reader: Reader, robot: Robot, options: Options, rows: Mapping[str, Row]) -> Robot:
-    """Return the robot with three hinges instead of each ball in a loop."""
+def _without_balls_in_loops(reader: Reader, robot: Robot, drives: Sequence[Drive], rows: Mapping[str, Row]) -> Robot:
+    """Return the robot with three hinges instead of each ball in a loop; the hinges may have drives."""
     held = find_balls_in_loops(robot.joints, robot.loops)
     if not held:
         return robot
@@ -285,7 +286,7 @@ def _without_balls_in_loops(reader: Reader, robot: Robot, options: Options, rows
         message = f"joint {name!r} is a ball in a loop: three continuous joints replace the ball"
         reader.extend([validate.Finding("loop-ball", f"joint {name}", message)])
     links, joints = split(reader, robot.links, robot.joints, dict.fromkeys(held, "xyz"))
-    hinges = with_drives(reader, joints[-3 * len(held) :], list(configured_drives(options)))
+    hinges = with_drives(reader, joints[-3 * len(held) :], drives)  # `split` adds the hinges at the end
     joints[-3 * len(held) :] = with_rows(reader, hinges, rows)
     known, robot = {*validate.check(robot)}, msgspec.structs.replace(robot, links=tuple(links), joints=tuple(joints))
     reader.extend(finding for finding in validate.check(robot) if finding not in known)

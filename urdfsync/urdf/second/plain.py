@@ -106,8 +106,9 @@ def _make_chain(root: Any, joint: Any, axes: str, *, has_damping: bool) -> None:
     losses = joint.find("dynamics") if has_damping else None
     for part in joint.xpath("axis | limit | dynamics"):
         joint.remove(part)
-    if losses is not None:
-        etree.SubElement(joint, "dynamics", damping=losses.get("damping") or losses.findtext("damping", "0"))
+    damping = "0" if losses is None else losses.get("damping") or losses.findtext("damping", "0")
+    if re.search("[1-9]", damping):  # no hinge has friction
+        etree.SubElement(joint, "dynamics", damping=damping)
     for end in root.xpath("loop_joint/*[@link=$name]", name=joint.get("name", "")):  # the joint stands for its child
         end.set("link", joint.find("child").get("link"))
     names = [f"{joint.get('name', '')}_{axis}" for axis in axes]
