@@ -52,11 +52,9 @@ class FactList:
         are of the source, which is among the first entries: in the daemon, looking at all takes a tenth of an event.
         """
         for entry, known in zip(self.entries, self._facts, strict=True):
-            kind, path = entry
-            if kind == PATH:
-                facts = look(kind, path)
-            elif (facts := seen.get(entry, ())) == ():
-                facts = seen[entry] = look(kind, path)
+            if entry[0] != PATH and entry not in seen:
+                seen[entry] = look(*entry)
+            facts = look(*entry) if entry[0] == PATH else seen[entry]
             if hash(facts) != known:
                 return entry
         return next((entry for number, entry in enumerate(self.entries) if not self._has_content(number)), None)

@@ -128,8 +128,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     """
     text = _read_source(config, robot, store, options, name)
     is_plain = not (robot.command or text.expansion)
-    beside = with_companions(text, registry.domain(robot.domain), robot.source, robot.options) if is_plain else text
-    for unnamed in beside.companions:
+    for unnamed in read_beside(registry.domain(robot.domain), robot.source, robot.options) if is_plain else ():
         message = f"robot `{robot.name}`: {unnamed.file} stands beside the source, and no option names it"
         hint = f"set `{unnamed.option}` to its path, or move the file away"
         raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
@@ -194,19 +193,19 @@ def _expand(config: Config, robot: RobotConfig, inputs: SourceFiles, options: Bu
     return made
 
 
-def with_companions(
-    text: Source, domain: Domain, source: Path, options: Any = None, revision: Revision | None = None
-) -> Source:
-    """Return a source with the companions beside the file `source`, on disk or in a revision.
+def read_beside(
+    domain: Domain, source: Path, options: Any = None, revision: Revision | None = None
+) -> tuple[Companion, ...]:
+    """Return the companions beside the file `source`, on disk or in a revision.
 
     A kind of companion that `options` name is left out: see `with_named_companions`.
     """
-    found = list(text.companions)
+    found = list[Companion]()
     for kind, path in companions_beside(domain, source, options):
         content = revision.contents([path]).get(path) if revision else read_file(path) if is_file(path) else None
         if content is not None and re.search(kind.mark, content.replace(b"\0", b"")):  # UTF-16 has a zero in a letter
             found.append(Companion(kind.option, revision.label(path) if revision else shown(path), content))
-    return msgspec.structs.replace(text, companions=tuple(found))
+    return tuple(found)
 
 
 def companions_beside(domain: Domain, source: Path, options: Any = None) -> Iterator[tuple[CompanionKind, Path]]:
@@ -257,7 +256,7 @@ def read_file_source(
         message, hint = f"the source can't be read: {error.strerror}", "name an existing, readable file"
         raise SourceError.of("no-source", message, shown(file), hint=hint) from None
     if not is_xacro(file, content):
-        return with_companions(Source(content, shown(file)), domain, file, options)
+        return Source(content, shown(file), companions=read_beside(domain, file, options))
     from urdfsync.engine import expansion
 
     inputs = expansion.SourceFiles(file.absolute().parent, file.absolute(), package_paths)

@@ -69,12 +69,11 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
     record = None if options.removes else record_after(inputs, generation, decision)
     if record is None:
         state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
-        writes = Writes(before=tuple(copies), files=tuple(files.values()), record=tuple(state))
+        needed = list[FileChange]()
     else:
         copies += conflicts.changes
         needed, state = _state_changes(inputs, generation, decision, record, index.values(), is_writing=is_writing)
-        writes = Writes(before=(*needed, *copies), files=tuple(files.values()), record=tuple(state))
-        state += needed
+    writes = Writes(before=(*needed, *copies), files=tuple(files.values()), record=tuple(state))
     uses = find_uses(inputs, generation, decision)
     lasting = [*find_lasting(inputs, generation, decision), *tell_uses(uses)]
     news = [*find_news(inputs, generation, decision), *tell_aside(inputs, actions, index, texts)]
@@ -82,7 +81,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         _result(inputs, decision, actions, conflicts, is_writing=is_writing),
         diagnostics=_sorted((*lasting, *news, *conflicts.diagnostics)),
         is_unmerged=any(finding.code == UNMERGED for finding in (*lasting, *news)),
-        renews=bool(state),
+        renews=bool(needed or state),
         drawing=None if picture is None else drawing,
     )
     notes, after = None, None

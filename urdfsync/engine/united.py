@@ -66,11 +66,13 @@ def with_meanings(inputs: Inputs, generation: Generation) -> Inputs:
     contents: dict[str, bytes] = {}
     left: dict[str, Merge | None] = {}
     generated = {folder.key(path): package.hash(path) for path in package.artifacts}
-    for key in generated.keys() | last.files.keys():
+    for key in dict.fromkeys((*generated, *last.files)):
         role, text = role_of(folder.path(key)), generated.get(key)
         if role is Role.IMPORT:
             continue
         on_disk = files.on_disk(key, role)
+        if on_disk == text and key not in inputs.unmerged:
+            continue  # most files are in step
         is_edited = isinstance(on_disk, str) and on_disk not in (text, *last.file(key, role, on_disk, text).hashes)
         found = _find_meaning(inputs, key, is_edited=is_edited) if is_edited or key in inputs.unmerged else None
         if isinstance(found, str) and text_hash(found) == files.hash(key, role):

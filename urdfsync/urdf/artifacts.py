@@ -12,7 +12,7 @@ from urdfsync.modelica.literals import html
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.model.joint import joint_model, joint_title
 from urdfsync.urdf.model.loop import loop_note, loop_reaches, loop_title
-from urdfsync.urdf.model.numbers import joint_base, joint_numbers, link_numbers, loop_numbers, shape_part
+from urdfsync.urdf.model.numbers import joint_part, link_numbers, loop_numbers, shape_part
 from urdfsync.urdf.model.record import obstacles, record_data
 from urdfsync.urdf.model.robot import bench_data, robot_data
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
@@ -148,8 +148,7 @@ def _joint(assembly: Assembly, joint: Joint) -> Iterator[Artifact]:
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}."
     is_driven = joint.name in assembly.closed.driven
-    numbers = {"base": joint_base(joint), "numbers": joint_numbers(joint), "source": "URDF"}
-    data = joint_model(joint, assembly.options, is_driven), numbers
+    data = joint_model(joint, assembly.options, is_driven), joint_part(joint) | {"source": "URDF"}
     templates = "joint/axis" if joint.type in MOTION_KINDS else f"joint/{joint.type}", "joint/record"
     return _element(assembly, "joint", joint.name, joint_title(joint), templates, data, note)
 

@@ -303,8 +303,9 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
     if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
         content = revision.read(robot.source)
         if config is None or not source_files.is_xacro(robot.source, content):
-            domain, text = registry.domain(robot.domain), Source(content, label)
-            return source_files.with_companions(text, domain, robot.source, robot.options, revision)
+            domain = registry.domain(robot.domain)
+            companions = source_files.read_beside(domain, robot.source, robot.options, revision)
+            return Source(content, label, companions=companions)
     path = Store(config.root).expansion(robot.name)
     if (recorded := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"

@@ -26,7 +26,7 @@ def link_numbers(name: str, inertial: Inertial | None) -> dict[str, Any]:
     return {"name": name, "inertial": {"origin": _given(inertial.origin), "mass": inertial.mass, "inertia": inertia}}
 
 
-def shape_numbers(shape: Mapping[str, Any]) -> dict[str, Any]:
+def _shape_numbers(shape: Mapping[str, Any]) -> dict[str, Any]:
     """Return the numbers of a visual or a collision; `shape` has the data of `link_shapes`."""
     geometry = shape["geometry"]
     if isinstance(geometry, Mesh):
@@ -40,15 +40,15 @@ def shape_numbers(shape: Mapping[str, Any]) -> dict[str, Any]:
 def shape_part(shape: Mapping[str, Any]) -> dict[str, Any]:
     """Return the record of a visual or a collision as a component: its class, name, numbers and description."""
     named = {key: shape[key] for key in ("component", "title", "hull")}
-    return {"base": shape["type"], "numbers": shape_numbers(shape), **named}
+    return {"base": shape["type"], "numbers": _shape_numbers(shape), **named}
 
 
-def joint_base(joint: Joint) -> str:
-    """Return the class of a joint's record, without its package."""
-    return f"{joint.type.capitalize()}Joint"
+def joint_part(joint: Joint) -> dict[str, Any]:
+    """Return the record of a joint: its class and numbers."""
+    return {"base": f"{joint.type.capitalize()}Joint", "numbers": _joint_numbers(joint)}
 
 
-def joint_numbers(joint: Joint) -> dict[str, Any]:
+def _joint_numbers(joint: Joint) -> dict[str, Any]:
     """Return the numbers of a joint."""
     numbers, dynamics = {"name": joint.name, "origin": _given(joint.origin)}, _given(joint.dynamics)
     match joint.type:

@@ -18,7 +18,7 @@ from urdfsync.modelica.literals import INFINITY, Expression, matrix, vector
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.connectors import free_name, taken_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.numbers import joint_base, joint_numbers, link_numbers, shape_part
+from urdfsync.urdf.model.numbers import joint_part, link_numbers, shape_part
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.options import USES
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Motion, limits_acceleration, reflected_inertia
@@ -48,8 +48,8 @@ def record_data(assembly: Assembly, imports: Mapping[str, Import]) -> dict[str, 
         part = {"base": "Link", "component": identifier.component, "numbers": numbers, "title": title}
         parts.append([part, *shapes])
     for number, joint in enumerate(tree.joints, 1):
-        part = {"base": joint_base(joint), "component": tree.joint(joint.name).component}
-        parts.append([part | {"numbers": joint_numbers(joint), "title": f'Joint {number}: "{joint.name}"'}])
+        named = {"component": tree.joint(joint.name).component, "title": f'Joint {number}: "{joint.name}"'}
+        parts.append([joint_part(joint) | named])
     axes = [  # drivable joints, turning joints first; the record has a constant with the number of each flange
         {"constant": drive.axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}
         for motion in MOTIONS

@@ -164,14 +164,15 @@ def _read(
     tell_foreign_loops(reader, root, options)
     parts = _read_parts(reader, root, contacts, closures, rows)
     links, joints = split(reader, parts.links, parts.joints, axes)
-    joints = with_rows(reader, with_drives(reader, joints, [*configured_drives(options), *parts.drives]), rows)
+    drives = [*configured_drives(options), *parts.drives]
+    joints = with_rows(reader, with_drives(reader, joints, drives), rows)
     robot = Robot(name, _with_materials(reader, root, links, parts.materials), tuple(joints))
     reader.extend(validate.check(robot, complete=parts.complete))
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
     robot = msgspec.structs.replace(robot, joints=tuple(moving))
     if not reader.failed:
         robot = msgspec.structs.replace(robot, loops=read_loops(reader, root, robot, options, closures))
-        robot = _without_balls_in_loops(reader, robot, [*configured_drives(options), *parts.drives], rows)
+        robot = _without_balls_in_loops(reader, robot, drives, rows)
     if parts.complete:  # the joint of a transmission may be missing in an incomplete robot
         known = {joint.name for joint in (*joints, *robot.joints)}  # a ball in a loop, and its hinges
         reader.extend(_find_idle_drives(parts.drives, known))
