@@ -8,6 +8,7 @@ plans and writes these files. This module depends on no domain and does no IO.
 from __future__ import annotations
 
 import enum
+import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
@@ -170,8 +171,8 @@ class CompanionKind(msgspec.Struct, frozen=True):
     """The option with the file's path from the configuration's folder."""
     suffix: str = ""
     """Without a configuration, such a file stands beside the source, with this suffix; empty if it never does."""
-    mark: bytes = b""
-    """A pattern in such files: a file beside the source without it is of another kind."""
+    mark: re.Pattern[bytes] = re.compile(b"")
+    """What is in such files: a file beside the source without it is of another kind."""
     needed_by: str = ""
     """The option without which the file that `option` names is not read; empty if it is always read."""
 

@@ -203,7 +203,7 @@ def read_beside(
     found = list[Companion]()
     for kind, path in companions_beside(domain, source, options):
         content = revision.contents([path]).get(path) if revision else read_file(path) if is_file(path) else None
-        if content is not None and re.search(kind.mark, content.replace(b"\0", b"")):  # UTF-16 has a zero in a letter
+        if content is not None and kind.mark.search(content.replace(b"\0", b"")):  # UTF-16 has a zero in a letter
             found.append(Companion(kind.option, revision.label(path) if revision else shown(path), content))
     return tuple(found)
 

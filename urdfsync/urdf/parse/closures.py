@@ -11,6 +11,7 @@ A joint of several axes becomes a chain of joints: see `chains`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -25,9 +26,11 @@ _TYPES = {
     "SPHERICAL": "xyz",
     **{f"UJOINT_{a}{b}": f"{a}{b}".lower() for a in "XYZ" for b in "XYZ" if a != b},
 }
-CLOSED_LOOP = rb"""(?mx)^(?:\xef\xbb\xbf|\xff\xfe|\xfe\xff)?(?:\{\s*+)?  # at the top of the file, no nested key
+CLOSED_LOOP = re.compile(
+    rb"""(?mx)^(?:\xef\xbb\xbf|\xff\xfe|\xfe\xff)?(?:\{\s*+)?  # at the top of the file, no nested key
     ["']?closed_loop["']?[ \t]*+:[ \t]*+(?:[\[&!]|(?:\#.*)?\r?$)  # with a list"""
-"""A pattern of files with loops; other programs may have a key of this name."""
+)
+"""What is in files with loops; other programs may have a key of this name."""
 _KEYS = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
 _NOTHING = "it states no loop, no motor and no joint"
 _LARGEST = 100_000
