@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import jsonschema
+import jsonschema_rs
 import pytest
 from support.commands import Execute
 from support.documents import is_described
@@ -17,8 +17,8 @@ def test_each_command_has_a_schema(execute: Execute, command: str) -> None:
     assert schema["title"] == command
     assert schema["$defs"]["Diagnostic"]["properties"]["severity"]
     document = {"version": JSON_VERSION, "command": command, "exit": 0, "results": [], "diagnostics": []}
-    with pytest.raises(jsonschema.ValidationError):
+    with pytest.raises(jsonschema_rs.ValidationError):
         is_described({**document, "other": 1}, command)
     del document["exit"]
-    with pytest.raises(jsonschema.ValidationError):
+    with pytest.raises(jsonschema_rs.ValidationError):
         is_described(document, command)

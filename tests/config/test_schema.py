@@ -6,7 +6,7 @@ import json
 import tomllib
 from pathlib import Path
 
-import jsonschema
+import jsonschema_rs
 import msgspec
 import pytest
 from support.commands import Execute
@@ -36,16 +36,16 @@ def test_what_init_writes_names_the_schema_beside_it(folder: Path, execute: Exec
     written_text = Path("urdfsync.toml").read_text()
     assert written_text.startswith("#:schema .urdfsync/schema.json\n")
     written = json.loads(Path(".urdfsync/schema.json").read_text())
-    jsonschema.validate(tomllib.loads(written_text), written)
+    jsonschema_rs.validate(written, tomllib.loads(written_text))
     assert written == execute("schema", "config").json
-    with pytest.raises(jsonschema.ValidationError, match="'bse' was unexpected"):
-        jsonschema.validate(tomllib.loads(f"{written_text}\nbse = 'fixed'\n"), written)
+    with pytest.raises(jsonschema_rs.ValidationError, match="'bse' was unexpected"):
+        jsonschema_rs.validate(written, tomllib.loads(f"{written_text}\nbse = 'fixed'\n"))
 
 
 def test_a_faulty_key_of_a_table_is_named() -> None:
     table = {"source": "a.csv", "package": "A", "domain": "table", "kinds": "kind"}
-    with pytest.raises(jsonschema.ValidationError, match="'kinds' was unexpected"):
-        jsonschema.validate({"robots": {"a": table}}, config_schema())
+    with pytest.raises(jsonschema_rs.ValidationError, match="'kinds' was unexpected"):
+        jsonschema_rs.validate(config_schema(), {"robots": {"a": table}})
 
 
 def test_the_schema_of_the_examples_is_that_of_the_program() -> None:

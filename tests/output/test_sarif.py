@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import jsonschema
+import jsonschema_rs
 import pytest
 from support.schemas import validate
 
@@ -37,7 +37,7 @@ def places(run: Any) -> Iterator[Any]:
 def test_the_schema_refuses_a_log_without_a_message() -> None:
     log = json.loads(document([Section("arm", "", Mark.WRONG, findings=[CYCLE])], [], 2))
     del log["runs"][0]["results"][0]["message"]
-    with pytest.raises(jsonschema.ValidationError):
+    with pytest.raises(jsonschema_rs.ValidationError):
         validate(log, "sarif")
 
 

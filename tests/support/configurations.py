@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from unittest import mock
 
-import jsonschema
+import jsonschema_rs
 import pytest
 
 from urdfsync import config, registry
@@ -53,12 +53,12 @@ def _is_valid(text: str, path: tuple[str, ...]) -> bool:
 
 
 @functools.cache
-def _validator(path: tuple[str, ...]) -> jsonschema.Draft202012Validator:
+def _validator(path: tuple[str, ...]) -> jsonschema_rs.Validator:
     """Return the validator for the domains that are installed on Python's path."""
     with Reads():  # no record depends on these reads
         schema = config_schema()
-    jsonschema.Draft202012Validator.check_schema(schema)
-    return jsonschema.Draft202012Validator(schema)
+    jsonschema_rs.meta.validate(schema)
+    return jsonschema_rs.validator_for(schema)
 
 
 def _is_beyond(problem: Diagnostic) -> bool:

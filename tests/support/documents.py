@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-import jsonschema
+import jsonschema_rs
 
 from urdfsync.commands.schema import document_schema
 
@@ -17,10 +17,10 @@ def is_described(document: Any, command: str) -> bool:
 
 
 @functools.cache
-def _validator(command: str) -> jsonschema.Draft202012Validator:
+def _validator(command: str) -> jsonschema_rs.Validator:
     schema = document_schema(command)
-    jsonschema.Draft202012Validator.check_schema(schema)
-    return jsonschema.Draft202012Validator(_closed(schema))
+    jsonschema_rs.meta.validate(schema)
+    return jsonschema_rs.validator_for(_closed(schema))
 
 
 def _closed(schema: Any) -> Any:

