@@ -86,7 +86,7 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str]] | None:
     if file is None:
         return None
     seen: dict[Entry, Facts] = {}
-    keys = _robots(file, seen)
+    keys = robot_keys(file, seen)
     if keys is None or not keys.keys() >= set(request.robots):
         return None  # sources and folders name robots, too
     chosen = [robot for robot in keys if not request.robots or robot in request.robots]
@@ -102,12 +102,12 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str]] | None:
 def is_in_step(config_file: str) -> bool:
     """Return whether all robots of a configuration are in step; False if that has to be found out."""
     seen: dict[Entry, Facts] = {}
-    keys, folder = _robots(config_file, seen), _state_folder(config_file)
+    keys, folder = robot_keys(config_file, seen), _state_folder(config_file)
     return bool(keys) and all(_words(folder, robot, key, IN_STEP, seen) for robot, key in (keys or {}).items())
 
 
-def _robots(config_file: str, seen: dict[Entry, Facts]) -> dict[str, str] | None:
-    """Return the key of each robot's record by name; None if the configuration has to be read."""
+def robot_keys(config_file: str, seen: dict[Entry, Facts]) -> dict[str, str] | None:
+    """Return what `remember` got: the key of each robot's record by name; None if the configuration has to be read."""
     folder, name = _state_folder(config_file), _name(config_file)
     known = record.load(folder, name)
     if known is None or known.key != record.surroundings() or record.find_change(folder, name, known, seen):

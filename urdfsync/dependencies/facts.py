@@ -14,7 +14,7 @@ from urdfsync.dependencies.places import place
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
 Facts = tuple[int, ...]
 """Integers that differ after a change; a negative number is that of an error of the system."""
@@ -61,6 +61,14 @@ def look(kind: str, path: str | os.PathLike[str]) -> Facts:
     """Return the facts now, or the negative number of the system's error."""
     try:
         return facts_of(kind, path)
+    except OSError as error:
+        return failed(error)
+
+
+def look_path(path: str) -> Facts:
+    """Return the facts of a path now, or the negative number of the system's error: `look`, for a fleet's files."""
+    try:
+        return path_facts(path)
     except OSError as error:
         return failed(error)
 
@@ -146,27 +154,38 @@ def unmerged_paths(index: str | os.PathLike[str]) -> set[str]:
         content = read_unrecorded(index)
     except OSError:
         return set()
-    number = int.from_bytes
-    version, found, place, name = number(content[4:8]), set(), 12, b""
-    for _ in range(number(content[8:12])):
-        flags = number(content[place + 60 : place + 62])  # behind the stat values and the hash of the content
-        start = place + (64 if flags & 0x4000 else 62)
-        end = content.find(b"\0", start)
+    if content not in _unmerged:  # a command asks some times, and an index has all files of the repository
+        _unmerged.clear()
+        _unmerged[content] = frozenset(_find_unmerged(content))
+    return set(_unmerged[content])
+
+
+_unmerged: dict[bytes, frozenset[str]] = {}
+"""The last index, and what git could not merge in it."""
+
+
+def _find_unmerged(content: bytes) -> Iterator[str]:
+    version, place, name = int.from_bytes(content[4:8]), 12, b""
+    for _ in range(int.from_bytes(content[8:12])):
+        if place + 62 > len(content):
+            return
+        flags = content[place + 60] << 8 | content[place + 61]  # behind the stat values and the hash of the content
+        start, size = place + (64 if flags & 0x4000 else 62), flags & 0xFFF
+        is_packed = version == 4
+        end = start + size if not is_packed and size < 0xFFF else content.find(b"\0", start)
         if end < 0:
-            break
-        if version == 4:  # after a number of seven bits a byte: so many bytes of the name before are dropped
+            return
+        if is_packed:  # after a number of seven bits a byte: so many bytes of the name before are dropped
             dropped = content[start] & 127
             while content[start] & 128:
                 start += 1
                 dropped = (dropped + 1 << 7) | content[start] & 127
             start += 1
             end = content.find(b"\0", start)
-            name, place = name[: len(name) - dropped] + content[start:end], end + 1
-        else:
-            name, place = content[start:end], end + 8 - (end - place) % 8
+            name = name[: len(name) - dropped] + content[start:end]
         if flags & 0x3000:  # the stage
-            found.add(os.fsdecode(name))
-    return found
+            yield os.fsdecode(name if is_packed else content[start:end])
+        place = end + 1 if is_packed else end + 8 - (end - place) % 8
 
 
 def checksum(names: Iterable[str]) -> Facts:

@@ -11,7 +11,7 @@ import os
 import time
 
 from urdfsync.dependencies import localfile, places, program
-from urdfsync.dependencies.facts import MAX_FILE, PATH, VARIABLE, hash_file, is_young, look
+from urdfsync.dependencies.facts import MAX_FILE, PATH, VARIABLE, hash_file, is_young, look, look_path
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
 if TYPE_CHECKING:
@@ -52,11 +52,17 @@ class FactList:
         are of the source, which is among the first entries: in the daemon, looking at all takes a tenth of an event.
         """
         for entry, known in zip(self.entries, self._facts, strict=True):
-            if entry[0] != PATH and entry not in seen:
-                seen[entry] = look(*entry)
-            facts = look(*entry) if entry[0] == PATH else seen[entry]
+            kind, path = entry
+            if kind == PATH:
+                facts = look_path(path)
+            elif entry in seen:
+                facts = seen[entry]
+            else:
+                facts = seen[entry] = look(kind, path)
             if hash(facts) != known:
                 return entry
+        if self.is_old:
+            return None
         return next((entry for number, entry in enumerate(self.entries) if not self._has_content(number)), None)
 
     def changes(self, seen: Sequence[Facts]) -> Iterator[Entry]:
@@ -93,16 +99,16 @@ class FactList:
     @property
     def is_old(self) -> bool:
         """Whether stat values alone tell each change."""
-        return all(sha256 == _OLD for sha256 in self._hashes)
+        return set(self._hashes) <= {_OLD}
 
     def can_be_saved(self) -> bool:
         """Whether the contents of all young files are known, and a text can hold all paths."""
         return all(self._hashes) and not any(not path or "\0" in path for _, path in self.entries)
 
     def dumps(self) -> str:
-        """Return the list as a text."""
-        rows = zip(self.entries, self._facts, self._hashes, strict=True)
-        return "\0".join(text for (kind, path), facts, sha256 in rows for text in (kind, path, str(facts), sha256))
+        """Return the list as a text: kinds, paths, facts and hashes, one after the other."""
+        columns = (*zip(*self.entries, strict=True), map(str, self._facts), self._hashes) if self.entries else ()
+        return "\0".join(text for column in columns for text in column)
 
     @classmethod
     def loads(cls, text: str) -> FactList:
@@ -110,9 +116,11 @@ class FactList:
         if not text:
             return cls()
         words = text.split("\0")
-        rows = list(zip(words[::4], words[1::4], words[2::4], words[3::4], strict=True))
-        facts, hashes = [int(facts) for _, _, facts, _ in rows], [sha256 for *_, sha256 in rows]
-        return cls([(kind, path) for kind, path, _, _ in rows], facts, hashes)
+        size, rest = divmod(len(words), 4)
+        if rest:
+            raise ValueError
+        kinds, paths, facts, hashes = (words[start : start + size] for start in range(0, 4 * size, size))
+        return cls(list(zip(kinds, paths, strict=True)), list(map(int, facts)), hashes)
 
 
 class Record:

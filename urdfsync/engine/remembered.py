@@ -126,6 +126,8 @@ def remember(config: Config, robot: RobotConfig, key: str, result: Result) -> No
 
 def remember_configuration(config: Config, reads: Reads) -> None:
     """Remember a configuration without warnings whose robots were all built: then a no-op build need not read it."""
+    if noop.robot_keys(str(config.file), {}) is not None:
+        return  # the record still holds
     for robot in config.robots:
         is_plain = registry.is_own(robot.domain) and robot.output.is_relative_to(config.root)
         if (robot.on_build == "check" and not is_clone()) or not is_plain:
