@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import subprocess
 from pathlib import Path
 
 import pytest
 from support import xacros
+from support.git import NEEDS_GIT, Repository
 from support.networks import RECORD, configure, resistor, run, run_all
 
 from urdfsync.dependencies import reads
@@ -131,3 +133,29 @@ def test_the_times_of_a_folder_are_no_fact(tmp_path: Path) -> None:
     before = facts_of(PATH, tmp_path)
     (tmp_path / "new").touch()
     assert facts_of(PATH, tmp_path) == before != NOTHING == facts_of(PATH, tmp_path / "new/below")
+
+
+# Git's index
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize("version", ["2", "4"])
+def test_unmerged_files_are_found_among_names_of_all_lengths(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, version: str
+) -> None:
+    repository = Repository(folder, monkeypatch)
+    Path("later").write_text("")
+    repository.git("add", "--intent-to-add", "later")  # it has more flags than others
+    blob = repository.git("hash-object", "-w", "later").strip()
+    wanted, lines = set[str](), list[str]()
+    for number, size in enumerate((*range(1, 40), 4080, 4091, 4092, 5000)):
+        name = f"{'n' * size}{size}"
+        stages = (1, 2, 3) if number % 3 else (0,)
+        lines += [f"100644 {blob} {stage}\t{name}" for stage in stages]
+        wanted |= {name} if number % 3 else set()
+    subprocess.run(["git", "update-index", "--index-info"], input="\n".join(lines), text=True, check=True)
+    repository.git("update-index", "--index-version", version)
+    index = Path(".git/index")
+    assert reads.find_unmerged(index) == wanted
+    index.write_bytes(index.read_bytes()[:700])
+    assert reads.find_unmerged(index) < wanted
