@@ -154,14 +154,15 @@ def unmerged_paths(index: str | os.PathLike[str]) -> set[str]:
         content = read_unrecorded(index)
     except OSError:
         return set()
-    if content not in _unmerged:  # a command asks some times, and an index has all files of the repository
+    key = len(content), hash(content)
+    if key not in _unmerged:  # a command asks some times, and an index has all files of the repository
         _unmerged.clear()
-        _unmerged[content] = frozenset(_find_unmerged(content))
-    return set(_unmerged[content])
+        _unmerged[key] = frozenset(_find_unmerged(content))
+    return set(_unmerged[key])
 
 
-_unmerged: dict[bytes, frozenset[str]] = {}
-"""The last index, and what git could not merge in it."""
+_unmerged: dict[tuple[int, int], frozenset[str]] = {}
+"""The size and hash of the last index, and what git could not merge in it."""
 
 
 def _find_unmerged(content: bytes) -> Iterator[str]:
