@@ -15,9 +15,9 @@ from urdfsync.urdf import plausibility
 BASE, ARM = link("base", 4.0), link("arm", 2.0)
 
 
-def body(mass: float, inertia: float, *shapes: str, name: str = "arm") -> str:
+def body(mass: float, inertia: float, *shapes: str, name: str = "arm", xyz: str = "0 0 0") -> str:
     tensor = f'<inertia ixx="{inertia}" iyy="{inertia}" izz="{inertia}" ixy="0" ixz="0" iyz="0"/>'
-    inertial = f'<inertial><mass value="{mass}"/>{tensor}</inertial>'
+    inertial = f'<inertial><origin xyz="{xyz}"/><mass value="{mass}"/>{tensor}</inertial>'
     visuals = "".join(f"<visual>{shape}</visual>" for shape in shapes)
     return f'<link name="{name}">{inertial}{visuals}</link>'
 
@@ -50,6 +50,15 @@ BALL, MESH = '<sphere radius="0.1"/>', '<mesh filename="package://p/a.stl"/>'
     ([BASE, ARM, turn(limit(velocity=0))], "zero-limits", 5),
     ([BASE, ARM, turn('<limit effort="0" velocity="0"/>', kind="continuous")], "zero-limits", 5),
     ([BASE, body(1, 0.1, shape(MESH, "0 12 0")), turn()], "shape-far", 4),
+    ([BASE, body(2, 0), turn()], "inertia-size", 4),
+    ([BASE, body(2, 1e-18), turn()], "inertia-size", 4),
+    ([BASE, body(2, 0.1, xyz="400 0 0"), turn()], "length-unit", 4),
+    ([BASE, body(30, 0.02, shape('<box size="0.1 0.1 0.1"/>')), turn()], "density", 4),
+    ([BASE, body(0.1, 0.01, shape('<box size="1 1 1"/>')), turn()], "density", 4),
+    ([BASE, ARM, turn(limit(effort=0)), link("c", 1), joint("k", "revolute", "arm", "c")], "zero-effort", 5),
+    ([BASE, ARM, turn(limit(), '<safety_controller k_velocity="1" soft_lower_limit="-4" soft_upper_limit="2"/>')],
+     "soft-limits", 5),
+    ([BASE, ARM, turn(limit(), kind="continuous")], "limit-without-effect", 5),
 ])  # fmt: skip
 def test_what_is_hardly_meant_is_a_warning(elements: list[str], code: str, line: int) -> None:
     text = robot(*elements)
@@ -69,7 +78,15 @@ def test_what_is_hardly_meant_is_a_warning(elements: list[str], code: str, line:
     [BASE, body(1, 0.004, shape(BALL)), turn()],
     [BASE, body(1, 0.1, shape('<box size="0.001 0.001 0.001"/>')), turn()],
     [BASE, body(1e-4, 0, shape(MESH)), turn()],
-    [BASE, body(1, 0), turn()],
+    [BASE, body(1, 0, xyz="0.3 0 0"), turn()],
+    [BASE, body(1, 0), joint("j", "fixed", "base", "arm")],
+    [body(0, 0, name="base"), ARM, turn()],
+    [BASE, body(8, 0.01, shape('<box size="0.1 0.1 0.1"/>')), turn()],
+    [BASE, body(19, 0.01, shape('<sphere radius="0.01"/>')), turn(xyz="0 0 0.01")],
+    [BASE, ARM, turn(limit(), '<safety_controller k_velocity="1" soft_lower_limit="-2" soft_upper_limit="3.0001"/>')],
+    [BASE, ARM, turn(limit(), '<safety_controller k_velocity="1" soft_lower_limit="-20" soft_upper_limit="20"/>')],
+    [BASE, ARM, turn(limit(), '<safety_controller k_velocity="1"/>')],
+    [BASE, ARM, turn(limit(-1e16, 1e16), kind="continuous")],
     [BASE, ARM, turn(limit(-7.33, 7.33))],
     [BASE, ARM, turn(limit(-62.831853, 62.831853))],
     [BASE, ARM, turn(limit(-1e9, 1e9))],
@@ -82,6 +99,20 @@ def test_what_is_hardly_meant_is_a_warning(elements: list[str], code: str, line:
 ])  # fmt: skip
 def test_what_is_only_unusual_is_none(elements: list[str]) -> None:
     assert read(robot(*elements).encode()).diagnostics == ()
+
+
+def test_a_frame_has_no_collision_shape() -> None:
+    base = body(0, 0, name="base").replace("</link>", f"<collision>{shape(BALL)}</collision></link>")
+    (found,) = read(robot(base, ARM, turn()).encode()).diagnostics
+    assert (found.code, found.line) == ("no-inertia", 3)
+    assert "'base' has a mass of 0 and a collision shape" in found.message
+
+
+def test_an_impossible_density_is_told_with_the_likely_mass() -> None:
+    cube = shape('<box size="0.1 0.1 0.2"/>')
+    links = [body(mass, 0.02, cube, name=name) for name, mass in {"base": 7, "arm": 42.87, "hand": 6}.items()]
+    (found,) = read(robot(*links, turn(), joint("k", "revolute", "arm", "hand")).encode()).diagnostics
+    assert "42.87 kg in shapes of 2 l are 21,435 kg/m³; as dense as other links, it would have 7 kg" in found.message
 
 
 FILLED_IN = (

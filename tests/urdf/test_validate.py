@@ -87,6 +87,8 @@ NUMBERS = """
     revolute    <limit lower="1" upper="-1" effort="1" velocity="1"/>       error limit-order
     prismatic   <limit lower="1" upper="-1" effort="1" velocity="1"/>       error limit-order
     continuous  <limit lower="1" upper="-1" effort="1" velocity="1"/>
+    continuous  <limit lower="-1" upper="1" effort="1" velocity="1"/>       warning limit-without-effect
+    continuous  <limit lower="0" upper="0" effort="1" velocity="1"/>
     revolute    <limit lower="1" upper="1" effort="1" velocity="1"/>
     revolute    <limit lower="0" upper="1" effort="-1" velocity="1"/>       warning negative-limit
     revolute    <limit lower="0" upper="1" effort="1" velocity="-1"/>       warning negative-limit
@@ -152,7 +154,8 @@ MIMICS = """
 @pytest.mark.parametrize("case", cases(MIMICS))
 def test_what_can_follow_what(case: list[str]) -> None:
     leader, follower, finding, *_ = case
-    joints = joint(limit(), leader), joint(limit() + mimic("j"), follower, "k", "c")
+    limits = {kind: limit() for kind in ("revolute", "prismatic")}
+    joints = joint(limits.get(leader, ""), leader), joint(limits.get(follower, "") + mimic("j"), follower, "k", "c")
     assert found(*elements("a b c"), *joints) == finding
 
 

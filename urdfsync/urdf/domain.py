@@ -37,6 +37,7 @@ from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
 from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.symmetry import find_asymmetries
 from urdfsync.urdf.unsimulated import find_unsimulated, out_of_scope
 from urdfsync.urdf.validate import ADVICE, Finding, diagnostic
 
@@ -102,7 +103,11 @@ class UrdfDomain(Domain):
             else:
                 of_source.append(finding)
         places = file, lines, files
-        diagnostics += located(find_implausible(tree), *places) + unmodelled + located(of_source, *places)
+        diagnostics += (
+            located((*find_implausible(tree), *find_asymmetries(tree)), *places)
+            + unmodelled
+            + located(of_source, *places)
+        )
         if not closed.faults:
             diagnostics += located(find_unsimulated(assembly), *places)
         is_wrong = any(entry.severity is Severity.ERROR and entry.code not in self.cured for entry in diagnostics)

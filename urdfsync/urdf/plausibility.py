@@ -47,6 +47,12 @@ _LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
 A joint is implausible at more than 50 m from its parent.
 """
 _FOUR_TURNS, _TWO_TURNS_IN_DEGREES = 8 * math.pi, 720
+_TUNGSTEN, _AIR = 20_000, 1
+"""In kg/m³: the bounds of densities."""
+_POINT = 1e-6
+"""In m: a smaller radius of gyration is a rounding error of 0."""
+_SAME, _SWITCHED_OFF = 1e-3, 5
+"""Soft limits may be outside by this part of the joint's range; far outside, in rad or m, they are switched off."""
 _LIGHT = 0.05
 """In kg: a lighter part may only mark a place, and may have an inertia of 0 by rounding."""
 
@@ -58,10 +64,17 @@ def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
     for joint in reversed(tree.joints):
         masses[joint.parent] += masses[joint.child]
     yield from _check_masses(tree, masses, length)
+    yield from _check_densities(tree)
+    yield from _check_efforts(tree)
+    moving = {joint.child for joint in tree.joints if joint.type != "fixed"}
     for link in tree.links:
         if link.inertial is not None and link.inertial.mass:
-            yield from _check_inertia(link, link.inertial, length)
+            yield from _check_inertia(link, link.inertial, length, link.name in moving)
+            yield from _check_centre(link, link.inertial, length)
             yield from _check_angles(f"link {link.name} / inertial", link.inertial.origin)
+        elif link.inertial is not None and link.collisions:
+            message = f"link {link.name!r} has a mass of 0 and a collision shape: a frame has no shape, a body a mass"
+            yield Finding("no-inertia", f"link {link.name} / inertial", message, "state the mass and the inertia")
         yield from _check_shapes(link, length)
     for joint in tree.joints:
         yield from _check_angles(f"joint {joint.name}", joint.origin)
@@ -99,11 +112,16 @@ def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: floa
         yield Finding("mass-unit", "robot", message)
 
 
-def _check_inertia(link: Link, inertial: Inertial, length: float) -> Iterator[Finding]:
-    """Check that a body of the link's size can have its radius of gyration; the link has a mass."""
+def _check_inertia(link: Link, inertial: Inertial, length: float, is_moving: bool) -> Iterator[Finding]:
+    """Check that a body of the link's size can have its radius of gyration; the link has a mass.
+
+    A mass without shape and inertia away from the link's frame may be the point mass of a pendulum.
+    """
     gyration, radius, place = _gyration(inertial), _radius(link), f"link {link.name} / inertial"
-    if gyration == 0 and radius and inertial.mass > _LIGHT:
-        message = f"{place}: a body of {inertial.mass:g} kg with a shape has no inertia"
+    is_in_joint = is_moving and math.hypot(*inertial.origin.xyz) < _POINT
+    if gyration < _POINT and (radius or is_in_joint) and inertial.mass > _LIGHT:
+        shape = " with a shape" if radius else ""
+        message = f"{place}: a body of {inertial.mass:g} kg{shape} has no inertia"
     elif _MARKER < radius < math.inf and gyration > _GYRATION * radius:
         message = (
             f"{place}: the radius of gyration is {gyration:.3g} m, but the link's shapes reach only {radius:.3g} m"
@@ -113,6 +131,46 @@ def _check_inertia(link: Link, inertial: Inertial, length: float) -> Iterator[Fi
     else:
         return
     yield Finding("inertia-size", f"{place} / inertia", message)
+
+
+def _check_centre(link: Link, inertial: Inertial, length: float) -> Iterator[Finding]:
+    """Check that the centre of mass is not far outside of the robot."""
+    away = math.hypot(*inertial.origin.xyz)
+    if (length and away > max(_FAR * length, _FAR_AWAY) and _radius(link) > _FAR_AWAY) or away > _LONG_JOINT:
+        place = f"link {link.name} / inertial"
+        message = f"{place}: the centre of mass is {away:.6g} m away from its link, in a robot of {length:.3g} m"
+        yield Finding("length-unit", f"{place} / origin", message)
+
+
+def _check_densities(tree: KinematicTree) -> Iterator[Finding]:
+    """Check that no body is denser than tungsten or lighter than air, where simple shapes around it tell its volume."""
+    volumes = dict[str, float]()
+    masses = {link.name: link.inertial.mass for link in tree.links if link.inertial}
+    for link in tree.links:
+        shapes: Sequence[Visual | Collision] = link.collisions or link.visuals
+        if link.inertial and _gyration(link.inertial) < _radius(link) < math.inf:
+            volumes[link.name] = sum(_volume(shape.geometry) for shape in shapes)
+    volumes = {name: volume for name, volume in volumes.items() if volume > _MARKER * _MARKER * _MARKER}
+    densities = sorted(masses[name] / volume for name, volume in volumes.items())
+    for name, volume in volumes.items():
+        density, usual = masses[name] / volume, densities[len(densities) // 2]
+        if masses[name] > _LIGHT and not _AIR <= density <= _TUNGSTEN:
+            message = f"link {name} / inertial: {masses[name]:.4g} kg in shapes of {volume * 1000:.3g} l are "
+            message += f"{density:,.0f} kg/m³"
+            if len(densities) > 1 and _AIR <= usual <= _TUNGSTEN:
+                message += f"; as dense as other links, it would have {usual * volume:.3g} kg"
+            yield Finding("density", f"link {name} / inertial / mass", message)
+
+
+def _check_efforts(tree: KinematicTree) -> Iterator[Finding]:
+    """Check that no joint has an effort of 0 beside others with more; a source may tell which joints are driven."""
+    efforts = {joint.name: joint.limit.effort for joint in tree.joints if joint.limit and not joint.mimic}
+    greatest = max((effort for effort in efforts.values() if effort), default=0.0)
+    are_told = any(joint.actuated for joint in tree.joints)
+    for joint in tree.joints if greatest else ():
+        if efforts.get(joint.name) == 0 and (joint.actuated or not are_told):
+            message = f"joint {joint.name} / limit has effort = 0: no drive moves it; another joint has {greatest:g}"
+            yield Finding("zero-effort", f"joint {joint.name} / limit", message)
 
 
 def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
@@ -150,6 +208,13 @@ def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]
     limit, kind = joint.limit, JOINT_KINDS[joint.type]
     if limit is None or not kind.has_limits:
         return
+    soft = joint.safety_controller
+    if soft and soft.soft_lower_limit < soft.soft_upper_limit:
+        past = max(limit.lower - soft.soft_lower_limit, soft.soft_upper_limit - limit.upper)
+        if _SAME * (limit.upper - limit.lower) < past < _SWITCHED_OFF:
+            message = f"{path}: the soft limits {soft.soft_lower_limit:g} to {soft.soft_upper_limit:g} are outside of "
+            message += f"the limits {limit.lower:g} to {limit.upper:g}"
+            yield Finding("soft-limits", f"{path} / safety_controller", message)
     place, widest = f"{path} / limit", max(abs(limit.lower), abs(limit.upper))
     if kind.motion == "rotational":
         is_whole = limit.lower.is_integer() and limit.upper.is_integer()
@@ -173,6 +238,21 @@ def _radius(link: Link) -> float:
     centre = link.inertial.origin.xyz if link.inertial else (0.0, 0.0, 0.0)
     shapes: Sequence[Visual | Collision] = (*link.visuals, *link.collisions)
     return max((math.dist(shape.origin.xyz, centre) + _extent(shape.geometry) for shape in shapes), default=0.0)
+
+
+def _volume(geometry: Geometry) -> float:
+    """Return the volume of a shape in m³; a mesh is not read yet and counts as infinite."""
+    match geometry:
+        case Box(size=(x, y, z)):
+            return x * y * z
+        case Cylinder(radius=radius, length=length):
+            return math.pi * radius * radius * length
+        case Capsule(radius=radius, length=length):
+            return math.pi * radius * radius * (length + 4 / 3 * radius)
+        case Sphere(radius=radius):
+            return 4 / 3 * math.pi * radius * radius * radius
+        case Mesh():
+            return math.inf
 
 
 def _extent(geometry: Geometry) -> float:

@@ -40,6 +40,8 @@ _INERTIA_TOLERANCE = 1e-6
 # In m: a body with a smaller radius of gyration is a point, and its inertia a rounding error.
 _POINT = 1e-6
 _COMPARED = 500
+# In rad: a greater range of a continuous joint stands for no limits.
+_ENDLESS = 1000
 _MAGNITUDES = (
     ("negative-limit", "limit", ("effort", "velocity", "acceleration", "deceleration", "jerk")),
     ("negative-dynamics", "dynamics", ("damping", "friction")),
@@ -156,6 +158,10 @@ _WARNINGS = {
     # valid, but probably a mistake
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "write masses in kg",
+    "density": "correct the mass or the shapes",
+    "zero-effort": "state the effort of the drive; of a joint without a drive, leave effort and velocity out",
+    "soft-limits": "write soft limits inside of the limits",
+    "not-mirrored": 'correct one side; if the robot is not symmetric, write `ignore = ["not-mirrored"]`',
     "inertia-size": "export inertias in kg·m², about the centre of mass",
     "length-unit": "write lengths in m",
     "angle-unit": "write angles in rad",
@@ -428,6 +434,11 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
                 yield Finding(code, f"{path} / {block}", f"{path}: the {name.replace('_', ' ')} {value:g} is negative")
     if limit and joint.type == "ball":
         yield Finding("limit-without-effect", f"{path} / limit", f"{path} is a ball: its <limit> has no effect")
+    if limit and joint.type == "continuous" and limit.lower < limit.upper <= limit.lower + _ENDLESS:
+        message = f"{path} is continuous: its limits {limit.lower:g} to {limit.upper:g} have no effect"
+        yield Finding(
+            "limit-without-effect", f"{path} / limit", message, "make the joint revolute, or remove the limits"
+        )
     given, acting = joint.dynamics or Dynamics(), effect.dynamics or Dynamics()
     idle = [name for name in Dynamics.__struct_fields__ if getattr(given, name) != getattr(acting, name)]
     if idle:

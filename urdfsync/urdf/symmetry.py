@@ -1,0 +1,211 @@
+"""Finds left and right parts of a robot that are no mirror images of each other.
+
+Names propose the pairs: `left_arm` and `right_arm`, `LHip` and `RHip`, `FL_foot` and `FR_foot`. A pair counts if all
+joints are at 0 and its links lie as in a mirror. The same part on both sides, such as one wheel or one bought arm, is
+no mirror image: then both links have the same mesh files.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, link_poses, own_range, pose
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.robot import MOTION_KINDS, Collision, Inertial, Joint, Link, Mesh, Vector, Visual
+from urdfsync.urdf.validate import Finding
+
+_SIDES = ("left right", "l r", "fl fr", "rl rr", "bl br", "hl hr", "lf rf", "lh rh", "lb rb", "izquierda derecha")
+_OTHER = {name: other for pair in map(str.split, (*_SIDES, "gauche droite")) for name, other in (pair, reversed(pair))}
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|left|right", re.ASCII)
+_ALIKE = 0.1
+"""The greatest difference of two numbers of one size, relative to the larger one: models of sides are rounded."""
+_NEAR, _PLACE = 0.002, 0.01
+"""Mirrored points differ by 2 mm, by a tenth of a link's size, or by a hundredth of the distance of two sides."""
+_ANGLE = 0.1
+"""In rad or m: the greatest difference of mirrored limits."""
+_LIGHT = 0.05
+"""In kg: screws and washers need not be mirrored."""
+_LEAST = 0.01
+"""In m: sides that are closer lie in the plane of symmetry."""
+
+
+class _Plane(NamedTuple):
+    normal: Vector
+    at: float
+    """The distance of the plane from the origin along its normal, in m."""
+
+    def point(self, place: Vector) -> Vector:
+        return _moved(place, self.normal, 2 * (self.at - dot(self.normal, place)))
+
+    def vector(self, vector: Vector) -> Vector:
+        return _moved(vector, self.normal, -2 * dot(self.normal, vector))
+
+
+class _Side(NamedTuple):
+    """A link with the joint that leads to it; its pose is in the robot's frame, with all joints at 0."""
+
+    link: Link
+    joint: Joint
+    pose: Pose
+
+
+def find_asymmetries(tree: KinematicTree) -> Iterator[Finding]:
+    """Yield a warning for each difference of a link or joint from the mirror image of its other side."""
+    joints = {joint.child: joint for joint in tree.joints}
+    names = {name: _other_side(name) for name in joints}
+    if not any(name != across and across in joints for name, across in names.items()):
+        return
+    poses, links = link_poses(tree, {}), {link.name: link for link in tree.links}
+    sides = {name: _Side(links[name], joints[name], poses[name]) for name in joints}
+    pairs = [(sides[name], sides[across]) for name, across in names.items() if across in sides and across < name]
+    between = (_plane_between(one.pose[1], other.pose[1]) for one, other in pairs)
+    planes = [plane for plane in between if plane]
+    best = max(planes, key=lambda plane: sum(_lie_in(plane, *pair) for pair in pairs), default=None)
+    for one, other in pairs:
+        if best is not None and _lie_in(best, one, other):
+            yield from _compare_bodies(best, one, other)
+            yield from _compare_joints(best, one, other)
+
+
+def _other_side(name: str) -> str:
+    """Return the name with left and right exchanged; the same name if it has no side."""
+
+    def exchanged(match: re.Match[str]) -> str:
+        word = match[0]
+        other = _OTHER.get(word.lower(), word)
+        return other.upper() if word.isupper() else other.capitalize() if word[0].isupper() else other
+
+    return _WORD.sub(exchanged, name)
+
+
+def _plane_between(one: Vector, other: Vector) -> _Plane | None:
+    distance = math.dist(one, other)
+    if distance < _LEAST:
+        return None
+    x, y, z = ((a - b) / distance for a, b in zip(one, other, strict=True))
+    middle = tuple((a + b) / 2 for a, b in zip(one, other, strict=True))
+    return _Plane((x, y, z), dot((x, y, z), middle))
+
+
+def _lie_in(plane: _Plane, one: _Side, other: _Side) -> bool:
+    """Whether frames lie as in a mirror: their origins, and their axes, which may be exchanged or reversed.
+
+    Where joints at 0 leave one side in another pose, other axes show it.
+    """
+    apart = math.dist(one.pose[1], other.pose[1])
+    if not math.dist(plane.point(one.pose[1]), other.pose[1]) <= max(_NEAR, _PLACE * apart):
+        return False
+    axes = [plane.vector(axis) for axis in zip(*one.pose[0], strict=True)]
+    cosines = (abs(dot(axis, other_axis)) for axis in axes for other_axis in zip(*other.pose[0], strict=True))
+    return all(min(cosine, abs(1 - cosine)) < _ANGLE for cosine in cosines)
+
+
+def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding]:
+    """Compare masses, centres of mass and inertias."""
+    mine, others = one.link.inertial, other.link.inertial
+    masses = [inertial.mass if inertial else 0.0 for inertial in (mine, others)]
+    if max(masses) < _LIGHT:
+        return
+    sizes = [_trace(inertial) for inertial in (mine, others)]
+    for what, unit, (a, b) in (("mass", "kg", masses), ("sum of principal inertias", "kg·m²", sizes)):
+        if not _are_alike(a, b):
+            names, numbers = (one.link.name, other.link.name), (a, b)
+            (name, others_name), (a, b) = (names, numbers) if b else (names[::-1], numbers[::-1])
+            message = f"link {name!r} is no mirror image of {others_name!r}: "
+            message += f"its {what} is {a:.4g} {unit}, not {b:.4g}"
+            yield Finding("not-mirrored", f"link {name} / inertial", message)
+            return
+    if mine is None or others is None or not mine.mass or _are_same_part(one.link, other.link):
+        return
+    (centre, tensor), (others_centre, others_tensor) = _body(one, mine), _body(other, others)
+    sides = f"link {one.link.name!r} is no mirror image of {other.link.name!r}"
+    size = max(math.dist(centre, one.pose[1]), math.dist(others_centre, other.pose[1]))
+    is_copy = "; the numbers are a copy" if mine == others else ""
+    away = math.dist(plane.point(centre), others_centre)
+    if away > max(_NEAR, _ALIKE * size):
+        message = f"{sides}: the centre of mass is {away:.3g} m beside its mirror image{is_copy}"
+        yield Finding("not-mirrored", f"link {one.link.name} / inertial / origin", message)
+        return
+    mirrored = _mirrored(plane, tensor)
+    rows = zip(mirrored, others_tensor, strict=True)
+    error = max(abs(a - b) for row, others_row in rows for a, b in zip(row, others_row, strict=True))
+    if error > _ALIKE * max(abs(tensor[k][k]) for k in range(3)):
+        message = f"{sides}: an element of the inertia is {error:.3g} kg·m² beside its mirror image{is_copy}"
+        yield Finding("not-mirrored", f"link {one.link.name} / inertial / inertia", message)
+
+
+def _compare_joints(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding]:
+    """Compare axes, limits and losses of joints."""
+    mine, others = one.joint, other.joint
+    if mine.type != others.type or mine.type not in MOTION_KINDS:
+        return
+    sides = f"joint {mine.name!r} is no mirror image of {others.name!r}"
+    for block, what in (("limit", "effort"), ("limit", "velocity"), ("dynamics", "damping"), ("dynamics", "friction")):
+        a, b = (getattr(getattr(joint, block), what, None) for joint in (mine, others))
+        is_told = block == "limit" and not (a and b)  # an effort or velocity of 0 is a fault without the other side
+        if a is not None and b is not None and not _are_alike(a, b) and not is_told:
+            yield Finding("not-mirrored", f"joint {mine.name} / {block}", f"{sides}: its {what} is {a:g}, not {b:g}")
+    axis, others_axis = (_turned(side.pose[0], side.joint.axis) for side in (one, other))
+    along = dot(plane.vector(axis), others_axis)
+    if abs(along) < math.cos(_ANGLE):
+        yield Finding("not-mirrored", f"joint {mine.name} / axis", f"{sides}: its axis has another direction")
+        return
+    (lower, upper), (others_lower, others_upper) = own_range(mine), own_range(others)
+    # a mirror reverses turns, not slides
+    if (along > 0) == (MOTION_KINDS[mine.type] == "rotational"):
+        others_lower, others_upper = -others_upper, -others_lower
+    if mine.mimic or others.mimic or not math.isfinite(lower + upper + others_lower + others_upper):
+        return
+    apart = max(abs(lower - others_lower), abs(upper - others_upper))
+    if apart > max(_ANGLE, _ALIKE * (upper - lower)):
+        message = f"{sides}: it moves from {lower:.4g} to {upper:.4g}, the mirror image of the other"
+        message += f" from {others_lower:.4g} to {others_upper:.4g}"
+        yield Finding("not-mirrored", f"joint {mine.name} / limit", message)
+
+
+def _are_alike(a: float, b: float) -> bool:
+    return abs(a - b) <= _ALIKE * max(abs(a), abs(b))
+
+
+def _are_same_part(one: Link, other: Link) -> bool:
+    """Whether both links have the same mesh files: a part that is not mirrored."""
+    files, others_files = _meshes(one), _meshes(other)
+    return bool(files) and files == others_files
+
+
+def _meshes(link: Link) -> set[Mesh]:
+    shapes: Sequence[Visual | Collision] = (*link.visuals, *link.collisions)
+    return {shape.geometry for shape in shapes if isinstance(shape.geometry, Mesh)}
+
+
+def _body(side: _Side, inertial: Inertial) -> tuple[Vector, Matrix]:
+    """Return the centre of mass, and the inertia about it, in the robot's frame."""
+    rotation, centre = compose(side.pose, pose(inertial.origin))
+    i = inertial.inertia
+    rows = ((i.ixx, i.ixy, i.ixz), (i.ixy, i.iyy, i.iyz), (i.ixz, i.iyz, i.izz))
+    half = [[sum(rotation[a][k] * rows[k][b] for k in range(3)) for b in range(3)] for a in range(3)]
+    turned = [tuple(dot(row, rotation[b]) for b in range(3)) for row in half]
+    return centre, tuple(turned)  # type: ignore[return-value]
+
+
+def _mirrored(plane: _Plane, tensor: Matrix) -> Matrix:
+    """Return the mirror image of a symmetric tensor: M·I·M for the reflection M."""
+    columns = [plane.vector(row) for row in tensor]  # M·row, since the tensor is symmetric
+    return tuple(plane.vector(row) for row in zip(*columns, strict=True))  # type: ignore[return-value]
+
+
+def _trace(inertial: Inertial | None) -> float:
+    return inertial.inertia.ixx + inertial.inertia.iyy + inertial.inertia.izz if inertial else 0.0
+
+
+def _moved(point: Vector, direction: Vector, distance: float) -> Vector:
+    x, y, z = (a + distance * b for a, b in zip(point, direction, strict=True))
+    return x, y, z
+
+
+def _turned(rotation: Sequence[Sequence[float]], vector: Vector) -> Vector:
+    x, y, z = (dot(row, vector) for row in rotation)
+    return x, y, z
