@@ -61,13 +61,24 @@ def find_asymmetries(tree: KinematicTree) -> Iterator[Finding]:
     poses, links = link_poses(tree, {}), {link.name: link for link in tree.links}
     sides = {name: _Side(links[name], joints[name], poses[name]) for name in joints}
     pairs = [(sides[name], sides[across]) for name, across in names.items() if across in sides and across < name]
-    between = (_plane_between(one.pose[1], other.pose[1]) for one, other in pairs)
-    planes = [plane for plane in between if plane]
-    best = max(planes, key=lambda plane: sum(_lie_in(plane, *pair) for pair in pairs), default=None)
+    plane = _plane_of(pairs)
     for one, other in pairs:
-        if best is not None and _lie_in(best, one, other):
-            yield from _compare_bodies(best, one, other)
-            yield from _compare_joints(best, one, other)
+        if plane is not None and _lie_in(plane, one, other):
+            yield from _compare_bodies(plane, one, other)
+            yield from _compare_joints(plane, one, other)
+
+
+def _plane_of(pairs: Sequence[tuple[_Side, _Side]]) -> _Plane | None:
+    """Return the plane in which the origins of most pairs are mirrored; the first one for more than half of them."""
+    most, best = 0, None
+    for one, other in pairs:
+        if (plane := _plane_between(one.pose[1], other.pose[1])) is not None:
+            count = sum(_are_opposite(plane, a.pose[1], b.pose[1]) for a, b in pairs)
+            if count > most:
+                most, best = count, plane
+            if 2 * count > len(pairs):
+                break
+    return best
 
 
 def _other_side(name: str) -> str:
@@ -90,16 +101,19 @@ def _plane_between(one: Vector, other: Vector) -> _Plane | None:
     return _Plane((x, y, z), dot((x, y, z), middle))
 
 
+def _are_opposite(plane: _Plane, one: Vector, other: Vector) -> bool:
+    return math.dist(plane.point(one), other) <= max(_NEAR, _PLACE * math.dist(one, other))
+
+
 def _lie_in(plane: _Plane, one: _Side, other: _Side) -> bool:
     """Whether frames lie as in a mirror: their origins, and their axes, which may be exchanged or reversed.
 
     Where joints at 0 leave one side in another pose, other axes show it.
     """
-    apart = math.dist(one.pose[1], other.pose[1])
-    if not math.dist(plane.point(one.pose[1]), other.pose[1]) <= max(_NEAR, _PLACE * apart):
+    if not _are_opposite(plane, one.pose[1], other.pose[1]):
         return False
-    axes = [plane.vector(axis) for axis in zip(*one.pose[0], strict=True)]
-    cosines = (abs(dot(axis, other_axis)) for axis in axes for other_axis in zip(*other.pose[0], strict=True))
+    axes, others_axes = (list(zip(*side.pose[0], strict=True)) for side in (one, other))
+    cosines = (abs(dot(plane.vector(axis), other_axis)) for axis in axes for other_axis in others_axes)
     return all(min(cosine, abs(1 - cosine)) < _ANGLE for cosine in cosines)
 
 
