@@ -202,6 +202,17 @@ def test_mass_properties(mass: float, tensor: tuple[float, ...], finding: str) -
     assert found(inertial(mass, *tensor)) == finding
 
 
+@pytest.mark.parametrize(("tensor", "words"), [
+    ((1.5, 0, 0, 1.2, 0, 1676.359), "izz = 1.67636 instead of 1676.36 would fit"),
+    ((0.01, -0.3, 0, 0.012, 0, 0.01), "ixy = -0.003 instead of -0.3 would fit"),
+    ((1, 0, 0, 1, 0, 2.1), ""),
+    ((1.5, 0, 0, 1e-6, 0, 1.6), ""),
+])  # fmt: skip
+def test_a_missing_point_in_an_inertia_is_told(tensor: tuple[float, ...], words: str) -> None:
+    (told,) = read(inertial(1, *tensor)).diagnostics
+    assert told.message.endswith(words or "kg·m², and the greatest exceeds the sum of the others")
+
+
 SQUARE, MIXED = st.floats(0, 10), st.floats(-3, 3)
 
 

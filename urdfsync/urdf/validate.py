@@ -39,6 +39,8 @@ _ROUNDING = 1e-5
 _INERTIA_TOLERANCE = 1e-6
 # In m: a body with a smaller radius of gyration is a point, and its inertia a rounding error.
 _POINT = 1e-6
+# A missing point makes a number of an inertia so much larger than all others, or more.
+_OUTSTANDING = 5
 _COMPARED = 500
 # In rad: a greater range of a continuous joint stands for no limits.
 _ENDLESS = 1000
@@ -365,10 +367,11 @@ def _check_link(path: str, link: Link) -> Iterator[Finding]:
         tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high)) + max(mass, 0) * _POINT**2
         moments = f"its principal moments are {low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
         if low < -tolerance:
-            message = f"{place}: the inertia is not positive semi-definite: {moments}"
+            message = f"{place}: the inertia is not positive semi-definite: {moments}{_repair(link.inertial.inertia)}"
             yield Finding("inertia-not-positive", f"{place} / inertia", message)
         elif low + middle < high - tolerance:
             message = f"{place}: no body has this inertia: {moments}, and the greatest exceeds the sum of the others"
+            message += _repair(link.inertial.inertia)
             yield Finding("inertia-triangle", f"{place} / inertia", message)
     shapes = {f"visual {number}": visual.geometry for number, visual in enumerate(link.visuals, start=1)}
     shapes |= {f"collision {number}": shape.geometry for number, shape in enumerate(link.collisions, start=1)}
@@ -376,6 +379,17 @@ def _check_link(path: str, link: Link) -> Iterator[Finding]:
         if _is_empty(geometry):
             place = f"{path} / {name} / {geometry.__struct_config__.tag}"
             yield Finding("shape-size", place, f"{place}: a size is zero or negative: the shape is empty")
+
+
+def _repair(inertia: Inertia) -> str:
+    """Return the power of ten that repairs the one outstanding number of an impossible inertia, in words; or empty."""
+    *_, (second, _), (largest, name) = sorted((abs(getattr(inertia, name)), name) for name in Inertia.__struct_fields__)
+    for exponent in range(-1, -10, -1) if largest > _OUTSTANDING * second else ():
+        scaled = getattr(inertia, name) * 10.0**exponent
+        low, middle, high = principal_moments(msgspec.structs.replace(inertia, **{name: scaled}))
+        if low >= 0 and high <= low + middle:
+            return f"; {name} = {scaled:.6g} instead of {getattr(inertia, name):g} would fit"
+    return ""
 
 
 def principal_moments(inertia: Inertia) -> Vector:
