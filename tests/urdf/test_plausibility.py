@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.corpus import FOLDER, robots
 from support.packages import read
-from support.urdfs import joint, limit, link, robot
+from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.urdf import plausibility
 
@@ -59,6 +59,8 @@ BALL, MESH = '<sphere radius="0.1"/>', '<mesh filename="package://p/a.stl"/>'
     ([BASE, ARM, turn(limit(), '<safety_controller k_velocity="1" soft_lower_limit="-4" soft_upper_limit="2"/>')],
      "soft-limits", 5),
     ([BASE, ARM, turn(limit(), kind="continuous")], "limit-without-effect", 5),
+    ([BASE, ARM, joint("k", "revolute", "arm", "c", inside=[limit(-1, 2), mimic("j", -1)]),
+      turn(limit(-1, 2)), link("c", 1)], "mimic-limits", 5),
 ])  # fmt: skip
 def test_what_is_hardly_meant_is_a_warning(elements: list[str], code: str, line: int) -> None:
     text = robot(*elements)
@@ -87,6 +89,8 @@ def test_what_is_hardly_meant_is_a_warning(elements: list[str], code: str, line:
     [BASE, ARM, turn(limit(), '<safety_controller k_velocity="1" soft_lower_limit="-20" soft_upper_limit="20"/>')],
     [BASE, ARM, turn(limit(), '<safety_controller k_velocity="1"/>')],
     [BASE, ARM, turn(limit(-1e16, 1e16), kind="continuous")],
+    [BASE, ARM, link("c", 1), turn(limit(-1, 2)), joint("k", "revolute", "arm", "c", inside=[limit(), mimic("j", -1)])],
+    [BASE, ARM, link("c", 1), turn(kind="continuous"), joint("k", "revolute", "arm", "c", inside=[mimic("j")])],
     [BASE, ARM, turn(limit(-7.33, 7.33))],
     [BASE, ARM, turn(limit(-62.831853, 62.831853))],
     [BASE, ARM, turn(limit(-1e9, 1e9))],
@@ -135,5 +139,5 @@ CODES = set(re.findall(r'Finding\("([a-z-]+)"', Path(plausibility.__file__).read
 def test_real_robots(file: str) -> None:
     """Judged by hand: each finding is a fault of the file."""
     found = {one.code for one in read((FOLDER / file).read_bytes()).diagnostics} & CODES
-    expected = {"inertia-size": FILLED_IN, "no-inertia": MASSLESS}
+    expected = {"inertia-size": FILLED_IN, "no-inertia": MASSLESS, "mimic-limits": ("onrobot_rg2_model",)}
     assert found == {c for c, names in expected.items() if file.endswith(tuple(f"/{name}.urdf" for name in names))}

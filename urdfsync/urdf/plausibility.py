@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
+from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
@@ -53,6 +54,8 @@ _POINT = 1e-6
 """In m: a smaller radius of gyration is a rounding error of 0."""
 _SAME, _SWITCHED_OFF = 1e-3, 5
 """Soft limits may be outside by this part of the joint's range; far outside, in rad or m, they are switched off."""
+_FOLLOWED = 0.02
+"""A joint may follow another one outside of its limits by this part of its range."""
 _LIGHT = 0.05
 """In kg: a lighter part may only mark a place, and may have an inertia of 0 by rounding."""
 
@@ -66,6 +69,7 @@ def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
     yield from _check_masses(tree, masses, length)
     yield from _check_densities(tree)
     yield from _check_efforts(tree)
+    yield from _check_followers(tree)
     moving = {joint.child for joint in tree.joints if joint.type != "fixed"}
     for link in tree.links:
         if link.inertial is not None and link.inertial.mass:
@@ -171,6 +175,22 @@ def _check_efforts(tree: KinematicTree) -> Iterator[Finding]:
         if efforts.get(joint.name) == 0 and (joint.actuated or not are_told):
             message = f"joint {joint.name} / limit has effort = 0: no drive moves it; another joint has {greatest:g}"
             yield Finding("zero-effort", f"joint {joint.name} / limit", message)
+
+
+def _check_followers(tree: KinematicTree) -> Iterator[Finding]:
+    """Check that no joint that follows another one leaves its own limits."""
+    joints = {joint.name: joint for joint in tree.joints}
+    for joint in tree.joints:
+        if joint.mimic is not None:
+            leader, (lower, upper) = own_range(joints[joint.mimic.joint]), own_range(joint)
+            least, most = sorted(joint.mimic.multiplier * end + joint.mimic.offset for end in leader)
+            past = max(lower - least, most - upper)
+            if _FOLLOWED * (upper - lower) < past < math.inf:
+                message = (
+                    f"joint {joint.name} follows {joint.mimic.joint} from {least:.4g} to {most:.4g}, outside of its "
+                )
+                message += f"limits {lower:.4g} to {upper:.4g}"
+                yield Finding("mimic-limits", f"joint {joint.name} / mimic", message)
 
 
 def _check_shapes(link: Link, length: float) -> Iterator[Finding]:

@@ -162,6 +162,7 @@ _WARNINGS = {
     "mass-unit": "write masses in kg",
     "density": "correct the mass or the shapes",
     "zero-effort": "state the effort of the drive; of a joint without a drive, leave effort and velocity out",
+    "mimic-limits": "correct the limits, or the multiplier and offset",
     "soft-limits": "write soft limits inside of the limits",
     "not-mirrored": 'correct one side; if the robot is not symmetric, write `ignore = ["not-mirrored"]`',
     "inertia-size": "export inertias in kg·m², about the centre of mass",
