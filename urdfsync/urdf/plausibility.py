@@ -54,6 +54,8 @@ _POINT = 1e-6
 """In m: a smaller radius of gyration is a rounding error of 0."""
 _SAME, _SWITCHED_OFF = 1e-3, 5
 """Soft limits may be outside by this part of the joint's range; far outside, in rad or m, they are switched off."""
+_OUTSIDE, _OUTSIDE_AT_LEAST = 5, 0.5
+"""A centre of mass is too far outside of shapes by five times the largest shape's reach and half a metre."""
 _FOLLOWED = 0.02
 """A joint may follow another one outside of its limits by this part of its range."""
 _LIGHT = 0.05
@@ -138,12 +140,19 @@ def _check_inertia(link: Link, inertial: Inertial, length: float, is_moving: boo
 
 
 def _check_centre(link: Link, inertial: Inertial, length: float) -> Iterator[Finding]:
-    """Check that the centre of mass is not far outside of the robot."""
-    away = math.hypot(*inertial.origin.xyz)
-    if (length and away > max(_FAR * length, _FAR_AWAY) and _radius(link) > _FAR_AWAY) or away > _LONG_JOINT:
-        place = f"link {link.name} / inertial"
+    """Check that the centre of mass is not far outside of the link's shapes, nor of the robot."""
+    centre, place = inertial.origin.xyz, f"link {link.name} / inertial"
+    shapes: Sequence[Visual | Collision] = (*link.visuals, *link.collisions)
+    reach = max((_extent(shape.geometry) for shape in shapes), default=0.0)
+    gap = min((math.dist(shape.origin.xyz, centre) - _extent(shape.geometry) for shape in shapes), default=0.0)
+    away, far = math.hypot(*centre), max(_FAR * length, _FAR_AWAY) if length and not shapes else _LONG_JOINT
+    if reach > _MARKER and gap > max(_OUTSIDE * reach, _OUTSIDE_AT_LEAST):
+        message = f"{place}: the centre of mass is {gap:.4g} m outside of shapes that reach {reach:.3g} m"
+    elif away > far:
         message = f"{place}: the centre of mass is {away:.6g} m away from its link, in a robot of {length:.3g} m"
-        yield Finding("length-unit", f"{place} / origin", message)
+    else:
+        return
+    yield Finding("length-unit", f"{place} / origin", f"{message}: lengths may be in millimetres")
 
 
 def _check_densities(tree: KinematicTree) -> Iterator[Finding]:
