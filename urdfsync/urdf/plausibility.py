@@ -50,6 +50,8 @@ A joint is implausible at more than 50 m from its parent.
 _FOUR_TURNS, _TWO_TURNS_IN_DEGREES = 8 * math.pi, 720
 _TUNGSTEN, _AIR = 20_000, 1
 """In kg/m³: the bounds of densities."""
+_LEAST_VOLUME = 1e-5
+"""In m³: smaller shapes only mark a place."""
 _POINT = 1e-6
 """In m: a smaller radius of gyration is a rounding error of 0."""
 _SAME, _SWITCHED_OFF = 1e-3, 5
@@ -72,13 +74,14 @@ def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
     yield from _check_densities(tree)
     yield from _check_efforts(tree)
     yield from _check_followers(tree)
-    moving = {joint.child for joint in tree.joints if joint.type != "fixed"}
+    fixed = {joint.child for joint in tree.joints if joint.type == "fixed"}
+    moving = {joint.child for joint in tree.joints} - fixed
     for link in tree.links:
         if link.inertial is not None and link.inertial.mass:
             yield from _check_inertia(link, link.inertial, length, link.name in moving)
             yield from _check_centre(link, link.inertial, length)
             yield from _check_angles(f"link {link.name} / inertial", link.inertial.origin)
-        elif link.inertial is not None and link.collisions:
+        elif link.inertial is not None and link.collisions and link.name not in fixed:
             message = f"link {link.name!r} has a mass of 0 and a collision shape: a frame has no shape, a body a mass"
             yield Finding("no-inertia", f"link {link.name} / inertial", message, "state the mass and the inertia")
         yield from _check_shapes(link, length)
@@ -163,7 +166,7 @@ def _check_densities(tree: KinematicTree) -> Iterator[Finding]:
         shapes: Sequence[Visual | Collision] = link.collisions or link.visuals
         if link.inertial and _gyration(link.inertial) < _radius(link) < math.inf:
             volumes[link.name] = sum(_volume(shape.geometry) for shape in shapes)
-    volumes = {name: volume for name, volume in volumes.items() if volume > _MARKER * _MARKER * _MARKER}
+    volumes = {name: volume for name, volume in volumes.items() if volume > _LEAST_VOLUME}
     densities = sorted(masses[name] / volume for name, volume in volumes.items())
     for name, volume in volumes.items():
         density, usual = masses[name] / volume, densities[len(densities) // 2]

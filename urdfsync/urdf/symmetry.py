@@ -22,8 +22,8 @@ _OTHER = {name: other for pair in map(str.split, (*_SIDES, "gauche droite")) for
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|left|right", re.ASCII)
 _ALIKE = 0.1
 """The greatest difference of two numbers of one size, relative to the larger one: models of sides are rounded."""
-_NEAR, _PLACE = 0.002, 0.01
-"""Mirrored points differ by 2 mm, by a tenth of a link's size, or by a hundredth of the distance of two sides."""
+_NEAR, _PLACE = 0.004, 0.01
+"""Mirrored points differ by 4 mm, by a tenth of a link's size, or by a hundredth of the distance of two sides."""
 _ANGLE = 0.1
 """In rad or m: the greatest difference of mirrored limits."""
 _LIGHT = 0.05
@@ -146,7 +146,7 @@ def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
     mirrored = _mirrored(plane, tensor)
     rows = zip(mirrored, others_tensor, strict=True)
     error = max(abs(a - b) for row, others_row in rows for a, b in zip(row, others_row, strict=True))
-    if error > _ALIKE * max(abs(tensor[k][k]) for k in range(3)):
+    if error > max(_ALIKE * max(abs(tensor[k][k]) for k in range(3)), mine.mass * _NEAR * _NEAR):
         message = f"{sides}: an element of the inertia is {error:.3g} kg·m² beside its mirror image{is_copy}"
         yield Finding("not-mirrored", f"link {one.link.name} / inertial / inertia", message)
 
