@@ -237,7 +237,8 @@ def test_missing_meshes_are_one_warning_for_each_package(workspace: Path) -> Non
     source.write_text(text.replace("package://six_axis_arm/meshes/carousel.obj", "package://turntable/carousel.obj"))
 
     def told(full: bool = False) -> list[str]:
-        return [str(found).partition(": ")[2] for found in crashes.run(workspace, full=full).diagnostics]
+        found = [one for one in crashes.run(workspace, full=full).diagnostics if one.code != "density"]
+        return [str(one).partition(": ")[2] for one in found]
 
     warnings = [
         "warning: 6 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) not found; left out; "
