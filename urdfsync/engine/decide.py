@@ -482,7 +482,7 @@ def _decide_orders(
         reason = _order_reason(old, texts[key], is_recorded=key in recorded)
         decided.append(Action(key, reason, Role.ORDER, "package"))
         if not key.startswith(inside):
-            shared.append(SharedFile(files.path(key), None, names, owned))
+            shared.append(SharedFile(files.path(key), None, names, owned, joins=text != old))
     for file in inputs.parents.shared:
         key = files.key(file.path)
         if file.content is not None:
