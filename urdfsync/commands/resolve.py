@@ -135,7 +135,7 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
         places = {path, root / real.relative_to(real_root)} if real.is_relative_to(real_root) else {path}
         is_found = False
         for action in result.actions:
-            keys = {action.origin or action.path, action.path}
+            keys = {action.path} if choice is Choice.UNDO else {action.origin or action.path, action.path}
             keys |= set() if action.is_on_disk else {f"{key.removesuffix('.mo')}/package.mo" for key in keys}
             files = {Path(os.path.normpath(root / key)) for key in keys}
             is_user = action.is_conflict or action.reason in USERS or action.is_left_by_git or action.choice
@@ -175,7 +175,7 @@ def _compare(
     failed = {result.robot for result in results if result.failed}
     accepted, problems = set[str](), list[Diagnostic]()
     for path, (result, before) in targets.items():
-        after, place = actions.get(path), result.shown(before.origin or path)
+        after, place = actions.get(path), result.shown(before.place)
         if result.robot in failed:
             continue
         if path in result_of[result.robot].settled:
