@@ -20,7 +20,7 @@ from urdfsync.engine.settle import known_bases
 from urdfsync.files import digest, shown, text_digest
 from urdfsync.modelica.files import class_parts
 from urdfsync.spelling import counted
-from urdfsync.state.record import FileRecord
+from urdfsync.state.record import FileRecord, role_of
 from urdfsync.state.store import Aside
 
 
@@ -73,7 +73,9 @@ def tell_aside(
     what = f"{counted(len(new), 'text')} that this machine did not generate"
     message = f"a build replaces {what}" if inputs.options.dry else f"{what} {be} replaced"
     place = shown(inputs.store.aside_file(inputs.robot.name).parent)
-    hint = f"copies {'will be' if inputs.options.dry else 'are'} below {place}; `resolve FILE --undo` brings one back"
+    hint = f"copies {'will be' if inputs.options.dry else 'are'} below {place}"
+    if any(role_of(path) is not Role.IMPORT for path in new):
+        hint += "; `resolve FILE --undo` brings one back"
     return (Diagnostic(Severity.NOTE, "put-aside", message, file, hint=hint),)
 
 
