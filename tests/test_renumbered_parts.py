@@ -391,6 +391,28 @@ def test_an_edit_that_cannot_move_is_asked_about(folder: Path, execute: Execute)
     assert "Real mine" in Path(LINK.format(3)).read_text()
 
 
+def test_a_moved_edit_is_given_back_although_another_edit_waits_to_move_to_its_place(
+    folder: Path, execute: Execute
+) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    edit("modelica/Arm/Links/Link_1Parameters.mo", "mass = 1.1", "mass = 1.2")
+    for number in (1, 2):
+        edit(LINK.format(number), "\nequation", f"\n  Real mine{number} = 1;\n\nequation")
+    Path("arm.urdf").write_text(arm(2.2, 9.9, 3.3))
+    assert "`link_1` is another part now, the former `link_2`" in execute("build", code=Exit.CONFLICT).words
+    mine = Path(LINK.format(1)).read_text()
+    execute("resolve", LINK.format(1), "--moved", "link_3", code=Exit.CONFLICT)
+    assert f"{LINK.format(1)} its path is new; your edits move here" in execute("status", code=Exit.CONFLICT).words
+    assert "Real mine1" in Path(LINK.format(3)).read_text()
+    words = execute("resolve", LINK.format(2), "--undo", code=Exit.CONFLICT).words
+    assert f"{LINK.format(2)}: error: nothing to undo" in words
+    execute("resolve", LINK.format(1), "--undo", code=Exit.CONFLICT)
+    assert Path(LINK.format(1)).read_text() == mine
+    assert "Real mine2" in Path(LINK.format(2)).read_text()
+
+
 def test_a_class_made_a_folder_is_asked_about(edited: Path, execute: Execute) -> None:
     file = Path(LINK.format(2))
     file.with_suffix("").mkdir()

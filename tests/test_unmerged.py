@@ -321,3 +321,28 @@ def test_a_saved_answer_ends_with_the_merge(apart: Repository, execute: Execute)
         ["git", "update-index", "--index-info"], input=f"0 {'0' * 40}\t{RECORD}\n{lines}".encode(), check=True
     )
     execute("status", code=1)
+
+
+def test_lines_that_two_branches_add_to_the_order_of_a_parent_package_both_stay(
+    repository: Repository, execute: Execute
+) -> None:
+    """Two robots share this file; the first one's build writes both sides' lines, the other robot has nothing to do."""
+    table = '\n[robots.leg]\nsource = "arm.urdf"\npackage = "Plant.Leg"\ncreate_parents = true\n'
+    edit("urdfsync.toml", '"Arm"', '"Plant.Arm"\ncreate_parents = true')
+    Path("urdfsync.toml").write_text(Path("urdfsync.toml").read_text() + table)
+    execute("build")
+    repository.commit()
+    order = Path("modelica/Plant/package.order")
+    for name in ("Yours", "Mine"):
+        repository.git("checkout", "-q", "-b", name, "main")
+        order.with_name(f"{name}.mo").write_text(f"within Plant;\nmodel {name}\nend {name};\n")
+        edit(order, "Arm\n", f"Arm\n{name}\n")
+        repository.commit()
+    with pytest.raises(subprocess.CalledProcessError):
+        repository.git("merge", "Yours")
+    assert "1 file to write" in execute("build", "--check", code=1).words
+    execute("build")
+    assert order.read_text().split() == ["Arm", "Mine", "Yours", "Leg"]
+    assert "to write" not in execute("build", "--check", code=1).words
+    repository.git("add", "-A")
+    execute("build", "--check")

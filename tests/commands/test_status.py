@@ -38,7 +38,7 @@ def test_files_of_every_kind(built: Path, execute: Execute) -> None:
             "  R2: ohm 220.5 → 330 Ω (+49.7 %)",
             "  edited     modelica/Ladder/Ladder.mo",
             "  missing    modelica/Ladder/Elements/C1.mo  you deleted it",
-            "  stale      modelica/Ladder/Elements/R2Parameters.mo  its generated text changed",
+            "  stale      modelica/Ladder/Elements/R2Parameters.mo  it differs from its generated text",
         ]
         everything = execute("status", "--verbose", code=1).lines
         assert len(everything) == 2 + 14

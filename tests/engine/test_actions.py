@@ -32,9 +32,9 @@ def test_the_users_text_stays_in_what_is_theirs_or_disputed() -> None:
 
 def test_what_waits_says_for_what() -> None:
     update = act(Reason.UPDATE)
-    assert update.text == "its generated text changed"
+    assert update.text == "it differs from its generated text"
     waiting = msgspec.structs.replace(update, is_waiting=True)
-    assert waiting.text == "its generated text changed; waits until the conflicts are resolved"
+    assert waiting.text == "it differs from its generated text; waits until the conflicts are resolved"
 
 
 def test_actions_have_the_order_of_their_paths() -> None:

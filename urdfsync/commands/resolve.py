@@ -67,7 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     planned = list(build(configuration, selected, arguments.request(args, console, dry=True)))
     named = {text: list(_find_named(planned, text, choice)) for text in args.paths if text not in names}
     if unknown := [text for text, targets in named.items() if not targets]:
-        return _refuse(console, planned, unknown)
+        return _refuse(console, planned, unknown, choice)
     whole = [result for result in planned if args.all or result.robot in names]
     named |= {"": [(result, each.action) for result in whole for each in result.conflicts]}
     targets = {action.path: (result, action) for pairs in named.values() for result, action in pairs}
@@ -110,19 +110,23 @@ def _choice(args: argparse.Namespace) -> Choice:
     wrong = "--undo goes with paths, not with --all" if args.all and args.choice is Choice.UNDO else wrong
     wrong = "--prefer goes with --merge" if args.prefer and args.choice is not Choice.MERGE else wrong
     if wrong:
-        hint = "see `urdfsync status` for the conflicts"
-        if args.choice is Choice.UNDO:
-            hint = "name each file as the last build or `resolve` listed it: urdfsync resolve FILE --undo"
-        raise arguments.UsageError(args.parser, wrong, hint)
+        raise arguments.UsageError(args.parser, wrong, _how_to_name(args.choice))
     if args.moved is not None:
         return Choice.MOVED
     return Choice(f"{args.choice}-{args.prefer}") if args.prefer else args.choice
 
 
+def _how_to_name(choice: Choice | None) -> str:
+    """Return a hint that says where the user finds the paths for a choice."""
+    if choice is Choice.UNDO:
+        return "name each file as the last build or `resolve` listed it: urdfsync resolve FILE --undo"
+    return "see `urdfsync status` for the conflicts"
+
+
 def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterator[tuple[Result, Action]]:
     """Yield the file at a path if the choice is possible for that file, else all conflicts below the path.
 
-    A renamed file is found by its old and by its new path.
+    A renamed file is found by its old and by its new path, a class in a folder also by its `package.mo`.
     """
     path = Path(os.path.normpath(config.working_folder() / text))
     for result in planned if text else ():
@@ -131,10 +135,13 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
         places = {path, root / real.relative_to(real_root)} if real.is_relative_to(real_root) else {path}
         is_found = False
         for action in result.actions:
-            files = {Path(os.path.normpath(root / key)) for key in (action.origin or action.path, action.path)}
+            keys = {action.path} if choice is Choice.UNDO else {action.origin or action.path, action.path}
+            keys |= set() if action.is_on_disk else {f"{key.removesuffix('.mo')}/package.mo" for key in keys}
+            files = {Path(os.path.normpath(root / key)) for key in keys}
             is_user = action.is_conflict or action.reason in USERS or action.is_left_by_git or action.choice
             is_named = not places.isdisjoint(files) and (is_user or choice is Choice.UNDO)
             is_below = action.is_conflict and any(not places.isdisjoint(file.parents) for file in files)
+            is_below = is_below and choice is not Choice.UNDO
             if is_named or is_below:
                 is_found = True
                 yield result, action
@@ -142,15 +149,16 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
             yield result, Action(key_of(path, root), Reason.FORGET, Role.MODEL)  # a build may have deleted the file
 
 
-def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str]) -> int:
+def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str], choice: Choice) -> int:
     """Report paths without a file to resolve."""
     failed = [result for result in planned if result.failed]
     for result in failed:
         show_result(console, result)
-    hint = "correct the errors first" if failed else "see `urdfsync status` for the conflicts"
+    hint = "correct the errors first" if failed else _how_to_name(choice)
     missing = [path for path in unknown if not failed and not os.path.lexists(path)]
     names = ", ".join(f"`{path}`" for path in missing or unknown)
-    message = f"there is no file {names}" if missing else f"nothing conflicts in {names}"
+    what = "to undo" if choice is Choice.UNDO else "conflicts"
+    message = f"there is no file {names}" if missing else f"nothing {what} in {names}"
     problem = Diagnostic(Severity.ERROR, "no-conflict", message, hint=hint)
     return console.end(exit_code(failed) or Exit.ERROR, [problem])
 
@@ -167,7 +175,7 @@ def _compare(
     failed = {result.robot for result in results if result.failed}
     accepted, problems = set[str](), list[Diagnostic]()
     for path, (result, before) in targets.items():
-        after, place = actions.get(path), result.shown(before.origin or path)
+        after, place = actions.get(path), result.shown(before.place)
         if result.robot in failed:
             continue
         if path in result_of[result.robot].settled:
@@ -180,7 +188,7 @@ def _compare(
             refused = file.texts and file.texts.refused.get(choice)
             reason = refused or f"`--prefer` settles nothing here: {file.relation}"
             problems.append(Diagnostic(Severity.WARNING, "no-merge", reason, place, hint=settle_hint([file])))
-        elif choice is Choice.UNDO or not (before.is_conflict or before.is_left_by_git):
+        elif choice in (Choice.UNDO, Choice.MOVED) or not (before.is_conflict or before.is_left_by_git):
             problems.append(_without_effect(choice, before, place))
     return accepted, problems
 
@@ -191,6 +199,11 @@ def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
     if choice is Choice.UNDO:
         code, hint = "no-undo", "texts that were replaced are below .urdfsync/aside"
         message = "nothing to undo: nothing was replaced here, or the file has changed since"
+    elif action.is_conflict:
+        code, hint = "wrong-rename", "choose again: `urdfsync status` lists the choices"
+        message = "--moved is only for an edit that may belong to another part; this edit belongs here"
+    elif action.place.endswith("/package.mo") and not action.is_on_disk:
+        message, hint = "you turned the class into a folder", "delete the folder and build to get the generated file"
     elif action.reason is Reason.ORPHAN:
         code, message = "no-merge", "the file is no longer generated: there is nothing to merge"
         hint = "make it yours with --keep, or delete it with --take"

@@ -85,7 +85,7 @@ class Reason(enum.StrEnum):
     # Each reason has a word, kind, status (None without a file), and the rest of a sentence after the path.
     # Then the words for n such files: in a dry run, and after a build if these words differ. Output has this order.
     # fmt: off
-    UPDATE = ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed",
+    UPDATE = ("update", Kind.WRITE, FileStatus.STALE, "it differs from its generated text",
               "{n} file{s} to write", "{n} file{s} written")
     CREATE = "create", Kind.WRITE, FileStatus.STALE, "new"
     RESTORE = ("restore", Kind.WRITE, FileStatus.MISSING, "you deleted it",
@@ -174,6 +174,13 @@ class Action(msgspec.Struct, frozen=True):
     def status(self) -> FileStatus | None:
         """The file's state before the build; None if the file is gone."""
         return self.reason.status
+
+    @property
+    def place(self) -> str:
+        """The present path of the user's file: for a conflict its old one, for a class in a folder its `package.mo`."""
+        if self.reason is Reason.KEEP and not self.is_on_disk:
+            return f"{self.path.removesuffix('.mo')}/package.mo"
+        return (self.origin if self.is_conflict else None) or self.path
 
     @property
     def word(self) -> str:

@@ -20,7 +20,7 @@ from urdfsync.engine.settle import known_bases
 from urdfsync.files import digest, shown, text_digest
 from urdfsync.modelica.files import class_parts
 from urdfsync.spelling import counted
-from urdfsync.state.record import FileRecord
+from urdfsync.state.record import FileRecord, role_of
 from urdfsync.state.store import Aside
 
 
@@ -73,7 +73,9 @@ def tell_aside(
     what = f"{counted(len(new), 'text')} that this machine did not generate"
     message = f"a build replaces {what}" if inputs.options.dry else f"{what} {be} replaced"
     place = shown(inputs.store.aside_file(inputs.robot.name).parent)
-    hint = f"copies {'will be' if inputs.options.dry else 'are'} below {place}; `resolve FILE --undo` brings one back"
+    hint = f"copies {'will be' if inputs.options.dry else 'are'} below {place}"
+    if any(role_of(path) is not Role.IMPORT for path in new):
+        hint += "; `resolve FILE --undo` brings one back"
     return (Diagnostic(Severity.NOTE, "put-aside", message, file, hint=hint),)
 
 
@@ -113,31 +115,31 @@ def _replaced(
             continue  # the user's text moves to another file
         if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
             continue
-        state = files.state(action.origin or key) if is_moving else files.state_on_disk(key)
-        recorded = last.files.get(action.origin or key, FileRecord()).hashes
+        place = (action.origin or key) if is_moving else key
+        record = last.files.get(place, FileRecord())
+        state = files.state(place) if is_moving else files.state_on_disk(key)
         # a mesh is no text: bytes that look like line ends count
-        if state is None or not last.notes.written.intersection(recorded).isdisjoint(state):
+        if state is None or not last.notes.written.intersection(record.hashes).isdisjoint(state):
             continue
-        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        text = files.read(place) if is_moving else files.read_on_disk(key)
         if text is None:  # somebody has just deleted it
             continue
-        former = Former(text, *_bases_given_back(inputs, package, action, text))
+        former = Former(text, record, last.bases(record))
         if is_moving:
             former = _follow(inputs, former, key, decision.names)
         if former.text != contents[key]:
-            yield key, former
+            yield key, Former(former.text, *_bases_given_back(inputs, package, action, former))
 
 
 def _bases_given_back(
-    inputs: Inputs, package: Package, action: Action, text: bytes
+    inputs: Inputs, package: Package, action: Action, former: Former
 ) -> tuple[FileRecord, Mapping[str, str]]:
     """Return the bases of a text after `--undo`."""
-    place = (action.origin or "") if action.reason is Reason.MOVE else action.path
-    record = inputs.last.files.get(place, FileRecord())
     # with the old base, the next build would merge the text again, or take it for generated
     merging = {robot.name for robot in inputs.config.robots if robot.on_conflict == "merge"}  # not only this command
-    is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.robot.name in merging
-    is_own_base = text_digest(text) in record.hashes
-    if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
+    is_merge = action.reason in (Reason.MERGE, Reason.MOVE) or action.is_left_by_git
+    is_own_base = text_digest(former.text) in former.record.hashes
+    is_based_anew = is_own_base or (is_merge and inputs.robot.name in merging)
+    if action.generated and action.role is not Role.IMPORT and is_based_anew:
         return known_bases(package.content(inputs.folder.path(action.path)).decode())
-    return (FileRecord(), {}) if is_own_base else (record, inputs.last.bases(record))
+    return (FileRecord(), {}) if is_own_base else (former.record, former.bases)

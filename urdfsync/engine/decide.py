@@ -15,7 +15,7 @@ from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
-from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
+from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
 from urdfsync.engine.differences import GONE, Differences, compare_with_last
 from urdfsync.engine.edit_origins import find_doubts
@@ -482,7 +482,7 @@ def _decide_orders(
         reason = _order_reason(old, texts[key], is_recorded=key in recorded)
         decided.append(Action(key, reason, Role.ORDER, "package"))
         if not key.startswith(inside):
-            shared.append(SharedFile(files.path(key), None, names, owned))
+            shared.append(SharedFile(files.path(key), None, names, owned, joins=text != old))
     for file in inputs.parents.shared:
         key = files.key(file.path)
         if file.content is not None:
@@ -515,9 +515,11 @@ def _wanted_lines(
     names = dict.fromkeys(generated)
     if inputs.options.adopts and inputs.files.text(key) is None:  # tools hide the user's classes without a line
         names |= dict.fromkeys(_classes_beside(key, inputs.files.classes(key.removesuffix("package.order"))))
-    if written:  # `--undo` brought an orphan back
-        orphans = (action.path for action in actions if action.reason in ORPHANS)
-        names |= dict.fromkeys(_classes_beside(key, orphans))
+    if written:  # `--undo` brought an orphan back, or a class of the user's own
+        orphans = {action.path for action in actions if action.reason in ORPHANS}
+        undone = {path for path, one in inputs.settled.actions.items() if one.choice is Choice.UNDO}
+        undone -= {action.path for action in actions if action.is_deletion}
+        names |= dict.fromkeys(_classes_beside(key, {*orphans, *filter(inputs.files.read, undone)}))
     return tuple(names)
 
 

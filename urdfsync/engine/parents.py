@@ -18,6 +18,7 @@ from urdfsync.dependencies.reads import file_type, is_file, is_folder, read_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.files import digest, shown
+from urdfsync.modelica.markers import join_sides
 from urdfsync.modelica.names import LIBRARY, within
 from urdfsync.state.transaction import FileChange
 
@@ -35,6 +36,8 @@ class SharedFile(msgspec.Struct, frozen=True):
     """Required lines of a `package.order`."""
     owned: tuple[str, ...] = ()
     """Lines of a `package.order` that urdfsync may remove."""
+    joins: bool = False
+    """Whether both sides of git's merge of a `package.order` stay."""
 
     def change(self, files: PackageFiles) -> FileChange | None:
         """Return the change that the file on disk needs; None without a change."""
@@ -42,7 +45,7 @@ class SharedFile(msgspec.Struct, frozen=True):
         if self.content is not None:
             return FileChange(self.path, self.content, None) if content is None else None
         old = None if content is None else content.decode(errors="surrogateescape")
-        new = merge_order(old, self.names, self.owned)
+        new = merge_order(join_sides(old) if old and self.joins else old, self.names, self.owned)
         if new == (old or ""):
             return None
         return FileChange(self.path, encode(new) if new else None, None if content is None else digest(content))

@@ -55,7 +55,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
     @property
     def shown(self) -> str:
         """The path of the user's file, as the user would type it."""
-        return self.result.shown(self.action.origin or self.action.path)
+        return self.result.shown(self.action.place)
 
     @property
     def merges(self) -> bool:

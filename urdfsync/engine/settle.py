@@ -68,9 +68,13 @@ class _Choices:
 
     def _undo(self, action: Action) -> bool:
         """Give back the text that a build replaced, unless the user has saved the file since."""
-        inputs, settled, key = self._inputs, self.settled, action.origin or action.path
-        aside = inputs.last.aside.get(inputs.folder.path(key))
-        if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
+        inputs, settled, role = self._inputs, self.settled, action.role
+        # the text of another file may be about to move to this path: the user means the file that is there now
+        for key in filter(None, (action.path, action.origin)):
+            aside = inputs.last.aside.get(inputs.folder.path(key))
+            if aside is not None and role is not Role.IMPORT and inputs.files.hash(key, role) == aside.after:
+                break
+        else:
             return False
         content = inputs.store.aside_text(inputs.last.name, aside.file)
         if content is None:
@@ -81,7 +85,8 @@ class _Choices:
                 settled.contents[place] = encode(model)
                 settled.bases[place], texts = known_bases(model)
                 settled.texts.update(texts)
-        self._add(action, content, FileRecord(aside.bases), Reason.UNDO, Choice.UNDO)
+        there = msgspec.structs.replace(action, path=key, origin=None)
+        self._add(there, content, FileRecord(aside.bases), Reason.UNDO, Choice.UNDO)
         return True
 
     def _keep(self, action: Action) -> bool:

@@ -147,9 +147,9 @@ def change_parts(
 
 def file_table(result: Result, actions: Sequence[Action], **options: Any) -> Table:
     """Return a table of the actions, edited files first; `options` are those of `Table`."""
-    actions = sorted(actions, key=lambda action: (action.reason not in EDITED, action.path.rpartition("/")))
+    actions = sorted(actions, key=lambda action: (action.reason not in EDITED, action.place.rpartition("/")))
     words = [action.word for action in actions]
     reasons = [reason(action, result.effective_changes) for action in actions]
-    rows = list(zip([result.shown(action.path) for action in actions], words, reasons, strict=True))
+    rows = list(zip([result.shown(action.place) for action in actions], words, reasons, strict=True))
     options = {"line": file_line, "most": len(rows), **options}
     return Table("Files", ("File", "", "Why"), rows, **options)

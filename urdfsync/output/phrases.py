@@ -42,6 +42,8 @@ def _cause(action: Action, changes: Changes | None) -> str:
     if action.choice and not action.is_conflict:
         is_orphan = action.generated is None and action.choice in (Choice.KEEP, Choice.TAKE)
         kept = "yours from now on" if action.choice is Choice.KEEP else "deleted; --undo brings it back"
+        if action.role is Role.IMPORT and action.choice is Choice.TAKE:
+            return "the source's file; a copy of yours is below .urdfsync/aside"
         return kept if is_orphan else _CHOSEN[action.choice]
     if action.reason not in _NAMED or changes is None:
         return action.reason.text

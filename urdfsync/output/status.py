@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfsync.engine.actions import Action, FileStatus, Reason
+from urdfsync.engine.actions import FileStatus, Reason
 from urdfsync.engine.result import Result
 from urdfsync.output.build_section import change_parts, mark_of
 from urdfsync.output.conflicts import settle_hint
@@ -25,11 +25,11 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
     listed = [action for action in result.actions if action.status and action.status not in silent]
     conflicts = {file.action.path: file.relation for file in result.conflicts}
     stale, others = list[tuple[str, str, str]](), list[tuple[str, str, str]]()
-    for action in sorted(listed, key=lambda action: _path(action).rpartition("/")):
+    for action in sorted(listed, key=lambda action: action.place.rpartition("/")):
         says_all = action.reason in (Reason.UNCHANGED, Reason.KEEP) and not action.is_waiting
         why = "" if says_all else conflicts.get(action.path) or reason(action, changes)
         group = stale if action.status is FileStatus.STALE else others
-        group.append((result.shown(_path(action)), str(action.status), why))
+        group.append((result.shown(action.place), str(action.status), why))
     inputs = [(name,) for name in result.stale]
     tables = (
         *changed,
@@ -41,13 +41,6 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
     hints = [settle_hint(result.conflicts) if result.is_built else adopts] if conflicts else []
     about = result.robot, summary(result), mark_of(result)
     return Section(*about, points, tables, result.diagnostics, hints=hints)
-
-
-def _path(action: Action) -> str:
-    """Return the path of the user's file, which may have the old name of its element during a conflict."""
-    if action.reason is Reason.KEEP and not action.is_on_disk:  # the user turned the class into a folder
-        return f"{action.path.removesuffix('.mo')}/package.mo"
-    return action.origin or action.path if action.is_conflict else action.path
 
 
 def summary(result: Result) -> str:
