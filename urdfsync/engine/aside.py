@@ -33,6 +33,10 @@ def put_aside(
     """
     folder, settled = inputs.folder, inputs.settled
     moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
+
+    def path_of(key: str) -> str:  # a package that is to move is still in its former folder while conflicts wait
+        return folder.path(inputs.last.folder.path(key))
+
     index, replaced = dict[str, Aside](), dict(_replaced(inputs, package, decision, contents))
     for path, aside in inputs.last.aside.items():
         key = inputs.last.folder.key(path)  # the package may have moved since
@@ -43,9 +47,7 @@ def put_aside(
         elif is_unsaved or not contents:
             index[path] = aside
     for key in settled.contents:
-        index.pop(
-            folder.path(inputs.last.folder.path(key)), None
-        )  # another choice replaces this text, or this text was restored
+        index.pop(path_of(key), None)  # another choice replaces this text, or this text was restored
     chosen = {
         moved.get(key, key): _follow(inputs, former, moved[key], decision.names) if key in moved else former
         for key, former in settled.before.items()
@@ -54,10 +56,7 @@ def put_aside(
     models = (one.path for one in deleted if one.path.startswith(folder.key("")) and one.path.endswith(".mo"))
     beside, texts = {folder.path(key): inputs.files.text(key) or "" for key in models}, dict[str, bytes]()
     for key, former in {**replaced, **chosen}.items():
-        place, after = (
-            PurePosixPath(folder.path(inputs.last.folder.path(key))),
-            contents.get(key, settled.contents.get(key)),
-        )
+        place, after = PurePosixPath(path_of(key)), contents.get(key, settled.contents.get(key))
         file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
         sha256, bases = None if after is None else text_digest(after), (former.record.hashes, former.bases)
         index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
