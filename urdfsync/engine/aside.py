@@ -33,9 +33,13 @@ def put_aside(
     """
     folder, settled = inputs.folder, inputs.settled
     moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
+
+    def path_of(key: str) -> str:  # a package that is to move is still in its former folder while conflicts wait
+        return folder.path(inputs.last.folder.path(key))
+
     index, replaced = dict[str, Aside](), dict(_replaced(inputs, package, decision, contents))
     for path, aside in inputs.last.aside.items():
-        key = folder.key(path)
+        key = inputs.last.folder.key(path)  # the package may have moved since
         is_unsaved = _is_as_written(inputs.files, key, aside)
         if key in moved and is_unsaved and (text := inputs.store.aside_text(inputs.last.name, aside.file)) is not None:
             former = Former(text, FileRecord(aside.bases), aside.texts)
@@ -43,7 +47,7 @@ def put_aside(
         elif is_unsaved or not contents:
             index[path] = aside
     for key in settled.contents:
-        index.pop(folder.path(key), None)  # another choice replaces this text, or this text was restored
+        index.pop(path_of(key), None)  # another choice replaces this text, or this text was restored
     chosen = {
         moved.get(key, key): _follow(inputs, former, moved[key], decision.names) if key in moved else former
         for key, former in settled.before.items()
@@ -52,7 +56,7 @@ def put_aside(
     models = (one.path for one in deleted if one.path.startswith(folder.key("")) and one.path.endswith(".mo"))
     beside, texts = {folder.path(key): inputs.files.text(key) or "" for key in models}, dict[str, bytes]()
     for key, former in {**replaced, **chosen}.items():
-        place, after = PurePosixPath(folder.path(key)), contents.get(key, settled.contents.get(key))
+        place, after = PurePosixPath(path_of(key)), contents.get(key, settled.contents.get(key))
         file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
         sha256, bases = None if after is None else text_digest(after), (former.record.hashes, former.bases)
         index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
@@ -65,7 +69,12 @@ def tell_aside(
 ) -> tuple[Diagnostic, ...]:
     """Return a note if the build replaces texts that this machine did not generate, without the user's choice."""
     told, chosen = (Reason.MERGE, Reason.MOVE, Reason.UNDO), inputs.settled.actions.keys()
-    known = {inputs.folder.path(one.path) for one in actions if one.reason in told or {one.path, one.origin} & chosen}
+    saved = {inputs.last.folder.key(path) for path in inputs.last.aside}  # such a text moves with its file
+    known = {
+        inputs.folder.path(one.path)
+        for one in actions
+        if one.reason in told or {one.path, one.origin} & chosen or one.origin in saved
+    }
     new = sorted(path for path, aside in index.items() if aside.file in texts and path not in known)
     if not new:
         return ()

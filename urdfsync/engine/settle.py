@@ -71,7 +71,7 @@ class _Choices:
         inputs, settled, role = self._inputs, self.settled, action.role
         # the text of another file may be about to move to this path: the user means the file that is there now
         for key in filter(None, (action.path, action.origin)):
-            aside = inputs.last.aside.get(inputs.folder.path(key))
+            aside = inputs.last.aside.get(inputs.last.folder.path(key))
             if aside is not None and role is not Role.IMPORT and inputs.files.hash(key, role) == aside.after:
                 break
         else:
