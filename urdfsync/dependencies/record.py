@@ -11,7 +11,7 @@ import os
 import time
 
 from urdfsync.dependencies import localfile, places, program
-from urdfsync.dependencies.facts import MAX_FILE, PATH, VARIABLE, hash_file, is_young, look, look_path
+from urdfsync.dependencies.facts import MAX_FILE, PATH, VARIABLE, hash_file, is_young, look
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class FactList:
         for entry, known in zip(self.entries, self._facts, strict=True):
             kind, path = entry
             if kind == PATH:
-                facts = look_path(path)
+                facts = look(kind, path)
             elif entry in seen:
                 facts = seen[entry]
             else:

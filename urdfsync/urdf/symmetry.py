@@ -19,7 +19,7 @@ from urdfsync.urdf.validate import Finding
 
 _SIDES = ("left right", "l r", "fl fr", "rl rr", "bl br", "hl hr", "lf rf", "lh rh", "lb rb", "izquierda derecha")
 _OTHER = {name: other for pair in map(str.split, (*_SIDES, "gauche droite")) for name, other in (pair, reversed(pair))}
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|left|right", re.ASCII)
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", re.ASCII)
 _ALIKE = 0.1
 """The greatest difference of two numbers of one size, relative to the larger one: models of sides are rounded."""
 _NEAR, _PLACE = 0.004, 0.01
@@ -55,12 +55,12 @@ class _Side(NamedTuple):
 def find_asymmetries(tree: KinematicTree) -> Iterator[Finding]:
     """Yield a warning for each difference of a link or joint from the mirror image of its other side."""
     joints = {joint.child: joint for joint in tree.joints}
-    names = {name: _other_side(name) for name in joints}
-    if not any(name != across and across in joints for name, across in names.items()):
+    names = [(name, across) for name in joints if (across := _other_side(name)) in joints and across < name]
+    if not names:
         return
     poses, links = link_poses(tree, {}), {link.name: link for link in tree.links}
-    sides = {name: _Side(links[name], joints[name], poses[name]) for name in joints}
-    pairs = [(sides[name], sides[across]) for name, across in names.items() if across in sides and across < name]
+    sides = {name: _Side(links[name], joints[name], poses[name]) for pair in names for name in pair}
+    pairs = [(sides[name], sides[across]) for name, across in names]
     plane = _plane_of(pairs)
     for one, other in pairs:
         if plane is not None and _lie_in(plane, one, other):
@@ -126,11 +126,10 @@ def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
     sizes = [_trace(inertial) for inertial in (mine, others)]
     for what, unit, (a, b) in (("mass", "kg", masses), ("sum of principal inertias", "kg·m²", sizes)):
         if not _are_alike(a, b):
-            names, numbers = (one.link.name, other.link.name), (a, b)
-            (name, others_name), (a, b) = (names, numbers) if b else (names[::-1], numbers[::-1])
-            message = f"link {name!r} is no mirror image of {others_name!r}: "
+            (a, wrong), (b, right) = ((a, one), (b, other)) if b else ((b, other), (a, one))
+            message = f"link {wrong.link.name!r} is no mirror image of {right.link.name!r}: "
             message += f"its {what} is {a:.4g} {unit}, not {b:.4g}"
-            yield Finding("not-mirrored", f"link {name} / inertial", message)
+            yield Finding("not-mirrored", f"link {wrong.link.name} / inertial", message)
             return
     if mine is None or others is None or not mine.mass or _are_same_part(one.link, other.link):
         return
