@@ -17,7 +17,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.config import library_folder as library_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic
 from urdfsync.diagnostics import UrdfsyncError as UrdfsyncError
-from urdfsync.domain import Artifact, Reading, Target
+from urdfsync.domain import Artifact, Reading, Target, Version
 from urdfsync.engine.build import build as build_robots
 from urdfsync.engine.options import BuildOptions, Progress, no_progress
 from urdfsync.engine.result import Result
@@ -259,17 +259,19 @@ def record(
     from urdfsync import registry
     from urdfsync.engine import source as sources
     from urdfsync.engine.generate import Package
+    from urdfsync.engine.judgements import judge
 
     source, target, form = Path(source), _target(class_, within, Path(source)), registry.domain(domain)
     text = sources.read_file_source(form, source, arguments or {}, configuration.ros_package_path())
-    _, reading = sources.read_permissively(form, text)
+    snapshot, reading = sources.read_permissively(form, text)
     recorder: Recorder | None = form.record
     if recorder is None:
         message = f"the domain `{form.name}` has no record approach"
         raise ConfigError.of("no-record", message, hint="use `urdfsync build`")
+    judged = judge(form, Version(snapshot), reading, text.name)
     artifact, told = recorder(reading, shown(source), target, form.options())
     generated = Package([artifact], sources.domain_templates(form), target.package)
-    all_findings = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *told))]
+    all_findings = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *judged, *told))]
     diagnostics = tuple(sorted(all_findings, key=lambda finding: finding.line))
     return WholeRecord(generated.content(artifact.path).decode(), target.name, within, diagnostics)
 

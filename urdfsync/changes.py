@@ -9,7 +9,6 @@ from typing import Any, Protocol, TypeAlias, cast
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
@@ -81,15 +80,6 @@ class Effects(Protocol):
         """Return changed names of connectors and variables; `old` is None for a new name, `new` for a removed name.
 
         `options` belong to the new version, and to an old version without `options`.
-        """
-        ...
-
-    def find_doubtful(
-        self, old: Version, new: Version, renames: Mapping[ElementKey, str]
-    ) -> Iterable[tuple[str, Diagnostic]]:
-        """Return warnings about differences that look like mistakes of the export: a path, and a warning without place.
-
-        The core adds the place: file and line of the path, from `Reading.lines`.
         """
         ...
 

@@ -57,6 +57,10 @@ class Diagnostic(msgspec.Struct, frozen=True):
     hint: str = ""
     details: tuple[str, ...] = ()
     """Details: lines that only `--verbose` shows."""
+    element: str = ""
+    """The part of the model, as `diff` names it: `link hand / inertial`; empty if the finding is about no part."""
+    is_new: bool = False
+    """Whether the model of the last build, or the older version, lacks this finding."""
 
     def __post_init__(self) -> None:
         """Cut texts that are too long for a line."""
@@ -70,7 +74,8 @@ class Diagnostic(msgspec.Struct, frozen=True):
         """Return the finding as one line: `file:line:column: severity: message; hint [code]`."""
         numbers = [str(number) for number in (self.line, self.column) if number]
         place = ":".join([self.file, *numbers]) + ": " if self.file else ""
-        return " ".join(f"{place}{self.severity}: {self.sentence} [{self.code}]".split())
+        since = "since this export: " if self.is_new else ""
+        return " ".join(f"{place}{self.severity}: {since}{self.sentence} [{self.code}]".split())
 
     @property
     def sentence(self) -> str:

@@ -263,6 +263,7 @@ class Domain(Protocol):
     imports: Any = None  # `urdfsync.engine.imports.Mentions`
     describe: Any = None  # `urdfsync.changes.Describe`
     parts: Any = None  # `urdfsync.engine.unused.Parts`
+    judgements: Any = None  # `urdfsync.engine.judgements.Judgements`
     effects: Any = None  # `urdfsync.changes.Effects`
     record: Any = None  # `urdfsync.api.Recorder`
     checks: Any = None  # `urdfsync.checks.experiment.Checks`

@@ -8,9 +8,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
+import msgspec
+
 from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Artifact, Companion, Import, Lookup, Order, Reading, Role, Target
+from urdfsync.domain import Artifact, Companion, Import, Lookup, Order, Reading, Role, Target, Version
+from urdfsync.engine.judgements import judge
 from urdfsync.engine.render import Renderer
 from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.artifacts import record
@@ -57,8 +60,10 @@ class Package:
 
 
 def read(content: bytes, file: str = "robot.urdf") -> Reading:
-    """Return the domain's reading of a source, without the second reader."""
-    return DOMAIN.read(content, file, Options(allow=get_args(LeftOut)))
+    """Return the domain's reading of a source with the judgements about the robot, without the second reader."""
+    reading = DOMAIN.read(content, file, Options(allow=get_args(LeftOut)))
+    judged = () if reading.snapshot is None else judge(DOMAIN, Version(reading.snapshot), reading, file)
+    return msgspec.structs.replace(reading, diagnostics=(*reading.diagnostics, *judged))
 
 
 def proposed_base(content: bytes) -> str:

@@ -6,9 +6,8 @@ import math
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 from support.urdfs import limit, mimic
 
@@ -171,57 +170,6 @@ def test_joints_follow_in_chains_and_not_in_circles(leaders: str, finding: str) 
         for leader, name, child in zip(leaders, "jkl", "bcd", strict=True)
     ]
     assert found(*elements("a b c d"), *joints) == finding
-
-
-def inertial(mass: float, *tensor: float) -> str:
-    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-    numbers = " ".join(f'{name}="{value!r}"' for name, value in zip(names, tensor, strict=True))
-    return f'<link name="a"><inertial>\n<mass value="{mass!r}"/>\n<inertia {numbers}/></inertial></link>'
-
-
-TRIANGLE, NEGATIVE = "warning inertia-triangle 3", "warning inertia-not-positive 3"
-
-
-@pytest.mark.parametrize(
-    ("mass", "tensor", "finding"),
-    [
-        (0, (0, 0, 0, 0, 0, 0), ""),
-        (-1, (0, 0, 0, 0, 0, 0), "error negative-mass 2"),
-        (1, (1, 0, 0, 1, 0, 2), ""),
-        (1, (1, 0, 0, 1, 0, 2.000001), ""),
-        (1, (1, 0, 0, 1, 0, 2.1), TRIANGLE),
-        (1, (1e-9, 0, 0, 1e-9, 0, 2.1e-9), TRIANGLE),
-        (1, (1, 2, 0, 1, 0, 1), NEGATIVE),
-        (1, (-1, 0, 0, -1, 0, -1), NEGATIVE),
-        (1, (1, 0, 0, 1, 0, 0), ""),
-        (1, (0, 2e-20, 0, 0, 0, 1e-18), ""),  # a point mass, but for rounding
-        (0, (0, 2e-20, 0, 0, 0, 1e-18), NEGATIVE),
-    ],
-)
-def test_mass_properties(mass: float, tensor: tuple[float, ...], finding: str) -> None:
-    assert found(inertial(mass, *tensor)) == finding
-
-
-@pytest.mark.parametrize(("tensor", "words"), [
-    ((1.5, 0, 0, 1.2, 0, 1676.359), "izz = 1.67636 instead of 1676.36 would fit"),
-    ((0.01, -0.3, 0, 0.012, 0, 0.01), "ixy = -0.003 instead of -0.3 would fit"),
-    ((1, 0, 0, 1, 0, 2.1), ""),
-    ((1.5, 0, 0, 1e-6, 0, 1.6), ""),
-])  # fmt: skip
-def test_a_missing_point_in_an_inertia_is_told(tensor: tuple[float, ...], words: str) -> None:
-    (told,) = read(inertial(1, *tensor)).diagnostics
-    assert told.message.endswith(words or "kg·m², and the greatest exceeds the sum of the others")
-
-
-SQUARE, MIXED = st.floats(0, 10), st.floats(-3, 3)
-
-
-@given(st.tuples(SQUARE, MIXED, MIXED, SQUARE, MIXED, SQUARE))
-def test_no_body_has_negative_moments_or_one_that_exceeds_the_sum_of_the_others(tensor: tuple[float, ...]) -> None:
-    xx, xy, xz, yy, yz, zz = tensor
-    low, middle, high = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    assume(min(abs(low), abs(low + middle - high)) > 2e-6 * max(high, 1e-3))
-    assert found(inertial(0, *tensor)) == (NEGATIVE if low < 0 else TRIANGLE if low + middle < high else "")
 
 
 SHAPES = """

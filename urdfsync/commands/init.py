@@ -21,8 +21,9 @@ from urdfsync.config import schema
 from urdfsync.config.advice import Advice, Proposal
 from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
-from urdfsync.domain import Domain
+from urdfsync.domain import Domain, Version
 from urdfsync.engine import source as source_files
+from urdfsync.engine.judgements import judge
 from urdfsync.engine.result import Exit
 from urdfsync.files import Tree, put, shown
 from urdfsync.modelica.names import class_name, in_ascii
@@ -188,7 +189,8 @@ def _guess(
             proposals += (Proposal(kind.option, beside.as_posix(), "the file stands beside the source"),)
     templates = domain.starter(snapshot) if domain.starter else {}
     guess = Guess(robot, path.as_posix(), values, package, proposals, templates)
-    return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))
+    judged = judge(domain, Version(snapshot), reading, text.name)
+    return guess, (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *judged)))
 
 
 def _free_names(

@@ -27,6 +27,7 @@ from urdfsync.engine.decide import Decision
 from urdfsync.engine.differences import GONE, Differences
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
+from urdfsync.engine.judgements import find_jumps, judge
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.package_names import (
     class_of,
@@ -63,6 +64,9 @@ _MAYBE = "?"
 def find_lasting(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
     """Return the findings that a build repeats if nobody changes a file, except those of `tell_uses`."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
+    changes, file = decision.differences.changes, shown(inputs.robot.source)
+    last = (inputs.last.version, changes.renames) if changes and changes.changes else ()
+    findings += judge(inputs.domain, generation.now, generation.reading, file, *last)
     if decision.misfits:
         findings += _diagnose(inputs, generation.now.snapshot, decision, decision.differences.former)
     if inputs.users_files.is_too_wide:
@@ -72,7 +76,7 @@ def find_lasting(inputs: Inputs, generation: Generation, decision: Decision) -> 
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
     findings += _unmerged(inputs)
     findings += () if inputs.has_moved else _twin(inputs)
-    findings += tell_unused(decision.differences.unused, (), shown(inputs.robot.source), generation.reading)
+    findings += tell_unused(decision.differences.unused, (), file, generation.reading)
     return list(map(inputs.source.locate, findings))
 
 
@@ -83,14 +87,11 @@ def find_news(inputs: Inputs, generation: Generation, decision: Decision) -> lis
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
         findings.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} continues under the new name", *place))
-    effects: Effects | None = inputs.domain.effects
-    changes, last = decision.differences.changes, inputs.last.version
-    if effects and changes is not None and last is not None and changes.changes:
-        for path, finding in effects.find_doubtful(last, generation.now, changes.renames):
-            file, line = generation.reading.place(path, shown(inputs.robot.source))
-            findings.append(msgspec.structs.replace(finding, file=file, line=line))
+    changes, last, file = decision.differences.changes, inputs.last.version, shown(inputs.robot.source)
+    if last is not None and changes is not None and changes.changes:
+        findings += find_jumps(inputs.domain, generation.now, generation.reading, file, last, changes.renames)
     unshown = changes.unshown if changes else ()
-    findings += tell_unused((), unshown, shown(inputs.robot.source), generation.reading)
+    findings += tell_unused((), unshown, file, generation.reading)
     if decision.is_complete:
         findings += _changed_connectors(inputs, generation, changes)
     return list(map(inputs.source.locate, findings))

@@ -128,11 +128,12 @@ def _result(
 def _next_result(result: Result, actions: Actions, lasting: Iterable[Diagnostic]) -> Result:
     """Return the result of the next plan with these actions, if nobody changes a file."""
     silent: dict[str, Any] = {"writes": False, "renews": False, "changes": None}
-    return msgspec.structs.replace(result, actions=actions, diagnostics=_sorted(lasting), **silent)
+    known = [msgspec.structs.replace(finding, is_new=False) for finding in lasting]
+    return msgspec.structs.replace(result, actions=actions, diagnostics=_sorted(known), **silent)
 
 
 def _sorted(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    return tuple(sorted(findings, key=lambda found: (found.file, found.line)))
+    return tuple(sorted(findings, key=lambda found: (not found.is_new, found.file, found.line)))
 
 
 def draw_model(inputs: Inputs, generation: Generation, decision: Decision) -> str | None:

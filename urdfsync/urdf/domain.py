@@ -35,9 +35,7 @@ from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.closures import CLOSED_LOOP
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.plausibility import find_implausible
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.symmetry import find_asymmetries
 from urdfsync.urdf.unsimulated import find_unsimulated, out_of_scope
 from urdfsync.urdf.validate import ADVICE, Finding, diagnostic
 
@@ -45,7 +43,7 @@ WARNINGS = frozenset(
     {
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        *("mass-jump", "mesh-colors", "mesh-size", "name-repeated", "passive-joints", "texture"),
+        *("mesh-colors", "name-repeated", "passive-joints", "texture"),
     }
 )
 
@@ -71,6 +69,7 @@ class UrdfDomain(Domain):
     permissive_options = Options(allow=get_args(LeftOut))
     cured = ("loop-singular",)
     advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
+    judgements = _Module("plausibility.judgements")
     imports, simulation, pictures = _Module("meshes.lookup"), _Module("benches"), _Module("scene")
     companions = (
         CompanionKind("closed_loops", ".yaml", CLOSED_LOOP),
@@ -85,14 +84,14 @@ class UrdfDomain(Domain):
     def read(self, content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
         """Read a URDF.
 
-        A robot without errors is also checked for implausible values and for joints that no simulation can move. Names
-        in options are checked against the robot.
+        A robot without errors is also checked for joints that no simulation can move. Names in options are checked
+        against the robot.
         """
         robot, diagnostics, lines, files, unmodelled = read_robot(content, file, options, *companions)
         if robot is None:
             return Reading(None, diagnostics, lines, files)
         assembly = Assembly(robot, options)
-        tree, closed = assembly.tree, assembly.closed
+        closed = assembly.closed
         about_options = list(option_names.check_options(assembly))
         stated = {f"loop {loop.name}": f"loops.{loop.name}" for loop in options.loops}
         stated |= {f"joint {name}": f"start.{name}" for name in options.start}
@@ -103,11 +102,7 @@ class UrdfDomain(Domain):
             else:
                 of_source.append(finding)
         places = file, lines, files
-        diagnostics += (
-            located((*find_implausible(tree), *find_asymmetries(tree)), *places)
-            + unmodelled
-            + located(of_source, *places)
-        )
+        diagnostics += unmodelled + located(of_source, *places)
         if not closed.faults:
             diagnostics += located(find_unsimulated(assembly), *places)
         is_wrong = any(entry.severity is Severity.ERROR and entry.code not in self.cured for entry in diagnostics)

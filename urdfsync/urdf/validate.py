@@ -22,7 +22,6 @@ from urdfsync.urdf.robot import (
     Cylinder,
     Dynamics,
     Geometry,
-    Inertia,
     Joint,
     Link,
     Loop,
@@ -36,11 +35,6 @@ from urdfsync.urdf.robot import (
 _EXACT = 1e-12
 # The greatest error of an axis's length, if the axis is written with five digits or more.
 _ROUNDING = 1e-5
-_INERTIA_TOLERANCE = 1e-6
-# In m: a body with a smaller radius of gyration is a point, and its inertia a rounding error.
-_POINT = 1e-6
-# A missing point makes a number of an inertia so much larger than all others, or more.
-_OUTSTANDING = 5
 _COMPARED = 500
 # In rad: a greater range of a continuous joint stands for no limits.
 _ENDLESS = 1000
@@ -160,7 +154,11 @@ _WARNINGS = {
     # valid, but probably a mistake
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "write masses in kg",
+    "mass-jump": "check the unit and the material in the exporter",
+    "mesh-size": "export it in m",
     "density": "correct the mass or the shapes",
+    "weak-effort": "correct the effort, or the masses behind the joint; without a drive, leave effort and velocity out",
+    "odd-one-out": "correct the number, or make all parts of the row different",
     "zero-effort": "state the effort of the drive; of a joint without a drive, leave effort and velocity out",
     "mimic-limits": "correct the limits, or the multiplier and offset",
     "soft-limits": "write soft limits inside of the limits",
@@ -359,58 +357,17 @@ def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list
 
 
 def _check_link(path: str, link: Link) -> Iterator[Finding]:
-    """Check that a body can have the link's mass and inertia, and that no shape is empty."""
+    """Check that the mass is not negative, and that no shape is empty."""
     if link.inertial is not None:
         mass, place = link.inertial.mass, f"{path} / inertial"
         if mass < 0:
             yield Finding("negative-mass", f"{place} / mass", f"{place}: the mass {mass:g} kg is negative")
-        low, middle, high = principal_moments(link.inertial.inertia)
-        tolerance = _INERTIA_TOLERANCE * max(abs(low), abs(high)) + max(mass, 0) * _POINT**2
-        moments = f"its principal moments are {low:.6g}, {middle:.6g} and {high:.6g} kg·m²"
-        if low < -tolerance:
-            message = f"{place}: the inertia is not positive semi-definite: {moments}{_repair(link.inertial.inertia)}"
-            yield Finding("inertia-not-positive", f"{place} / inertia", message)
-        elif low + middle < high - tolerance:
-            message = f"{place}: no body has this inertia: {moments}, and the greatest exceeds the sum of the others"
-            message += _repair(link.inertial.inertia)
-            yield Finding("inertia-triangle", f"{place} / inertia", message)
     shapes = {f"visual {number}": visual.geometry for number, visual in enumerate(link.visuals, start=1)}
     shapes |= {f"collision {number}": shape.geometry for number, shape in enumerate(link.collisions, start=1)}
     for name, geometry in shapes.items():
         if _is_empty(geometry):
             place = f"{path} / {name} / {geometry.__struct_config__.tag}"
             yield Finding("shape-size", place, f"{place}: a size is zero or negative: the shape is empty")
-
-
-def _repair(inertia: Inertia) -> str:
-    """Return the power of ten that repairs the one outstanding number of an impossible inertia, in words; or empty."""
-    *_, (second, _), (largest, name) = sorted((abs(getattr(inertia, name)), name) for name in Inertia.__struct_fields__)
-    for exponent in range(-1, -10, -1) if largest > _OUTSTANDING * second else ():
-        scaled = getattr(inertia, name) * 10.0**exponent
-        low, middle, high = principal_moments(msgspec.structs.replace(inertia, **{name: scaled}))
-        if low >= 0 and high <= low + middle:
-            return f"; {name} = {scaled:.6g} instead of {getattr(inertia, name):g} would fit"
-    return ""
-
-
-def principal_moments(inertia: Inertia) -> Vector:
-    """Return the eigenvalues of the inertia tensor in ascending order, in kg·m².
-
-    The trigonometric solution of the characteristic equation gives eight digits or more. The import of numpy would take
-    longer than a build of a small robot.
-    """
-    values = msgspec.structs.astuple(inertia)
-    scale = max(map(abs, values)) or 1.0  # without this, squares of large numbers overflow
-    xx, xy, xz, yy, yz, zz = (value / scale for value in values)
-    mean = (xx + yy + zz) / 3
-    xx, yy, zz = xx - mean, yy - mean, zz - mean
-    spread = math.sqrt((xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)) / 6)
-    if spread < _EXACT:
-        return mean * scale, mean * scale, mean * scale
-    determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
-    angle = math.acos(min(max(determinant / 2 / spread**3, -1.0), 1.0)) / 3
-    low, middle, high = sorted(mean + 2 * spread * math.cos(angle + turn * math.tau / 3) for turn in range(3))
-    return low * scale, middle * scale, high * scale
 
 
 def _is_empty(geometry: Geometry) -> bool:

@@ -29,6 +29,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import inspect
+from urdfsync.engine.judgements import find_jumps, judge
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_matching
@@ -244,13 +245,16 @@ def _with_version(
             text = source_files.read_file_source(domain, source, arguments, folders, robot.options)
             text = source_files.with_named_companions(config, robot, text)
         current = _VersionedSource(text, (source,))
-        new, imported, told = _read(domain, robot, current, imports.Imported(), options)
-        old, imported_before, told_before = _read(domain, robot, other, imported, options)
+        new, imported, reading, told = _read(domain, robot, current, imports.Imported(), options)
+        old, imported_before, _, told_before = _read(domain, robot, other, imported, options)
     known = {(finding.code, finding.message) for finding in told_before}
-    new_findings = tuple(finding for finding in told if (finding.code, finding.message) not in known)
-    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
     differences = changes.compare(old, new, domain, robot.options, matching)
+    judged = judge(domain, new, reading, current.text.name, old, differences.renames)
+    judged += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
+    new_findings = [current.text.locate(finding) for finding in judged if finding.is_new]
+    new_findings += [finding for finding in told if (finding.code, finding.message) not in known]
+    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
     versions = (old, imported_before.contents), (new, imported.contents)
     encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]
     is_reordered = old.snapshot == new.snapshot and encoded[0] != encoded[1]
@@ -338,7 +342,7 @@ def _effects(
 
 def _read(
     domain: Domain, robot: RobotConfig, version: _VersionedSource, known: imports.Imported, options: BuildOptions
-) -> tuple[Version, imports.Imported, tuple[Diagnostic, ...]]:
+) -> tuple[Version, imports.Imported, Reading, tuple[Diagnostic, ...]]:
     """Read a version and the files that it refers to; `known` imports are used without converting them again.
 
     Raises SourceError for an unreadable source.
@@ -361,4 +365,4 @@ def _read(
     }
     imported = imports.import_files(domain, robot, options, dependencies, recorded, text.name)
     diagnostics = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
-    return Version(snapshot, imported.imports), imported, diagnostics
+    return Version(snapshot, imported.imports), imported, reading, diagnostics

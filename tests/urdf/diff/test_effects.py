@@ -10,7 +10,7 @@ from support.urdfs import joint, limit, link, links, version
 
 from urdfsync.changes import Effect
 from urdfsync.domain import ElementKey, Target, Version
-from urdfsync.urdf.diff.effects import effects, find_doubtful, interface, loads
+from urdfsync.urdf.diff.effects import effects, interface, loads
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 
@@ -220,19 +220,6 @@ def test_the_greatest_load_of_gravity_stands_beside_the_limit_of_the_effort() ->
     assert lift == Effect(("joint lift", "gravity force"), None, 0.0, "N"), "new, and without a limit"
     swapped = loads(arm(2.0, "j"), arm(4.0, "j", slide), {("joint", "j"): "lift"})
     assert [effect.old for effect in swapped] == [None, 9.80665]
-
-
-def test_masses_that_jump_are_one_warning() -> None:
-    old = version(*links(base=1.0, arm=2.0, hand=0.5, tip=None), joint("a", "fixed", "base", "arm"),
-                  joint("b", "fixed", "arm", "hand"), joint("c", "fixed", "hand", "tip"))  # fmt: skip
-    new = version(*links(base=9.9, claw=0.05, arm=2000.0, tip=3.0), joint("a", "fixed", "base", "arm"),
-                  joint("b", "fixed", "arm", "claw"), joint("c", "fixed", "claw", "tip"))  # fmt: skip
-    ((path, found),) = find_doubtful(old, new, {("link", "hand"): "claw"})
-    assert (path, found.code) == ("link arm / inertial / mass", "mass-jump")
-    assert found.message == "link arm: its mass jumps, 2 kg → 2000 kg (and 1 more like it)"
-    ((_, alone),) = find_doubtful(version(link("base", 1.0)), version(link("base", 2000.0)), {})
-    assert alone.message == "link base: its mass jumps, 1 kg → 2000 kg"
-    assert list(find_doubtful(old, old, {})) == []
 
 
 def test_what_is_commanded_decides_which_variables_run_has() -> None:

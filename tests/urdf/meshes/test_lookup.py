@@ -10,9 +10,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from urdfsync.domain import Import, Lookup
-from urdfsync.urdf.meshes.lookup import as_is, candidates, dependencies, findings, key, mesh, target
-from urdfsync.urdf.robot import Box, Collision, Joint, Link, Mesh, Origin, Robot, Vector, Visual
+from urdfsync.domain import Lookup
+from urdfsync.urdf.meshes.lookup import as_is, candidates, dependencies, key, mesh, target
+from urdfsync.urdf.robot import Box, Collision, Link, Mesh, Robot, Visual
 
 LOOKUP = Lookup(Path("/ws/src/arm/urdf/arm.urdf"), (Path("/opt/robots"), Path("/opt/gripper")))
 
@@ -182,20 +182,3 @@ def test_each_mesh_is_a_dependency_once_with_its_first_line() -> None:
     ]
     assert [d.target for d in found] == [target(base), target(scaled), target(wheel)]
     assert found[0].candidates == candidates("base.dae", LOOKUP)
-
-
-@pytest.mark.parametrize(("size", "scale", "hint"), [
-    (300.0, (1.0, 1.0, 1.0), 'write scale="0.001 0.001 0.001", or export it in m'),
-    (300.0, (-1.0, 1.0, 1.0), 'write scale="-0.001 0.001 0.001", or export it in m'),
-    (1e9, (1.0, 1.0, 1.0), "export it in m"),
-    (1.5, (1.0, 1.0, 1.0), ""),
-])  # fmt: skip
-def test_a_mesh_that_is_far_larger_than_the_robot_is_told(size: float, scale: Vector, hint: str) -> None:
-    """The robot is 0.05 m long: two joints, one after the other."""
-    arm = Robot("r", tuple(map(Link, "abc")), tuple(
-        Joint(name, "fixed", name[0], name[1], Origin((0.015, 0.02, 0.0))) for name in ("ab", "bc")
-    ))  # fmt: skip
-    imports = {key(Mesh("a.stl", scale)): Import("a.stl", "", "", {"bounds": [[0, 0, 0], [size, 0, 0]]})}
-    found = [finding for _, finding in findings(imports, arm)]
-    assert [(finding.code, finding.hint) for finding in found] == ([("mesh-size", hint)] if hint else [])
-    assert not list(findings(imports, Robot("r", (Link("a"),)))), "a robot of one link has no length"

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from urdfsync.changes import Effect
 from urdfsync.config.advice import brings_back
-from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ElementKey, Target, Version, displaced
 from urdfsync.processes import machine
 from urdfsync.urdf.assembly import Assembly, connector_options
@@ -18,8 +17,6 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Motion, Vector
 
-_JUMP = 9.99
-"""A greater ratio of two masses is probably a mistake: a factor of 10, with room for rounding."""
 _DRIVE = {
     "axis": "axis",
     "support": "support",
@@ -90,21 +87,6 @@ def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
         return total, None
     x, y, z = (math.fsum(column) / total for column in zip(*moments, strict=True))
     return total, (x, y, z)
-
-
-def find_doubtful(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield one warning, at the first link, if masses of links grow or shrink by a factor of 10 or more."""
-    before = {renames.get(("link", link.name), link.name): link.inertial for link in old.snapshot.links}
-    jumps = []
-    for link in new.snapshot.links:
-        mass, new_mass = (part.mass if part else 0.0 for part in (before.get(link.name), link.inertial))
-        if min(mass, new_mass) > 0 and max(mass, new_mass) >= _JUMP * min(mass, new_mass):
-            jumps.append((f"link {link.name}", f"{mass:g} kg → {new_mass:g} kg"))
-    if jumps:
-        path, change = jumps[0]
-        more = f" (and {len(jumps) - 1} more like it)" if len(jumps) > 1 else ""
-        message, hint = f"{path}: its mass jumps, {change}{more}", "check the unit and the material in the exporter"
-        yield f"{path} / inertial / mass", Diagnostic(Severity.WARNING, "mass-jump", message, hint=hint)
 
 
 def interface(

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Origin, Vector
+from urdfsync.urdf.robot import MOTION_KINDS, Inertia, Joint, Origin, Vector
 
 Matrix = tuple[Vector, Vector, Vector]
 Pose = tuple[Matrix, Vector]
@@ -141,6 +141,14 @@ def across(axis: Vector) -> tuple[Vector, Vector]:
     x, y, z = x / length, y / length, z / length
     a, b, c = axis
     return (x, y, z), (b * z - c * y, c * x - a * z, a * y - b * x)
+
+
+def turned_inertia(rotation: Matrix, inertia: Inertia) -> Matrix:
+    """Return an inertia as a tensor in the frame to which `rotation` turns: R·I·Rᵀ."""
+    i = inertia
+    rows = ((i.ixx, i.ixy, i.ixz), (i.ixy, i.iyy, i.iyz), (i.ixz, i.iyz, i.izz))
+    half = [[dot(turned, row) for row in rows] for turned in rotation]  # R·I, since I is symmetric
+    return tuple(tuple(dot(row, turned) for turned in rotation) for row in half)  # type: ignore[return-value]
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-import math
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -19,17 +18,11 @@ from urllib.parse import unquote
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Dependency, Import, Lookup
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.plausibility import find_length
 from urdfsync.urdf.robot import Collision, Link, Mesh, Robot, Vector, Visual
 
-_TOO_LARGE, _LARGEST = 20, 2.0
-"""A mesh of more than 20 lengths of the robot and more than 2 m is probably in another unit."""
-_SCALES = (0.001, 0.01, 0.0254)
-"""In m: a millimetre, a centimetre and an inch. Most programs export millimetres."""
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
-BOUNDS, HULL = "bounds", "hull"
-"""Names of facts: all models need `bounds`, contacts with the ground also need `hull`."""
+BOUNDS, HULL, VOLUME = "bounds", "hull", "volume"
+"""Names of facts: all models need `bounds`, contacts with the ground also need `hull`; `volume` shows densities."""
 PARTS, COLORS, TEXTURED, COLORLESS = "parts", "colors", "textured", "colorless"
 """Names of facts of meshes with their own colours.
 
@@ -97,20 +90,9 @@ def mentioned(dependency: Dependency, file: str, content: bytes) -> Sequence[str
     return mentioned_files(file, content) if is_needed else ()
 
 
-def findings(imports: Mapping[str, Import], robot: Robot) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a warning for each mesh with missing colours, or probably in another unit than the robot.
-
-    If meshes have textures, a note says that textures become colours.
-    """
-    sizes = {key: math.dist(*file.facts[BOUNDS]) for key, file in imports.items() if file.facts.get(BOUNDS)}
-    length = find_length(KinematicTree.of(robot)) if max(sizes.values(), default=0) > _LARGEST else 0.0
+def findings(imports: Mapping[str, Import], robot: Robot) -> Iterator[tuple[str, Diagnostic]]:  # noqa: ARG001 - see `Mentions`
+    """Yield a warning for each mesh with missing colours, and a note if meshes have textures."""
     for key, file in imports.items():
-        if length and (size := sizes.get(key, 0.0)) > max(_LARGEST, _TOO_LARGE * length):
-            fitting = [scale for scale in _SCALES if length / _TOO_LARGE < size * scale < _TOO_LARGE * length]
-            factors = " ".join(f"{factor * fitting[0]:g}" for factor in mesh(key).scale) if fitting else ""
-            message = f"mesh `{mesh(key).filename}` is {size:.3g} m large in a robot of {length:.3g} m"
-            hint = f'write scale="{factors}", or export it in m' if fitting else "export it in m"
-            yield key, Diagnostic(Severity.WARNING, "mesh-size", message, hint=hint)
         if missing := file.facts.get(COLORLESS):
             message = f"mesh `{mesh(key).filename}` lacks colours: "
             hint = "put the missing files beside the mesh, or give the visual a <material>"
@@ -193,7 +175,7 @@ def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str,
     hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in shapes) else ()
     colored = [is_colored for _, _, is_colored in shapes]
     colors = (PARTS if all(colored) else COLORS, TEXTURED, COLORLESS) if any(colored) else ()
-    return (BOUNDS, *hull, *colors)
+    return (BOUNDS, VOLUME, *hull, *colors)
 
 
 def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:

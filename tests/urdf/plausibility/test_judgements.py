@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 from support.corpus import FOLDER, robots
 from support.packages import read
-from support.urdfs import joint, limit, link, mimic, robot
+from support.urdfs import joint, limit, link, links, mimic, robot, version
 
 from urdfsync.urdf import plausibility
+from urdfsync.urdf.plausibility.judgements import find_jumps
 
 BASE, ARM = link("base", 4.0), link("arm", 2.0)
 
@@ -125,17 +126,17 @@ def test_an_impossible_density_is_told_with_the_likely_mass() -> None:
 
 FILLED_IN = (
     # Inertias that somebody filled in, 1e-3 or 1e-2 kg·m², of links of some millimetres and grams.
-    *("atlas/urdf/robotiq", "robotiq_tendons", "robotisOpenManipulator", "open_manipulator", "open_manipulator_robot"),
+    *("atlas/urdf/robotiq", "robotisOpenManipulator", "open_manipulator", "open_manipulator_robot"),
     *("robotisTurtleBot3Burger", "turtlebot3_burger", "turtlebot3_burger_for_autorace", "schunk_pg70"),
     "turtlebot3_burger_for_autorace_2020",
-    "rethinkSawyer",  # 1e-8 kg and 1e-8 kg·m²
     "al5d_robot",  # links of 80 to 200 g without any
 )
 MASSLESS = (
     *("lbr_iiwa_14_r820", "puma560_robot", "irb6640_185_280", "irb7600_150_350"),
     *("m430ia2f", "m430ia2p", "m900ib700"),
 )
-CODES = set(re.findall(r'Finding\("([a-z-]+)"', Path(plausibility.__file__).read_text(encoding="utf-8")))
+_SOURCES = Path(plausibility.__file__).parent.glob("*.py")
+CODES = {code for file in _SOURCES for code in re.findall(r'Finding\("([a-z-]+)"', file.read_text(encoding="utf-8"))}
 
 
 @pytest.mark.usefixtures("corpus")
@@ -143,5 +144,23 @@ CODES = set(re.findall(r'Finding\("([a-z-]+)"', Path(plausibility.__file__).read
 def test_real_robots(file: str) -> None:
     """Judged by hand: each finding is a fault of the file."""
     found = {one.code for one in read((FOLDER / file).read_bytes()).diagnostics} & CODES
-    expected = {"inertia-size": FILLED_IN, "no-inertia": MASSLESS, "mimic-limits": ("onrobot_rg2_model",)}
+    expected = {
+        "inertia-size": FILLED_IN,
+        "no-inertia": MASSLESS,
+        "mimic-limits": ("onrobot_rg2_model",),
+        "not-mirrored": ("robotisOP2",),
+    }
     assert found == {c for c, names in expected.items() if file.endswith(tuple(f"/{name}.urdf" for name in names))}
+
+
+def test_masses_that_jump_are_one_warning() -> None:
+    old = version(*links(base=1.0, arm=2.0, hand=0.5, tip=None), joint("a", "fixed", "base", "arm"),
+                  joint("b", "fixed", "arm", "hand"), joint("c", "fixed", "hand", "tip"))  # fmt: skip
+    new = version(*links(base=9.9, claw=0.05, arm=2000.0, tip=3.0), joint("a", "fixed", "base", "arm"),
+                  joint("b", "fixed", "arm", "claw"), joint("c", "fixed", "claw", "tip"))  # fmt: skip
+    (found,) = find_jumps(old, new, {("link", "hand"): "claw"})
+    assert (found.element, found.code) == ("link arm / inertial / mass", "mass-jump")
+    assert found.message == "link arm: its mass jumps, 2 kg → 2000 kg (and 1 more like it)"
+    (alone,) = find_jumps(version(link("base", 1.0)), version(link("base", 2000.0)), {})
+    assert alone.message == "link base: its mass jumps, 1 kg → 2000 kg"
+    assert list(find_jumps(old, old, {})) == []

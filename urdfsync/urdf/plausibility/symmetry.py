@@ -9,17 +9,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import NamedTuple
 
-from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, link_poses, own_range, pose
+from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, link_poses, own_range, pose, turned_inertia
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Inertial, Joint, Link, Mesh, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
 _SIDES = ("left right", "l r", "fl fr", "rl rr", "bl br", "hl hr", "lf rf", "lh rh", "lb rb", "izquierda derecha")
+SIDES = {name for pair in (*_SIDES, "gauche droite") for name in pair.split()}
 _OTHER = {name: other for pair in map(str.split, (*_SIDES, "gauche droite")) for name, other in (pair, reversed(pair))}
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", re.ASCII)
+WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", re.ASCII)
 _ALIKE = 0.1
 """The greatest difference of two numbers of one size, relative to the larger one: models of sides are rounded."""
 _NEAR, _PLACE = 0.004, 0.01
@@ -52,8 +53,12 @@ class _Side(NamedTuple):
     pose: Pose
 
 
-def find_asymmetries(tree: KinematicTree) -> Iterator[Finding]:
-    """Yield a warning for each difference of a link or joint from the mirror image of its other side."""
+def find_asymmetries(tree: KinematicTree, faulty: Collection[str]) -> Iterator[Finding]:
+    """Yield a finding for each difference of a link or joint from the mirror image of its other side.
+
+    `faulty` has the paths of elements with other findings, such as `link left_hip`: of two sides, the faulty one is
+    told as the wrong one.
+    """
     joints = {joint.child: joint for joint in tree.joints}
     names = [(name, across) for name in joints if (across := _other_side(name)) in joints and across < name]
     if not names:
@@ -64,8 +69,13 @@ def find_asymmetries(tree: KinematicTree) -> Iterator[Finding]:
     plane = _plane_of(pairs)
     for one, other in pairs:
         if plane is not None and _lie_in(plane, one, other):
-            yield from _compare_bodies(plane, one, other)
-            yield from _compare_joints(plane, one, other)
+            yield from _compare_bodies(plane, *_faulty_first("link", one, other, faulty))
+            yield from _compare_joints(plane, *_faulty_first("joint", one, other, faulty))
+
+
+def _faulty_first(kind: str, one: _Side, other: _Side, faulty: Collection[str]) -> tuple[_Side, _Side]:
+    names = [f"{kind} {side.link.name if kind == 'link' else side.joint.name}" for side in (one, other)]
+    return (other, one) if names[1] in faulty and names[0] not in faulty else (one, other)
 
 
 def _plane_of(pairs: Sequence[tuple[_Side, _Side]]) -> _Plane | None:
@@ -89,7 +99,7 @@ def _other_side(name: str) -> str:
         other = _OTHER.get(word.lower(), word)
         return other.upper() if word.isupper() else other.capitalize() if word[0].isupper() else other
 
-    return _WORD.sub(exchanged, name)
+    return WORD.sub(exchanged, name)
 
 
 def _plane_between(one: Vector, other: Vector) -> _Plane | None:
@@ -196,12 +206,8 @@ def _meshes(link: Link) -> set[Mesh]:
 
 def _body(side: _Side, inertial: Inertial) -> tuple[Vector, Matrix]:
     """Return the centre of mass, and the inertia about it, in the robot's frame."""
-    rotation, centre = compose(side.pose, pose(inertial.origin))
-    i = inertial.inertia
-    rows = ((i.ixx, i.ixy, i.ixz), (i.ixy, i.iyy, i.iyz), (i.ixz, i.iyz, i.izz))
-    half = [[sum(rotation[a][k] * rows[k][b] for k in range(3)) for b in range(3)] for a in range(3)]
-    turned = [tuple(dot(row, rotation[b]) for b in range(3)) for row in half]
-    return centre, tuple(turned)  # type: ignore[return-value]
+    rotation, center = compose(side.pose, pose(inertial.origin))
+    return center, turned_inertia(rotation, inertial.inertia)
 
 
 def _mirrored(plane: _Plane, tensor: Matrix) -> Matrix:

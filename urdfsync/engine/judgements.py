@@ -1,0 +1,79 @@
+"""Judgements about a model itself: legal parts that can hardly be meant, new ones first.
+
+A judgement follows from the model alone, so the recorded model tells which ones are new since the last build.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Protocol
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.domain import Domain, ElementKey, Reading, Version
+from urdfsync.engine.last_build import NO_MODEL
+
+
+class Judgements(Protocol):
+    """Judges models; the attribute `judgements` of a domain. Findings have an `element`, and no place. Pure."""
+
+    def judge(self, version: Version) -> Iterable[Diagnostic]:
+        """Return warnings about parts of a valid model that can hardly be meant."""
+        ...
+
+    def find_jumps(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterable[Diagnostic]:
+        """Return warnings about differences that look like mistakes of the export."""
+        ...
+
+
+def judge(
+    domain: Domain,
+    now: Version,
+    reading: Reading,
+    file: str,
+    last: Version | None = None,
+    renames: Mapping[ElementKey, str] | None = None,
+) -> list[Diagnostic]:
+    """Return the judgements about a model at their places; `file` is its source's name.
+
+    Those that the `last` version lacks are new. Without a last version, nothing is new.
+    """
+    judgements: Judgements | None = domain.judgements
+    if judgements is None:
+        return []
+    findings = list(judgements.judge(now))
+    if last is not None:
+        known = set(_known(judgements, last, renames or {}))
+        findings = [
+            msgspec.structs.replace(finding, is_new=(finding.code, finding.element) not in known)
+            for finding in findings
+        ]
+    return _placed(findings, reading, file)
+
+
+def find_jumps(
+    domain: Domain, now: Version, reading: Reading, file: str, last: Version, renames: Mapping[ElementKey, str]
+) -> list[Diagnostic]:
+    """Return the judgements about the differences of two models, all of them new."""
+    judgements: Judgements | None = domain.judgements
+    jumps = judgements.find_jumps(last, now, renames) if judgements else ()
+    return _placed([msgspec.structs.replace(jump, is_new=True) for jump in jumps], reading, file)
+
+
+def _placed(findings: Iterable[Diagnostic], reading: Reading, file: str) -> list[Diagnostic]:
+    placed = [(finding, *reading.place(finding.element, file)) for finding in findings]
+    return [msgspec.structs.replace(finding, file=place, line=line) for finding, place, line in placed]
+
+
+def _known(judgements: Judgements, last: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, str]]:
+    """Yield code and element of each judgement about the last model, by the names of the present model."""
+    try:
+        findings = list(judgements.judge(last))
+    except NO_MODEL:  # the recorded model may be invalid
+        return
+    for finding in findings:
+        element, separator, rest = finding.element.partition(" / ")
+        kind, _, name = element.partition(" ")
+        name = renames.get((kind, name), name)
+        yield finding.code, f"{kind} {name}".rstrip() + separator + rest

@@ -1,0 +1,148 @@
+"""Finds joints that no drive moves as stated: limits, efforts, followers, and loads of gravity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from urdfsync.urdf.kinematics.poses import compose, link_poses, own_range, pose, start_positions
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.plausibility.shapes import Body
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Origin, Vector
+from urdfsync.urdf.validate import Finding
+
+_LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
+"""Limits of a slide are implausible above 20 m and 20 lengths of the robot, up to 5,000 m.
+
+A joint is implausible at more than 50 m from its parent.
+"""
+_FOUR_TURNS, _TWO_TURNS_IN_DEGREES = 8 * math.pi, 720
+_SAME, _SWITCHED_OFF = 1e-3, 5
+"""Soft limits may be outside by this part of the joint's range; far outside, in rad or m, they are switched off."""
+_FOLLOWED = 0.02
+"""A joint may follow another one outside of its limits by this part of its range."""
+_LIGHT = 0.05
+"""In kg: a slide of a lighter part may let a whole robot move anywhere."""
+_GRAVITY = 9.80665
+
+
+def find_impossible_joints(tree: KinematicTree, bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
+    """Yield a finding for each joint that cannot move as stated, in a robot of this length in m."""
+    yield from _check_efforts(tree)
+    yield from _check_loads(tree, bodies)
+    yield from _check_followers(tree)
+    for body in bodies.values():
+        if body.mass and body.inertial:
+            yield from _check_angles(f"link {body.link.name} / inertial", body.inertial.origin)
+    for joint in tree.joints:
+        yield from _check_angles(f"joint {joint.name}", joint.origin)
+        yield from _check_limits(joint, length, bodies[joint.child].mass)
+
+
+def _check_efforts(tree: KinematicTree) -> Iterator[Finding]:
+    """Check that no joint has an effort of 0 beside others with more; a source may tell which joints are driven."""
+    efforts = {joint.name: joint.limit.effort for joint in tree.joints if joint.limit and not joint.mimic}
+    greatest = max((effort for effort in efforts.values() if effort), default=0.0)
+    are_told = any(joint.actuated for joint in tree.joints)
+    for joint in tree.joints if greatest else ():
+        if efforts.get(joint.name) == 0 and (joint.actuated or not are_told):
+            message = f"joint {joint.name} / limit has effort = 0: no drive moves it; another joint has {greatest:g}"
+            yield Finding("zero-effort", f"joint {joint.name} / limit", message)
+
+
+def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[Finding]:
+    """Check that no drive is too weak for the weight behind its joint, in every position of the joint.
+
+    The other joints are at their starts. Gravity acts along -z of the root. A source may tell which joints are driven.
+    """
+    if tree.loops:  # loops carry weight past a joint
+        return
+    starts, are_told = start_positions(tree), any(joint.actuated for joint in tree.joints)
+    poses, masses, moments = link_poses(tree, starts), dict[str, float](), dict[str, Vector]()
+    for name, body in bodies.items():
+        _, center = compose(poses[name], pose(body.inertial.origin)) if body.inertial else poses[name]
+        masses[name], moments[name] = body.mass, (body.mass * center[0], body.mass * center[1], body.mass * center[2])
+    for joint in reversed(tree.joints):
+        mass, (rotation, place) = masses[joint.child], poses[joint.child]
+        x, y, z = (moment - mass * at for moment, at in zip(moments[joint.child], place, strict=True))
+        effort = joint.limit.effort if joint.limit and not joint.mimic else None
+        a, b, c = (sum(row[k] * joint.axis[k] for k in range(3)) for row in rotation)
+        least, unit = 0.0, "N"
+        if not effort:
+            pass
+        elif MOTION_KINDS.get(joint.type) == "translational":
+            least = _GRAVITY * mass * abs(c)
+        elif MOTION_KINDS.get(joint.type) == "rotational":
+            # the moment about the axis changes as a sine of the position; `across` is its derivative
+            unit, along = "N·m", _GRAVITY * (b * x - a * y)
+            across = _GRAVITY * ((a * a + b * b) * z - c * (a * x + b * y))
+            least = _least_sine(along, across, starts[joint.name], own_range(joint))
+        if effort and least > effort and (joint.actuated or not are_told):
+            message = f"joint {joint.name} / limit has effort = {effort:g}: the weight behind the joint takes "
+            message += f"{least:.4g} {unit} or more in each of its positions"
+            yield Finding("weak-effort", f"joint {joint.name} / limit", message)
+        masses[joint.parent] += mass
+        moments[joint.parent] = tuple(map(sum, zip(moments[joint.parent], moments[joint.child], strict=True)))  # type: ignore[assignment]
+
+
+def _least_sine(value: float, slope: float, start: float, limits: tuple[float, float]) -> float:
+    """Return the least magnitude of a sine within limits; `value` and `slope` are those at `start`."""
+    ends = [value * math.cos(end - start) + slope * math.sin(end - start) for end in limits if math.isfinite(end)]
+    if len(ends) < 2 or limits[1] - limits[0] >= math.pi or ends[0] * ends[1] <= 0:
+        return 0.0
+    return min(map(abs, ends))
+
+
+def _check_followers(tree: KinematicTree) -> Iterator[Finding]:
+    """Check that no joint that follows another one leaves its own limits."""
+    joints = {joint.name: joint for joint in tree.joints}
+    for joint in tree.joints:
+        if joint.mimic is not None:
+            leader, (lower, upper) = own_range(joints[joint.mimic.joint]), own_range(joint)
+            least, most = sorted(joint.mimic.multiplier * end + joint.mimic.offset for end in leader)
+            past = max(lower - least, most - upper)
+            if _FOLLOWED * (upper - lower) < past < math.inf:
+                message = (
+                    f"joint {joint.name} follows {joint.mimic.joint} from {least:.4g} to {most:.4g}, outside of its "
+                )
+                message += f"limits {lower:.4g} to {upper:.4g}"
+                yield Finding("mimic-limits", f"joint {joint.name} / mimic", message)
+
+
+def _check_angles(path: str, origin: Origin) -> Iterator[Finding]:
+    """Check that an orientation is not in degrees, as whole numbers of more than a turn in rad would show."""
+    widest = max(map(abs, origin.rpy))
+    if math.tau < widest <= _TWO_TURNS_IN_DEGREES and all(angle.is_integer() for angle in origin.rpy):
+        shown = " ".join(f"{angle:g}" for angle in origin.rpy)
+        yield Finding("angle-unit", f"{path} / origin", f"{path}: the angles {shown} rad may be in degrees")
+
+
+def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:
+    """Check that place and limits of a joint are plausible in SI units.
+
+    `mass` is the mass of the child link. Slides with massless links may let a whole robot move anywhere, so any limit
+    will do.
+    """
+    path, away = f"joint {joint.name}", math.hypot(*joint.origin.xyz)
+    if away > _LONG_JOINT:
+        message = f"{path} is {away:.6g} m away from its parent: lengths may be in millimetres"
+        yield Finding("length-unit", f"{path} / origin", message)
+    limit, kind = joint.limit, JOINT_KINDS[joint.type]
+    if limit is None or not kind.has_limits:
+        return
+    soft = joint.safety_controller
+    if soft and soft.soft_lower_limit < soft.soft_upper_limit:
+        past = max(limit.lower - soft.soft_lower_limit, soft.soft_upper_limit - limit.upper)
+        if _SAME * (limit.upper - limit.lower) < past < _SWITCHED_OFF:
+            message = f"{path}: the soft limits {soft.soft_lower_limit:g} to {soft.soft_upper_limit:g} are outside of "
+            message += f"the limits {limit.lower:g} to {limit.upper:g}"
+            yield Finding("soft-limits", f"{path} / safety_controller", message)
+    place, widest = f"{path} / limit", max(abs(limit.lower), abs(limit.upper))
+    if kind.motion == "rotational":
+        is_whole = limit.lower.is_integer() and limit.upper.is_integer()
+        if is_whole and _FOUR_TURNS < widest <= _TWO_TURNS_IN_DEGREES:
+            message = f"{path}: limits of {limit.lower:g} and {limit.upper:g} rad may be in degrees"
+            yield Finding("angle-unit", place, message)
+    elif max(_LONG_SLIDE, _LONG_SLIDE * length) < widest <= _LONGEST_SLIDE and mass > _LIGHT:
+        message = f"{path}: limits of {limit.lower:g} and {limit.upper:g} m may be in millimetres"
+        yield Finding("length-unit", place, message)

@@ -1,0 +1,103 @@
+"""Finds the odd one out of a row of equal parts: one of four wheels, of six legs, of three fingers.
+
+Parts are a row if only numbers and places tell their names apart, and if they are congruent: the same joints stand at
+the same distances behind them, about the same axes. Then equal masses and drives are expected.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple, TypeAlias
+
+from urdfsync.urdf.kinematics.poses import own_range
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.plausibility.shapes import Body
+from urdfsync.urdf.plausibility.symmetry import SIDES, WORD
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Vector
+from urdfsync.urdf.validate import Finding
+
+_PLACES = {*SIDES, *"front rear back mid middle center centre index ring little pinky ff mf".split()}
+_FEWEST = 3
+_ALIKE = 0.02
+"""The other parts of a row differ by this part of a number at most."""
+_OUT = 2
+"""The odd one differs by this factor."""
+_LIGHT = 0.05
+"""In kg: the mass of a lighter part need not be exact."""
+_DIGITS = 3
+"""Distances in a row are equal to a millimetre, directions to a thousandth."""
+
+_Form: TypeAlias = tuple[object, ...]
+"""Type, axis and distance of a joint, and the forms of the joints behind it."""
+
+
+class _Number(NamedTuple):
+    """A number that a row has in common."""
+
+    element: str
+    block: str
+    name: str
+    unit: str
+    values: Sequence[float]
+
+
+def find_odd_ones(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[Finding]:
+    """Yield a finding for each number of a link or joint that differs from all others of its row."""
+    forms, children = dict[str, _Form](), tree.children()
+    for joint in reversed(tree.joints):
+        behind = [(_distances(after.origin.xyz), forms[after.name]) for after in children.get(joint.child, ())]
+        forms[joint.name] = joint.type, _distances(joint.axis), *sorted(behind, key=repr)
+    rows, keys = defaultdict[_Form, list[Joint]](list), {tree.links[0].name: _Form()}
+    for joint in tree.joints:
+        # parts of a row have their own places on a common link, and the same place on links of a row
+        is_branch = len(children[joint.parent]) > 1
+        place = () if is_branch else _distances(joint.origin.xyz)
+        key = keys[joint.child] = keys[joint.parent], place, _stem(joint.child), forms[joint.name]
+        if joint.type in MOTION_KINDS:
+            rows[key].append(joint)
+    for row in rows.values():
+        if len(row) >= _FEWEST:
+            for number in _numbers(row, [bodies[joint.child] for joint in row]):
+                if finding := _odd_one(number, row):
+                    yield finding
+
+
+def _distances(vector: Vector) -> _Form:
+    """Return the distances of a point from the coordinate planes: mirrored parts have the same."""
+    return tuple(round(abs(value), _DIGITS) for value in vector)
+
+
+def _stem(name: str) -> str:
+    """Return a name without numbers and places."""
+    return " ".join(word for word in WORD.findall(name) if word.lower() not in _PLACES)
+
+
+def _numbers(row: Sequence[Joint], bodies: Sequence[Body]) -> Iterator[_Number]:
+    masses = [body.mass for body in bodies]
+    if max(masses) > _LIGHT:
+        yield _Number("link", "inertial", "mass", "kg", masses)
+        radii = [body.gyration for body in bodies]
+        yield _Number("link", "inertial", "radius of gyration", "m", radii)
+    for block, name in (("limit", "effort"), ("limit", "velocity"), ("dynamics", "damping"), ("dynamics", "friction")):
+        values = [getattr(getattr(joint, block), name, None) for joint in row]
+        yield _Number("joint", block, name, "", [value for value in values if value is not None])
+    ranges = [own_range(joint) for joint in row]
+    yield _Number("joint", "limit", "range", "", [upper - lower for lower, upper in ranges])
+
+
+def _odd_one(number: _Number, row: Sequence[Joint]) -> Finding | None:
+    """Return the finding about the one value that is out of its row; a value of 0 is another finding."""
+    values = number.values
+    if len(values) < len(row) or not all(0 < value < math.inf for value in values):
+        return None
+    usual = sorted(values)[len(values) // 2]
+    odd = [k for k, value in enumerate(values) if abs(value - usual) > _ALIKE * usual]
+    if len(odd) != 1 or usual / _OUT < values[odd[0]] < usual * _OUT:
+        return None
+    name, *others = (joint.child if number.element == "link" else joint.name for joint in (row[odd[0]], *row))
+    listed = ", ".join(repr(other) for other in sorted(others) if other != name)
+    message = f"{number.element} {name!r} differs from {listed}: "
+    message += f"its {number.name} is {values[odd[0]]:.4g}, not {usual:.4g} {number.unit}".rstrip()
+    return Finding("odd-one-out", f"{number.element} {name} / {number.block}", message)

@@ -1,0 +1,196 @@
+"""Measures the shapes of links; finds shapes far outside of the robot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple, TypeAlias
+
+from urdfsync.domain import Import, further_key
+from urdfsync.urdf.kinematics.poses import dot, pose
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.meshes.lookup import BOUNDS, PARTS, VOLUME, key, mesh
+from urdfsync.urdf.robot import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Inertial,
+    Link,
+    Mesh,
+    Sphere,
+    Vector,
+    Visual,
+)
+from urdfsync.urdf.validate import Finding
+
+_FAR, _FAR_AWAY = 10, 2
+"""A shape is too far from its link if its distance exceeds ten lengths of the robot and two metres."""
+_TOO_LARGE, _LARGEST = 20, 2.0
+"""A mesh of more than 20 lengths of the robot and more than 2 m is probably in another unit."""
+_SCALES = (0.001, 0.01, 0.0254)
+"""In m: a millimetre, a centimetre and an inch. Most programs export millimetres."""
+
+
+_Bounds: TypeAlias = tuple[Sequence[float], Sequence[float]]
+
+
+class Extent(NamedTuple):
+    """Place and size of a shape, in its link's frame."""
+
+    center: Vector
+    reach: float
+    """In m, from the center; infinite for a mesh that is not in the package."""
+    volume: float
+    """In m³; infinite for such a mesh, 0 for an open one."""
+
+
+class Body(NamedTuple):
+    """A link with its inertia and the extents of its shapes."""
+
+    link: Link
+    inertial: Inertial | None
+    visuals: tuple[Extent, ...]
+    collisions: tuple[Extent, ...]
+
+    @property
+    def mass(self) -> float:
+        """In kg; 0 without an `<inertial>`."""
+        return self.inertial.mass if self.inertial else 0.0
+
+    @property
+    def gyration(self) -> float:
+        """In m: the root mean square distance of the mass from its centre; 0 without mass or inertia."""
+        if self.inertial is None or not self.inertial.mass:
+            return 0.0
+        inertia = self.inertial.inertia
+        return math.sqrt(max(inertia.ixx + inertia.iyy + inertia.izz, 0.0) / 2 / self.inertial.mass)
+
+    @property
+    def radius(self) -> float:
+        """In m: the reach of all shapes from the centre of mass; infinite if unknown, 0 without shapes."""
+        center = self.inertial.origin.xyz if self.inertial else (0.0, 0.0, 0.0)
+        shapes = (*self.visuals, *self.collisions)
+        return max((math.dist(shape.center, center) + shape.reach for shape in shapes), default=0.0)
+
+    @property
+    def volume(self) -> float:
+        """In m³: of the collision shapes, else of the visual ones; 0 if unknown."""
+        for shapes in (self.collisions, self.visuals):
+            if shapes and all(0 < shape.volume < math.inf for shape in shapes):
+                return sum(shape.volume for shape in shapes)
+        return 0.0
+
+
+def find_length(tree: KinematicTree) -> float:
+    """Return the length of a robot's longest chain, in m: the sum of the distances from joint to joint."""
+    distances = {tree.links[0].name: 0.0}
+    for joint in tree.joints:
+        distances[joint.child] = distances[joint.parent] + math.hypot(*joint.origin.xyz)
+    return max(distances.values())
+
+
+def find_bodies(tree: KinematicTree, imports: Mapping[str, Import]) -> Mapping[str, Body]:
+    """Return the bodies of links by name; `imports` have the facts of meshes."""
+    largest = _largest(find_length(tree))
+
+    def extent(shape: Visual | Collision) -> Extent:
+        geometry, center, reach, volume = shape.geometry, (0.0, 0.0, 0.0), math.inf, math.inf
+        if not isinstance(geometry, Mesh):
+            reach, volume = _reach(geometry), _volume(geometry)
+        elif found := _measured(geometry, imports):
+            (lower, upper), volume = found
+            size = math.dist(lower, upper)
+            if size <= largest:
+                x, y, z = ((a + b) / 2 for a, b in zip(lower, upper, strict=True))
+                center, reach = (x, y, z), size / 2
+            else:
+                volume = math.inf  # a mesh in another unit tells nothing about its body
+        rotation, place = pose(shape.origin)
+        x, y, z = (p + dot(row, center) for p, row in zip(place, rotation, strict=True))
+        return Extent((x, y, z), reach, volume)
+
+    return {
+        link.name: Body(link, link.inertial, tuple(map(extent, link.visuals)), tuple(map(extent, link.collisions)))
+        for link in tree.links
+    }
+
+
+def find_far_shapes(bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
+    """Yield a finding for each shape far outside of a robot of this length."""
+    far = max(_FAR * length, _FAR_AWAY)
+    for body in bodies.values() if length else ():
+        link = body.link
+        shapes = [("visual", k, one.origin) for k, one in enumerate(link.visuals, start=1)]
+        shapes += [("collision", k, one.origin) for k, one in enumerate(link.collisions, start=1)]
+        for (kind, number, origin), extent in zip(shapes, (*body.visuals, *body.collisions), strict=True):
+            away = math.hypot(*origin.xyz)
+            if away - (extent.reach if math.isfinite(extent.reach) else 0) > far:
+                place = f"link {link.name} / {kind} {number}"
+                message = f"{place} is {away:.3g} m away from its link, in a robot of {length:.3g} m"
+                yield Finding("shape-far", f"{place} / origin", message)
+
+
+def find_large_meshes(tree: KinematicTree, imports: Mapping[str, Import], length: float) -> Iterator[Finding]:
+    """Yield a finding for each mesh that is too large for a robot of this length, at its first shape."""
+    sizes = {key: math.dist(*file.facts[BOUNDS]) for key, file in imports.items() if file.facts.get(BOUNDS)}
+    large = {key: size for key, size in sizes.items() if size > _largest(length)}
+    if not large:
+        return
+    for link in tree.links:
+        shapes = [("visual", k, visual.geometry) for k, visual in enumerate(link.visuals, start=1)]
+        shapes += [("collision", k, shape.geometry) for k, shape in enumerate(link.collisions, start=1)]
+        for kind, number, geometry in shapes:
+            found = key(geometry) if isinstance(geometry, Mesh) else ""
+            if size := large.pop(found, 0.0):
+                fitting = [scale for scale in _SCALES if length / _TOO_LARGE < size * scale < _TOO_LARGE * length]
+                factors = " ".join(f"{factor * fitting[0]:g}" for factor in mesh(found).scale) if fitting else ""
+                message = f"mesh `{mesh(found).filename}` is {size:.3g} m large in a robot of {length:.3g} m"
+                hint = f'write scale="{factors}", or export it in m' if fitting else ""
+                yield Finding("mesh-size", f"link {link.name} / {kind} {number} / geometry", message, hint)
+
+
+def _measured(mesh: Mesh, imports: Mapping[str, Import]) -> tuple[_Bounds, float] | None:
+    """Return bounds and volume of a mesh in the package; None without bounds."""
+    whole = key(mesh)
+    files = [imports[whole]] if whole in imports else []
+    if files and PARTS in files[0].facts:  # one file for each colour
+        further = (further_key(whole, number) for number in range(1, len(files[0].facts[PARTS])))
+        files += [imports[name] for name in further if name in imports]
+    if not files or not all(file.facts.get(BOUNDS) for file in files):
+        return None
+    lower = [min(coordinates) for coordinates in zip(*(file.facts[BOUNDS][0] for file in files), strict=True)]
+    upper = [max(coordinates) for coordinates in zip(*(file.facts[BOUNDS][1] for file in files), strict=True)]
+    volumes = [file.facts.get(VOLUME, 0.0) for file in files]
+    return (lower, upper), sum(volumes) if all(volumes) else 0.0
+
+
+def _largest(length: float) -> float:
+    return max(_LARGEST, _TOO_LARGE * length) if length else math.inf
+
+
+def _reach(geometry: Geometry) -> float:
+    match geometry:
+        case Box(size=size):
+            return math.hypot(*size) / 2
+        case Cylinder(radius=radius, length=length):
+            return math.hypot(radius, length / 2)
+        case Capsule(radius=radius, length=length):
+            return radius + length / 2
+        case Sphere(radius=radius):
+            return radius
+    raise TypeError(geometry)
+
+
+def _volume(geometry: Geometry) -> float:
+    match geometry:
+        case Box(size=(x, y, z)):
+            return x * y * z
+        case Cylinder(radius=radius, length=length):
+            return math.pi * radius * radius * length
+        case Capsule(radius=radius, length=length):
+            return math.pi * radius * radius * (length + 4 / 3 * radius)
+        case Sphere(radius=radius):
+            return 4 / 3 * math.pi * radius * radius * radius
+    raise TypeError(geometry)
