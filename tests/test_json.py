@@ -104,7 +104,7 @@ def tell_all(document: Any, *sections: str, absent: Collection[str] = ()) -> boo
 
 DOCUMENT = {"version", "command", "exit", "results", "diagnostics", "shard"}
 OF_DOUBTS = {"former", "aspects", "moved_to"}
-FINDING = {"severity", "code", "message", "file", "line", "column", "hint", "details"}
+FINDING = {"severity", "code", "message", "file", "line", "column", "hint", "details", "element", "is_new"}
 
 
 def test_init(folder: Path, execute: Execute) -> None:

@@ -74,13 +74,13 @@ class Diagnostic(msgspec.Struct, frozen=True):
         """Return the finding as one line: `file:line:column: severity: message; hint [code]`."""
         numbers = [str(number) for number in (self.line, self.column) if number]
         place = ":".join([self.file, *numbers]) + ": " if self.file else ""
-        since = "since this export: " if self.is_new else ""
-        return " ".join(f"{place}{self.severity}: {since}{self.sentence} [{self.code}]".split())
+        return " ".join(f"{place}{self.severity}: {self.sentence} [{self.code}]".split())
 
     @property
     def sentence(self) -> str:
         """The message with its hint."""
-        return "; ".join(filter(None, (self.message, self.hint)))
+        since = "since this export: " if self.is_new else ""
+        return since + "; ".join(filter(None, (self.message, self.hint)))
 
 
 def internal_error(error: Exception, what: str = "") -> Diagnostic:

@@ -43,7 +43,7 @@ def judge(
     if judgements is None:
         return []
     findings = list(judgements.judge(now))
-    if last is not None:
+    if last is not None and findings:
         known = set(_known(judgements, last, renames or {}))
         findings = [
             msgspec.structs.replace(finding, is_new=(finding.code, finding.element) not in known)

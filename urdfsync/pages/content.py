@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.changes import Changes, Effect, Effects, compare
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.edits import RobotEdits, find_edited
@@ -58,6 +58,8 @@ class Content(msgspec.Struct, frozen=True):
     edited: Mapping[str, Sequence[tuple[str, str, str]]]
     """The user's edits of each element: the property's name as in the picture, the edit in words, the new text."""
     conflicts: Sequence[DisputedFile]
+    findings: Mapping[str, Sequence[str]]
+    """The findings about each element, in words."""
 
 
 def gather(
@@ -100,6 +102,7 @@ def gather(
         edits=edits,
         edited=_edited(edits, drawn.now),
         conflicts=result.conflicts,
+        findings=_findings(result.diagnostics),
     )
 
 
@@ -133,6 +136,14 @@ def _last_build(inputs: Inputs) -> Contents | None:
         file.entry.target: file.copy for file in last.imports.values() if file.copy is not None and file.is_intact
     }
     return last.version, contents
+
+
+def _findings(diagnostics: Sequence[Diagnostic]) -> dict[str, list[str]]:
+    by_element: dict[str, list[str]] = {}
+    for finding in diagnostics:
+        if finding.element:
+            by_element.setdefault(finding.element.partition(" / ")[0], []).append(finding.sentence)
+    return by_element
 
 
 def _statuses(changes: Changes) -> dict[str, str]:

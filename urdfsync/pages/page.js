@@ -40,6 +40,9 @@ const page = {
 
 const element = (id) => document.getElementById(id);
 
+/* The links with findings about them, or about the joints that lead to them. */
+const doubted = new Set([...data.now.hinges.filter((hinge) => data.findings[hinge.element]).map((hinge) => hinge.child), ...Object.keys(data.findings)]);
+
 /* Moves axes, then all that depends on them. Returns whether they are there: a loop may stop them. */
 function moveAxes(targets) {
   const isThere = page.now.move(targets);
@@ -76,7 +79,8 @@ function say(words) {
   const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : `This ${data.now.noun} has no shapes: its frames are shown.`;
   const passed = page.now.scene.hinges.filter((hinge) => isBeyond(hinge, page.positions.get(hinge.element))).map((hinge) => nameOf(hinge.element));
   const alarm = passed.length ? `Beyond the limits: ${passed.join(", ")}` : "";
-  element("told").textContent = [words || page.ruler?.words() || page.selected || bare, alarm].filter(Boolean).join(" · ");
+  const finding = data.findings[page.selected]?.[0];
+  element("told").textContent = [words || page.ruler?.words() || page.selected || bare, !words && finding, alarm].filter(Boolean).join(" · ");
   element("told").classList.toggle("removed", alarm !== "");
 }
 
@@ -125,7 +129,10 @@ function paintStage() {
   axes.visible = page.layers.world;
   ["x", "y", "z"].forEach((name, place) => labels.set(`world ${name}`, name, axes.visible && (() => new THREE.Vector3().setComponent(place, 1.06 * axes.userData.length)), `axis-${name}`));
   const origin = (name) => () => new THREE.Vector3().setFromMatrixPosition(page.now.bodies.get(name).group.matrixWorld);
-  for (const name of page.now.bodies.keys()) labels.set(name, nameOf(name), page.layers.label && origin(name));
+  for (const name of page.now.bodies.keys()) {
+    labels.set(name, `${nameOf(name)}${doubted.has(name) ? " ⚠" : ""}`, page.layers.label && origin(name));
+    labels.set(`finding ${name}`, "⚠", doubted.has(name) && !page.layers.label && page.version !== "before" && origin(name), "finding");
+  }
 }
 
 /* Hides the bodies of the older version, laid over the new one, that are the same and in the same place. */

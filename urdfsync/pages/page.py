@@ -43,7 +43,7 @@ _MOST_INSTANTS = 1000
 """The greatest number of instants of a simulation on the page."""
 _LEAST = 1e-17
 """The least relative error on the scale of a check."""
-_DATA = "against statuses renamed changes edited files diagram".split()
+_DATA = "against statuses renamed changes edited files diagram findings".split()
 """The fields of the content that the scripts read."""
 _SUFFIXES = (".html", ".htm")
 _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000

@@ -24,9 +24,9 @@ function rounded(value) {
   return String(Number(value.toPrecision(5)));
 }
 
-/* Returns marks for what changed in the source, and for what the user edited. */
+/* Returns marks for what changed in the source, what the user edited, and what has a finding. */
 function mark(data, element) {
-  const words = [data.statuses[element], data.edited[element] && "edited"].filter(Boolean);
+  const words = [data.statuses[element], data.edited[element] && "edited", data.findings[element] && "finding"].filter(Boolean);
   return words.flatMap((word) => [" ", make("span", { class: `mark ${word}` }, word)]);
 }
 
@@ -151,6 +151,8 @@ function fillDetails(panel, data, element, select) {
   const link = (name) => make("button", { type: "button", class: "name" }, name, { click: () => select(name) });
   const parts = [make("h3", {}, [element, ...mark(data, element)])], edits = data.edited[element] || [];
   const changes = data.changes[element] || [];
+  const findings = data.findings[element] || [];
+  if (findings.length) parts.push(make("ul", {}, findings.map((words) => make("li", { class: "finding" }, words))));
   if (changes.length) parts.push(make("ul", {}, changes.map((words) => make("li", { class: "changed" }, words))));
   if (edits.length) parts.push(make("ul", {}, edits.map(([, words]) => make("li", { class: "edited" }, `your edit: ${words}`))));
   const facts = item.facts.flatMap(([label, value]) => { // those of the source; the user's beside them

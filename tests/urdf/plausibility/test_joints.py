@@ -11,6 +11,7 @@ from support.packages import read
 from support.urdfs import joint, limit, link, robot, version
 
 from urdfsync.urdf.kinematics.loads import find_extremes
+from urdfsync.urdf.kinematics.poses import link_poses
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.joints import find_impossible_joints
 from urdfsync.urdf.plausibility.shapes import find_bodies
@@ -52,7 +53,7 @@ def test_the_least_weight_never_exceeds_the_greatest(
     turn = joint("j", "revolute", "base", "arm", axis="0.6 0 0.8", rpy=rpy,
                  inside=[limit(lower, lower + width, effort=1e-6)])  # fmt: skip
     tree = KinematicTree.of(version(BASE, body, turn).snapshot)
-    findings = find_impossible_joints(tree, find_bodies(tree, {}), 1.0)
+    findings = find_impossible_joints(tree, find_bodies(tree, {}), 1.0, link_poses(tree, {}))
     greatest = find_extremes(tree)[1]["j"]
     for finding in findings:
         if finding.code == "weak-effort":

@@ -51,10 +51,20 @@ def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
 
 def compose(outer: Pose, inner: Pose) -> Pose:
     """Return the product of two poses: `inner` is given in the frame of `outer`."""
-    (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))
-    turned = tuple(tuple(dot(row, column) for column in columns) for row in rotation)
-    moved = tuple(p + dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))
-    return turned, moved  # type: ignore[return-value]
+    # written out, this takes a quarter of the time: builds judge each changed robot (docs/speed.md)
+    (row_x, row_y, row_z), (x, y, z) = outer
+    ((ax, bx, cx), (ay, by, cy), (az, bz, cz)), (px, py, pz) = inner
+
+    def turned(row: Vector) -> Vector:
+        r, s, t = row
+        return r * ax + s * ay + t * az, r * bx + s * by + t * bz, r * cx + s * cy + t * cz
+
+    place = (px, py, pz)
+    return (turned(row_x), turned(row_y), turned(row_z)), (
+        x + dot(row_x, place),
+        y + dot(row_y, place),
+        z + dot(row_z, place),
+    )
 
 
 def motion(joint: Joint, position: float) -> Pose:

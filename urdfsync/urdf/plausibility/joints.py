@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from urdfsync.urdf.kinematics.poses import compose, link_poses, own_range, pose, start_positions
+from urdfsync.urdf.kinematics.poses import Pose, compose, link_poses, own_range, pose, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.shapes import Body
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Origin, Vector
@@ -26,10 +26,15 @@ _LIGHT = 0.05
 _GRAVITY = 9.80665
 
 
-def find_impossible_joints(tree: KinematicTree, bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
-    """Yield a finding for each joint that cannot move as stated, in a robot of this length in m."""
+def find_impossible_joints(
+    tree: KinematicTree, bodies: Mapping[str, Body], length: float, poses: Mapping[str, Pose]
+) -> Iterator[Finding]:
+    """Yield a finding for each joint that cannot move as stated, in a robot of this length in m.
+
+    `poses` are those of the links with all joints at 0.
+    """
     yield from _check_efforts(tree)
-    yield from _check_loads(tree, bodies)
+    yield from _check_loads(tree, bodies, poses)
     yield from _check_followers(tree)
     for body in bodies.values():
         if body.mass and body.inertial:
@@ -50,7 +55,7 @@ def _check_efforts(tree: KinematicTree) -> Iterator[Finding]:
             yield Finding("zero-effort", f"joint {joint.name} / limit", message)
 
 
-def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[Finding]:
+def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping[str, Pose]) -> Iterator[Finding]:
     """Check that no drive is too weak for the weight behind its joint, in every position of the joint.
 
     The other joints are at their starts. Gravity acts along -z of the root. A source may tell which joints are driven.
@@ -58,7 +63,9 @@ def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[Fi
     if tree.loops:  # loops carry weight past a joint
         return
     starts, are_told = start_positions(tree), any(joint.actuated for joint in tree.joints)
-    poses, masses, moments = link_poses(tree, starts), dict[str, float](), dict[str, Vector]()
+    masses, moments = dict[str, float](), dict[str, Vector]()
+    if any(starts.values()):
+        poses = link_poses(tree, starts)
     for name, body in bodies.items():
         _, center = compose(poses[name], pose(body.inertial.origin)) if body.inertial else poses[name]
         masses[name], moments[name] = body.mass, (body.mass * center[0], body.mass * center[1], body.mass * center[2])

@@ -8,6 +8,7 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import ElementKey, Version
+from urdfsync.urdf.kinematics.poses import link_poses
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.bodies import find_impossible_bodies
 from urdfsync.urdf.plausibility.joints import find_impossible_joints
@@ -23,18 +24,18 @@ _JUMP = 9.99
 def judge(version: Version) -> Iterator[Diagnostic]:
     """Yield a finding for each implausible part of a valid robot; without imports, meshes have no size."""
     tree, imports = KinematicTree.of(version.snapshot), version.imports or {}
-    bodies, length = find_bodies(tree, imports), find_length(tree)
+    bodies, length, poses = find_bodies(tree, imports), find_length(tree), link_poses(tree, {})
     findings = [
         *find_large_meshes(tree, imports, length),
         *find_impossible_bodies(tree, bodies, length),
         *find_far_shapes(bodies, length),
-        *find_impossible_joints(tree, bodies, length),
+        *find_impossible_joints(tree, bodies, length, poses),
     ]
     odd = list(find_odd_ones(tree, bodies))
     faulty = {finding.path.partition(" / ")[0] for finding in (*findings, *odd)}
     told = {finding.path for finding in odd}
     findings += odd
-    findings += [finding for finding in find_asymmetries(tree, faulty) if finding.path not in told]
+    findings += [finding for finding in find_asymmetries(tree, poses, faulty) if finding.path not in told]
     for finding in findings:
         yield _diagnostic(finding)
 

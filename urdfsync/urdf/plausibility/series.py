@@ -7,7 +7,7 @@ the same distances behind them, about the same axes. Then equal masses and drive
 from __future__ import annotations
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
@@ -30,7 +30,7 @@ _DIGITS = 3
 """Distances in a row are equal to a millimetre, directions to a thousandth."""
 
 _Form: TypeAlias = tuple[object, ...]
-"""Type, axis and distance of a joint, and the forms of the joints behind it."""
+"""Type and axis of a joint, with places and forms of the joints behind it; equal forms get one number."""
 
 
 class _Number(NamedTuple):
@@ -45,26 +45,32 @@ class _Number(NamedTuple):
 
 def find_odd_ones(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[Finding]:
     """Yield a finding for each number of a link or joint that differs from all others of its row."""
-    forms, children = dict[str, _Form](), tree.children()
+    stems = {joint.child: _stem(joint.child) for joint in tree.joints}
+    common = {stem for stem, count in Counter(stems.values()).items() if count >= _FEWEST}
+    if not common:
+        return
+    forms, numbers, children = dict[str, int](), dict[_Form, int](), tree.children()
     for joint in reversed(tree.joints):
         behind = [(_distances(after.origin.xyz), forms[after.name]) for after in children.get(joint.child, ())]
-        forms[joint.name] = joint.type, _distances(joint.axis), *sorted(behind, key=repr)
-    rows, keys = defaultdict[_Form, list[Joint]](list), {tree.links[0].name: _Form()}
+        form = joint.type, _distances(joint.axis), *sorted(behind)
+        forms[joint.name] = numbers.setdefault(form, len(numbers))
+    rows, keys = defaultdict[_Form, list[Joint]](list), {tree.links[0].name: 0}
     for joint in tree.joints:
         # parts of a row have their own places on a common link, and the same place on links of a row
         is_branch = len(children[joint.parent]) > 1
         place = () if is_branch else _distances(joint.origin.xyz)
-        key = keys[joint.child] = keys[joint.parent], place, _stem(joint.child), forms[joint.name]
-        if joint.type in MOTION_KINDS:
-            rows[key].append(joint)
-    for row in rows.values():
-        if len(row) >= _FEWEST:
-            for number in _numbers(row, [bodies[joint.child] for joint in row]):
-                if finding := _odd_one(number, row):
+        row = keys[joint.parent], place, stems[joint.child], forms[joint.name]
+        keys[joint.child] = numbers.setdefault(row, len(numbers))
+        if joint.type in MOTION_KINDS and stems[joint.child] in common:
+            rows[row].append(joint)
+    for joints in rows.values():
+        if len(joints) >= _FEWEST:
+            for number in _numbers(joints, [bodies[joint.child] for joint in joints]):
+                if finding := _odd_one(number, joints):
                     yield finding
 
 
-def _distances(vector: Vector) -> _Form:
+def _distances(vector: Vector) -> tuple[float, ...]:
     """Return the distances of a point from the coordinate planes: mirrored parts have the same."""
     return tuple(round(abs(value), _DIGITS) for value in vector)
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, link_poses, own_range, pose, turned_inertia
+from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, own_range, pose, turned_inertia
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Inertial, Joint, Link, Mesh, Vector, Visual
 from urdfsync.urdf.validate import Finding
@@ -53,17 +53,17 @@ class _Side(NamedTuple):
     pose: Pose
 
 
-def find_asymmetries(tree: KinematicTree, faulty: Collection[str]) -> Iterator[Finding]:
+def find_asymmetries(tree: KinematicTree, poses: Mapping[str, Pose], faulty: Collection[str]) -> Iterator[Finding]:
     """Yield a finding for each difference of a link or joint from the mirror image of its other side.
 
-    `faulty` has the paths of elements with other findings, such as `link left_hip`: of two sides, the faulty one is
-    told as the wrong one.
+    `poses` are those of the links with all joints at 0. `faulty` has the paths of elements with other findings, such
+    as `link left_hip`: of two sides, the faulty one is told as the wrong one.
     """
     joints = {joint.child: joint for joint in tree.joints}
     names = [(name, across) for name in joints if (across := _other_side(name)) in joints and across < name]
     if not names:
         return
-    poses, links = link_poses(tree, {}), {link.name: link for link in tree.links}
+    links = {link.name: link for link in tree.links}
     sides = {name: _Side(links[name], joints[name], poses[name]) for pair in names for name in pair}
     pairs = [(sides[name], sides[across]) for name, across in names]
     plane = _plane_of(pairs)
