@@ -15,7 +15,7 @@ import trimesh
 from urdfsync.diagnostics import Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes.convert import convert
-from urdfsync.urdf.meshes.lookup import BOUNDS, HULL, key, target
+from urdfsync.urdf.meshes.lookup import BOUNDS, HULL, VOLUME, key, target
 from urdfsync.urdf.robot import Mesh, Vector
 
 BOX = trimesh.creation.box(bounds=[(0, 0, 0), (1, 2, 3)])
@@ -57,6 +57,13 @@ def test_other_formats_become_binary_stl(suffix: str) -> None:
     assert not conversion.content.startswith(b"solid")
     assert _volume(conversion.content) == pytest.approx(6)
     assert conversion.facts["bounds"] == [[0, 0, 0], [1, 2, 3]]
+    assert conversion.facts["volume"] == 6
+
+
+def test_an_open_mesh_has_no_volume() -> None:
+    box = trimesh.creation.box((1, 2, 3))
+    box.update_faces(range(10))
+    assert _convert("open.stl", box.export(file_type="stl")).facts["volume"] == 0
 
 
 UNUSED = b"v 0 0 0\nv 9 9 9\nv 1 0 0\nv 0 1 -1\nf 1 3 4\n"
@@ -68,7 +75,7 @@ def test_outermost_points_come_beside_the_same_bounds_if_they_are_needed(
     suffix: str, content: bytes, scale: Vector
 ) -> None:
     alone, both = (_convert("a" + suffix, content, scale, facts) for facts in ((BOUNDS,), (BOUNDS, HULL)))
-    assert alone.facts.keys() == {BOUNDS}
+    assert alone.facts.keys() == {BOUNDS, VOLUME}
     assert both.content == alone.content
     assert both.facts[BOUNDS] == alone.facts[BOUNDS]
     hull = np.array(both.facts[HULL])

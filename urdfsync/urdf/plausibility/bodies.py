@@ -172,16 +172,17 @@ def _check_center(body: Body, center: Vector, length: float) -> Iterator[Finding
 def _check_densities(bodies: Mapping[str, Body]) -> Iterator[Finding]:
     """Check that no body is denser than tungsten or lighter than air, where shapes around it tell its volume."""
     dense = {
-        name: body.mass / volume
+        name: body.mass / max(body.volumes)
         for name, body in bodies.items()
-        if body.inertial and body.gyration < body.radius < math.inf and (volume := body.volume) > _LEAST_VOLUME
+        if body.mass and body.gyration < body.radius and min(body.volumes, default=0.0) > _LEAST_VOLUME
     }
     usual = sorted(dense.values())[len(dense) // 2] if len(dense) > 1 else 0.0
     for name, density in dense.items():
-        mass, volume = bodies[name].mass, bodies[name].volume
-        if mass > _LIGHT and not _AIR <= density <= _TUNGSTEN:
+        mass, volumes = bodies[name].mass, bodies[name].volumes
+        volume = max(volumes) if density > _AIR else min(volumes)
+        if mass > _LIGHT and not (mass / min(volumes) >= _AIR and density <= _TUNGSTEN):
             message = f"link {name} / inertial: {mass:.4g} kg in shapes of {volume * 1000:.3g} l are "
-            message += f"{density:,.0f} kg/m³"
+            message += f"{mass / volume:,.0f} kg/m³"
             if _AIR <= usual <= _TUNGSTEN:
                 message += f"; as dense as other links, it would have {usual * volume:.3g} kg"
             yield Finding("density", f"link {name} / inertial / mass", message)

@@ -35,7 +35,7 @@ def judge(version: Version) -> Iterator[Diagnostic]:
     faulty = {finding.path.partition(" / ")[0] for finding in (*findings, *odd)}
     told = {finding.path for finding in odd}
     findings += odd
-    findings += [finding for finding in find_asymmetries(tree, poses, faulty) if finding.path not in told]
+    findings += [finding for finding in find_asymmetries(tree, bodies, poses, faulty) if finding.path not in told]
     for finding in findings:
         yield _diagnostic(finding)
 

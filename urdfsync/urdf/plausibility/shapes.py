@@ -75,12 +75,11 @@ class Body(NamedTuple):
         return max((math.dist(shape.center, center) + shape.reach for shape in shapes), default=0.0)
 
     @property
-    def volume(self) -> float:
-        """In m³: of the collision shapes, else of the visual ones; 0 if unknown."""
-        for shapes in (self.collisions, self.visuals):
-            if shapes and all(0 < shape.volume < math.inf for shape in shapes):
-                return sum(shape.volume for shape in shapes)
-        return 0.0
+    def volumes(self) -> list[float]:
+        """In m³: of the visual shapes, and of the collision shapes, which may be simplified; empty if one is unknown."""
+        groups = [group for group in (self.visuals, self.collisions) if group]
+        are_known = all(0 < shape.volume < math.inf for group in groups for shape in group)
+        return [sum(shape.volume for shape in group) for group in groups] if are_known else []
 
 
 def find_length(tree: KinematicTree) -> float:

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, own_range, pose, turned_inertia
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.plausibility.shapes import Body
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Inertial, Joint, Link, Mesh, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
@@ -27,6 +28,8 @@ _NEAR, _PLACE = 0.004, 0.01
 """Mirrored points differ by 4 mm, by a tenth of a link's size, or by a hundredth of the distance of two sides."""
 _ANGLE = 0.1
 """In rad or m: the greatest difference of mirrored limits."""
+_SIZE = 1.5
+"""Sizes of mirrored shapes differ by this factor at most: their meshes may show other details."""
 _LIGHT = 0.05
 """In kg: screws and washers need not be mirrored."""
 _LEAST = 0.01
@@ -53,7 +56,9 @@ class _Side(NamedTuple):
     pose: Pose
 
 
-def find_asymmetries(tree: KinematicTree, poses: Mapping[str, Pose], faulty: Collection[str]) -> Iterator[Finding]:
+def find_asymmetries(
+    tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping[str, Pose], faulty: Collection[str]
+) -> Iterator[Finding]:
     """Yield a finding for each difference of a link or joint from the mirror image of its other side.
 
     `poses` are those of the links with all joints at 0. `faulty` has the paths of elements with other findings, such
@@ -71,6 +76,7 @@ def find_asymmetries(tree: KinematicTree, poses: Mapping[str, Pose], faulty: Col
         if plane is not None and _lie_in(plane, one, other):
             yield from _compare_bodies(plane, *_faulty_first("link", one, other, faulty))
             yield from _compare_joints(plane, *_faulty_first("joint", one, other, faulty))
+            yield from _compare_shapes(bodies[one.link.name], bodies[other.link.name])
 
 
 def _faulty_first(kind: str, one: _Side, other: _Side, faulty: Collection[str]) -> tuple[_Side, _Side]:
@@ -187,6 +193,15 @@ def _compare_joints(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
         message = f"{sides}: it moves from {lower:.4g} to {upper:.4g}, the mirror image of the other"
         message += f" from {others_lower:.4g} to {others_upper:.4g}"
         yield Finding("not-mirrored", f"joint {mine.name} / limit", message)
+
+
+def _compare_shapes(one: Body, other: Body) -> Iterator[Finding]:
+    """Compare the sizes of visual shapes; a mesh that is not in the package has none."""
+    sizes = [max((shape.reach for shape in body.visuals), default=0.0) for body in (one, other)]
+    if min(sizes) > _LEAST and max(sizes) < math.inf and max(sizes) > _SIZE * min(sizes):
+        message = f"link {one.link.name!r} is no mirror image of {other.link.name!r}: "
+        message += f"its shapes reach {sizes[0]:.3g} m, not {sizes[1]:.3g}"
+        yield Finding("not-mirrored", f"link {one.link.name} / visual 1", message)
 
 
 def _are_alike(a: float, b: float) -> bool:
