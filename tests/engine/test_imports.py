@@ -250,9 +250,8 @@ def test_missing_meshes_are_one_warning_for_each_package(workspace: Path) -> Non
     source.write_text(source.read_text().replace('<mass value="', '<mass value="1'))
     jump, *others = told()
     assert others == warnings
-    assert jump.startswith(
-        "warning: since this export: link drive_pinion: its mass jumps, 0.045 kg → 10.045 kg (and 5 more like it); "
-    )
+    words = "link drive_pinion: its mass jumps, 0.045 kg → 10.045 kg (and 5 more like it); "
+    assert jump.startswith(f"warning: since this export: {words}")
     assert told(full=True) == warnings
 
 

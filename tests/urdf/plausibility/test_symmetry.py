@@ -105,3 +105,15 @@ def test_real_robots(file: str) -> None:
     """Judged by hand: one of the 42 has legs and arms with other masses on both sides."""
     codes = {one.code for one in read((FOLDER / file).read_bytes()).diagnostics}
     assert ("not-mirrored" in codes) == file.endswith("/robotisOP2.urdf")
+
+
+def test_shapes_of_another_size_are_told() -> None:
+    small, large = (f'<visual><geometry><sphere radius="{radius}"/></geometry></visual>' for radius in (0.05, 0.08))
+    (found,) = told(left_hip=LEFT._replace(shape=small), right_hip=RIGHT._replace(shape=large))
+    assert found == "link 'right_hip' is no mirror image of 'left_hip': its shapes reach 0.08 m, not 0.05"
+    assert told(left_hip=LEFT._replace(shape=small), right_hip=RIGHT._replace(shape=small)) == []
+
+
+def test_of_two_sides_the_impossible_one_is_told_as_wrong() -> None:
+    (found,) = told(left_hip=LEFT._replace(mass=2.5, products=(0.1, 0, 0)), right_hip=RIGHT)
+    assert found.startswith("link 'left_hip' is no mirror image of 'right_hip': its mass is 2.5 kg")

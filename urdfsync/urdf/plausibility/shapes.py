@@ -76,7 +76,7 @@ class Body(NamedTuple):
 
     @property
     def volumes(self) -> list[float]:
-        """In m³: of the visual shapes, and of the collision shapes, which may be simplified; empty if one is unknown."""
+        """In m³: of the visual and of the collision shapes, which may be simplified; empty if one is unknown."""
         groups = [group for group in (self.visuals, self.collisions) if group]
         are_known = all(0 < shape.volume < math.inf for group in groups for shape in group)
         return [sum(shape.volume for shape in group) for group in groups] if are_known else []
