@@ -97,6 +97,17 @@ def test_nothing_edited_has_no_mark(arm: Path, report: Report) -> None:
     assert "without your edits" not in page.words
 
 
+def test_a_part_with_a_finding_is_marked(arm: Path, report: Report) -> None:
+    cli.main(["build", "--quiet"])
+    assert data_of(read(report()))["findings"] == {}
+    arm.write_text(arm.read_text().replace('effort="280"', 'effort="0"'))
+    findings = data_of(read(report()))["findings"]
+    words = "since this export: joint shoulder / limit has effort = 0: no drive moves it; another joint has 180"
+    assert {name: [text[: len(words)] for text in texts] for name, texts in findings.items()} == {
+        "joint shoulder": [words]
+    }
+
+
 def test_in_a_conflict_the_diagram_shows_the_text_that_stays(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     numbers = Path("modelica/Arm/Links/ForearmParameters.mo")

@@ -79,8 +79,7 @@ function say(words) {
   const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : `This ${data.now.noun} has no shapes: its frames are shown.`;
   const passed = page.now.scene.hinges.filter((hinge) => isBeyond(hinge, page.positions.get(hinge.element))).map((hinge) => nameOf(hinge.element));
   const alarm = passed.length ? `Beyond the limits: ${passed.join(", ")}` : "";
-  const finding = data.findings[page.selected]?.[0];
-  element("told").textContent = [words || page.ruler?.words() || page.selected || bare, !words && finding, alarm].filter(Boolean).join(" · ");
+  element("told").textContent = [words || page.ruler?.words() || page.selected || bare, alarm].filter(Boolean).join(" · ");
   element("told").classList.toggle("removed", alarm !== "");
 }
 
