@@ -45,10 +45,10 @@ def find_impossible_joints(
 
 
 def _check_efforts(tree: KinematicTree) -> Iterator[Finding]:
-    """Check that no joint has an effort of 0 beside others with more; a source may tell which joints are driven."""
+    """Check that no joint has an effort of 0 beside others with more; a source may tell all joints that are driven."""
     efforts = {joint.name: joint.limit.effort for joint in tree.joints if joint.limit and not joint.mimic}
     greatest = max((effort for effort in efforts.values() if effort), default=0.0)
-    are_told = any(joint.actuated for joint in tree.joints)
+    are_told = all(joint.actuated for joint in tree.joints if efforts.get(joint.name))
     for joint in tree.joints if greatest else ():
         if efforts.get(joint.name) == 0 and (joint.actuated or not are_told):
             message = f"joint {joint.name} / limit has effort = 0: no drive moves it; another joint has {greatest:g}"
