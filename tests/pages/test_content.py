@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.git import NEEDS_GIT, Repository
@@ -101,7 +102,7 @@ def test_a_part_with_a_finding_is_marked(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     assert data_of(read(report()))["findings"] == {}
     arm.write_text(arm.read_text().replace('effort="280"', 'effort="0"'))
-    findings = data_of(read(report()))["findings"]
+    findings: Any = data_of(read(report()))["findings"]
     words = "since this export: joint shoulder / limit has effort = 0: no drive moves it; another joint has 180"
     assert {name: [text[: len(words)] for text in texts] for name, texts in findings.items()} == {
         "joint shoulder": [words]

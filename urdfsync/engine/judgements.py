@@ -43,13 +43,12 @@ def judge(
     if judgements is None:
         return []
     findings = list(judgements.judge(now))
-    if last is not None and findings:
-        known = set(_known(judgements, last, renames or {}))
-        findings = [
-            msgspec.structs.replace(finding, is_new=(finding.code, finding.element) not in known)
-            for finding in findings
-        ]
-    return _placed(findings, reading, file)
+    if last is None or not findings:
+        return [_placed(finding, reading, file) for finding in findings]
+    known = set(_known(judgements, last, renames or {}))
+    return [
+        _placed(finding, reading, file, is_new=(finding.code, finding.element) not in known) for finding in findings
+    ]
 
 
 def find_jumps(
@@ -58,12 +57,12 @@ def find_jumps(
     """Return the judgements about the differences of two models, all of them new."""
     judgements: Judgements | None = domain.judgements
     jumps = judgements.find_jumps(last, now, renames) if judgements else ()
-    return _placed([msgspec.structs.replace(jump, is_new=True) for jump in jumps], reading, file)
+    return [_placed(jump, reading, file, is_new=True) for jump in jumps]
 
 
-def _placed(findings: Iterable[Diagnostic], reading: Reading, file: str) -> list[Diagnostic]:
-    placed = [(finding, *reading.place(finding.element, file)) for finding in findings]
-    return [msgspec.structs.replace(finding, file=place, line=line) for finding, place, line in placed]
+def _placed(finding: Diagnostic, reading: Reading, file: str, *, is_new: bool = False) -> Diagnostic:
+    place, line = reading.place(finding.element, file)
+    return msgspec.structs.replace(finding, file=place, line=line, is_new=is_new)
 
 
 def _known(judgements: Judgements, last: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, str]]:

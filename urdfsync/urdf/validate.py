@@ -211,11 +211,17 @@ class Finding(NamedTuple):
 
 
 def diagnostic(
-    code: str, message: str, line: int, hint: str = "", column: int = 0, details: tuple[str, ...] = ()
+    code: str,
+    message: str,
+    line: int,
+    hint: str = "",
+    column: int = 0,
+    details: tuple[str, ...] = (),
+    element: str = "",
 ) -> Diagnostic:
     """Return a diagnostic with the severity and the advice of its code; the caller adds the file."""
     severity, advice = ADVICE[code]
-    return Diagnostic(severity, code, message, "", line, column, hint or advice, details)
+    return Diagnostic(severity, code, message, "", line, column, hint or advice, details, element)
 
 
 def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:

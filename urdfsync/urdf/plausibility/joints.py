@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from urdfsync.urdf.kinematics.poses import Pose, compose, link_poses, own_range, pose, start_positions
+from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, dot, link_poses, own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.shapes import Body
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Origin, Vector
@@ -63,33 +63,47 @@ def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping
     if tree.loops:  # loops carry weight past a joint
         return
     starts, are_told = start_positions(tree), any(joint.actuated for joint in tree.joints)
-    masses, moments = dict[str, float](), dict[str, Vector]()
     if any(starts.values()):
         poses = link_poses(tree, starts)
+    masses, moments = dict[str, float](), dict[str, Vector]()
     for name, body in bodies.items():
-        _, center = compose(poses[name], pose(body.inertial.origin)) if body.inertial else poses[name]
-        masses[name], moments[name] = body.mass, (body.mass * center[0], body.mass * center[1], body.mass * center[2])
+        masses[name], moments[name] = body.mass, (0.0, 0.0, 0.0)
+        if body.inertial and body.mass:
+            _, (x, y, z) = compose(poses[name], (IDENTITY[0], body.inertial.origin.xyz))
+            moments[name] = body.mass * x, body.mass * y, body.mass * z
     for joint in reversed(tree.joints):
-        mass, (rotation, place) = masses[joint.child], poses[joint.child]
-        x, y, z = (moment - mass * at for moment, at in zip(moments[joint.child], place, strict=True))
-        effort = joint.limit.effort if joint.limit and not joint.mimic else None
-        a, b, c = (sum(row[k] * joint.axis[k] for k in range(3)) for row in rotation)
-        least, unit = 0.0, "N"
-        if not effort:
-            pass
-        elif MOTION_KINDS.get(joint.type) == "translational":
-            least = _GRAVITY * mass * abs(c)
-        elif MOTION_KINDS.get(joint.type) == "rotational":
-            # the moment about the axis changes as a sine of the position; `across` is its derivative
-            unit, along = "N·m", _GRAVITY * (b * x - a * y)
-            across = _GRAVITY * ((a * a + b * b) * z - c * (a * x + b * y))
-            least = _least_sine(along, across, starts[joint.name], own_range(joint))
-        if effort and least > effort and (joint.actuated or not are_told):
-            message = f"joint {joint.name} / limit has effort = {effort:g}: the weight behind the joint takes "
-            message += f"{least:.4g} {unit} or more in each of its positions"
-            yield Finding("weak-effort", f"joint {joint.name} / limit", message)
+        mass, moment = masses[joint.child], moments[joint.child]
         masses[joint.parent] += mass
-        moments[joint.parent] = tuple(map(sum, zip(moments[joint.parent], moments[joint.child], strict=True)))  # type: ignore[assignment]
+        x, y, z = moments[joint.parent]
+        moments[joint.parent] = x + moment[0], y + moment[1], z + moment[2]
+        effort = joint.limit.effort if joint.limit and not joint.mimic else None
+        if not effort or not (joint.actuated or not are_told):
+            continue
+        turns = MOTION_KINDS.get(joint.type) == "rotational"
+        least = _least_load(joint, mass, moment, poses[joint.child], starts[joint.name])
+        if least > effort:
+            message = f"joint {joint.name} / limit has effort = {effort:g}: the weight behind the joint takes "
+            message += f"{least:.4g} {'N·m' if turns else 'N'} or more in each of its positions"
+            yield Finding("weak-effort", f"joint {joint.name} / limit", message)
+
+
+def _least_load(joint: Joint, mass: float, moment: Vector, at: Pose, start: float) -> float:
+    """Return the least weight that a joint carries in all its positions, in N or N·m.
+
+    `mass` and `moment` (mass times centre of mass) are those behind the joint, `at` is the pose of its child link; all
+    of them with the joint at `start`.
+    """
+    (row_x, row_y, row_z), (at_x, at_y, at_z) = at
+    a, b, c = dot(row_x, joint.axis), dot(row_y, joint.axis), dot(row_z, joint.axis)
+    if MOTION_KINDS.get(joint.type) == "translational":
+        return _GRAVITY * mass * abs(c)
+    if joint.type != "revolute":
+        return 0.0  # a joint without limits can hang down
+    x, y, z = moment[0] - mass * at_x, moment[1] - mass * at_y, moment[2] - mass * at_z
+    # the moment about the axis changes as a sine of the position; `slope` is its derivative
+    value = _GRAVITY * (b * x - a * y)
+    slope = _GRAVITY * ((a * a + b * b) * z - c * (a * x + b * y))
+    return _least_sine(value, slope, start, own_range(joint))
 
 
 def _least_sine(value: float, slope: float, start: float, limits: tuple[float, float]) -> float:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-import msgspec
-
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import ElementKey, Version
 from urdfsync.urdf.kinematics.poses import link_poses
@@ -56,5 +54,4 @@ def find_jumps(old: Version, new: Version, renames: Mapping[ElementKey, str]) ->
 
 
 def _diagnostic(finding: Finding) -> Diagnostic:
-    told = diagnostic(finding.code, finding.message, 0, finding.hint)
-    return msgspec.structs.replace(told, element=finding.path)
+    return diagnostic(finding.code, finding.message, 0, finding.hint, element=finding.path)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from urdfsync.domain import Import, further_key
-from urdfsync.urdf.kinematics.poses import dot, pose
+from urdfsync.urdf.kinematics.poses import IDENTITY, compose, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import BOUNDS, PARTS, VOLUME, key, mesh
 from urdfsync.urdf.robot import (
@@ -54,25 +54,12 @@ class Body(NamedTuple):
     visuals: tuple[Extent, ...]
     collisions: tuple[Extent, ...]
 
-    @property
-    def mass(self) -> float:
-        """In kg; 0 without an `<inertial>`."""
-        return self.inertial.mass if self.inertial else 0.0
-
-    @property
-    def gyration(self) -> float:
-        """In m: the root mean square distance of the mass from its centre; 0 without mass or inertia."""
-        if self.inertial is None or not self.inertial.mass:
-            return 0.0
-        inertia = self.inertial.inertia
-        return math.sqrt(max(inertia.ixx + inertia.iyy + inertia.izz, 0.0) / 2 / self.inertial.mass)
-
-    @property
-    def radius(self) -> float:
-        """In m: the reach of all shapes from the centre of mass; infinite if unknown, 0 without shapes."""
-        center = self.inertial.origin.xyz if self.inertial else (0.0, 0.0, 0.0)
-        shapes = (*self.visuals, *self.collisions)
-        return max((math.dist(shape.center, center) + shape.reach for shape in shapes), default=0.0)
+    mass: float
+    """In kg; 0 without an `<inertial>`."""
+    gyration: float
+    """In m: the root mean square distance of the mass from its centre; 0 without mass or inertia."""
+    radius: float
+    """In m: the reach of all shapes from the centre of mass; infinite if unknown, 0 without shapes."""
 
     @property
     def volumes(self) -> list[float]:
@@ -92,28 +79,30 @@ def find_length(tree: KinematicTree) -> float:
 
 def find_bodies(tree: KinematicTree, imports: Mapping[str, Import]) -> Mapping[str, Body]:
     """Return the bodies of links by name; `imports` have the facts of meshes."""
-    largest = _largest(find_length(tree))
+    largest, bodies = _largest(find_length(tree)), {}
+    for link in tree.links:
+        visuals = tuple(_extent(shape, imports, largest) for shape in link.visuals)
+        collisions = tuple(_extent(shape, imports, largest) for shape in link.collisions)
+        mass, gyration, center = 0.0, 0.0, (0.0, 0.0, 0.0)
+        if link.inertial is not None:
+            mass, center, inertia = link.inertial.mass, link.inertial.origin.xyz, link.inertial.inertia
+            gyration = math.sqrt(max(inertia.ixx + inertia.iyy + inertia.izz, 0.0) / 2 / mass) if mass else 0.0
+        radii = (math.dist(shape.center, center) + shape.reach for shape in (*visuals, *collisions))
+        bodies[link.name] = Body(link, link.inertial, visuals, collisions, mass, gyration, max(radii, default=0.0))
+    return bodies
 
-    def extent(shape: Visual | Collision) -> Extent:
-        geometry, center, reach, volume = shape.geometry, (0.0, 0.0, 0.0), math.inf, math.inf
-        if not isinstance(geometry, Mesh):
-            reach, volume = _reach(geometry), _volume(geometry)
-        elif found := _measured(geometry, imports):
-            (lower, upper), volume = found
-            size = math.dist(lower, upper)
-            if size <= largest:
-                x, y, z = ((a + b) / 2 for a, b in zip(lower, upper, strict=True))
-                center, reach = (x, y, z), size / 2
-            else:
-                volume = math.inf  # a mesh in another unit tells nothing about its body
-        rotation, place = pose(shape.origin)
-        x, y, z = (p + dot(row, center) for p, row in zip(place, rotation, strict=True))
-        return Extent((x, y, z), reach, volume)
 
-    return {
-        link.name: Body(link, link.inertial, tuple(map(extent, link.visuals)), tuple(map(extent, link.collisions)))
-        for link in tree.links
-    }
+def _extent(shape: Visual | Collision, imports: Mapping[str, Import], largest: float) -> Extent:
+    """Return the extent of a shape; a mesh larger than `largest` is in another unit, and its size unknown."""
+    geometry, place = shape.geometry, shape.origin.xyz
+    if not isinstance(geometry, Mesh):
+        return Extent(place, _reach(geometry), _volume(geometry))
+    (lower, upper), volume = _measured(geometry, imports) or (((), ()), math.inf)
+    size = math.dist(lower, upper)
+    if not lower or size > largest:
+        return Extent(place, math.inf, math.inf)
+    x, y, z = ((a + b) / 2 for a, b in zip(lower, upper, strict=True))
+    return Extent(compose(pose(shape.origin), (IDENTITY[0], (x, y, z)))[1], size / 2, volume)
 
 
 def find_far_shapes(bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
