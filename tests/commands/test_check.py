@@ -70,6 +70,11 @@ def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeyp
     assert checker.options == msgspec.structs.replace(chosen, timeout=12.5, memory=4.0, wait=7.0)
 
 
+def test_a_compiler_has_its_title_as_well(checker: Checker) -> None:
+    assert cli.main(["check", "--tool", "openmodelica"]) == 0
+    assert checker.options == msgspec.structs.replace(checker.options, tools=(Tool("omc"),))
+
+
 def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capture) -> None:
     with (project / "urdfsync.toml").open("a") as file:
         file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')

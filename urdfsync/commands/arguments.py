@@ -7,6 +7,7 @@ import itertools
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias, TypeVar, cast, get_args
 
@@ -162,7 +163,14 @@ def add_tool(parser: Parser, titles: Mapping[str, str]) -> None:
     """Add the option `--tool`; `titles` has the compiler's name for each of its values."""
     *names, last = (name if name == title else f"{name} for {title}" for name, title in titles.items())
     which = f"the compiler: {', '.join(names)}, or {last}"
-    parser.add_argument("--tool", choices=tuple(titles), help=f"{which} (default: as configured, else {names[0]})")
+    what = f"{which} (default: as configured, else {names[0]})"
+    parser.add_argument("--tool", choices=tuple(titles), type=partial(_tool_name, titles), help=what)
+
+
+def _tool_name(titles: Mapping[str, str], text: str) -> str:
+    """Return the value of `--tool` for a value or a title in any case: `omc` for `OpenModelica`."""
+    by_title = {title.lower(): name for name, title in titles.items()}
+    return by_title.get(text.lower(), text)
 
 
 def select_robots(args: argparse.Namespace, configuration: Config, console: Console) -> Sequence[RobotConfig]:
