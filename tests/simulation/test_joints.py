@@ -61,6 +61,13 @@ def test_infinite_limits_are_none() -> None:
     assert found.position == Range("elbow.phi", "rad", 0.0, 1e6, None, None)
 
 
+def test_a_body_with_angles_is_no_numbered_robot() -> None:
+    """`Body` of the standard library has `phi[1]`, but not the other variables of the generic robot."""
+    numbered = [Axis(ELBOW.element, Signal("phi[1]", "rad"), Signal("w_phi[1]", "rad/s"))]
+    names = "time robot.elbow.phi robot.elbow.w robot.base.body.phi[1] robot.base.body.w_a[1]".split()
+    assert robots([[ELBOW], numbered], dict.fromkeys(names, (0.0,))) == [("robot", [ELBOW])]
+
+
 def test_robots_are_found_wherever_they_are() -> None:
     names = ["cell.left.elbow.phi", "cell.left.wrist.phi", "right.elbow.phi", "right.wrist.phi", "puppet.elbow.phi"]
     series = dict.fromkeys((*names, "time", "myelbow.phi"), (0.0,))
