@@ -75,7 +75,7 @@ def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]
             for name in series:
                 if name == axis.position.variable or name.endswith(f".{axis.position.variable}"):
                     place = name.removesuffix(axis.position.variable).removesuffix(".")
-                    # a body of the standard library has angles `phi[1]`, as the generic robot has, but no speeds of them
+                    # a body of the standard library has angles `phi[1]`, as the generic robot has, but no speeds
                     count = 1 + (_below(place, axis.velocity.variable) in series)
                     shares[place, number] = shares.get((place, number), 0.0) + count / len(layout)
     most = max(shares.values(), default=0.0)
