@@ -91,9 +91,9 @@ ROD = '<box size="0.04 0.04 0.6"/>'
 ])  # fmt: skip
 def test_an_inertia_about_the_frame_of_the_link_is_told(tensor: tuple[float, float, float], is_told: bool) -> None:
     text = robot(BASE, body(3, "0 0 0.3", tensor, ROD, "0 0 0.3"), TURN)
-    told = [one.message for one in read(text.encode()).diagnostics if one.code == "inertia-size"]
+    told = [one.message for one in read(text.encode()).diagnostics if one.code == "inertia-shape"]
     assert [message.partition(": ")[2] for message in told] == (
-        ["the inertia fits the shape about the link's origin, not about the centre of mass"] if is_told else []
+        ["the inertia fits the shapes about the link's origin, not about the centre of mass"] if is_told else []
     )
 
 
@@ -109,7 +109,7 @@ def test_a_small_collision_shape_tells_no_density() -> None:
     (42.0, {"bounds": [[0, 0, 0], [0.1, 0.1, 0.1]], "volume": 0.0}, []),  # an open mesh has no volume
     (42.0, {}, []),
     (0.06, {"bounds": [[0, 0, 0], [0.5, 0.5, 0.5]], "volume": 0.1}, ["density"]),
-    (2.0, {"bounds": [[400, 0, 0], [400.1, 0.1, 0.1]], "volume": 0.0008}, ["length-unit"]),
+    (2.0, {"bounds": [[400, 0, 0], [400.1, 0.1, 0.1]], "volume": 0.0008}, ["center-of-mass"]),
 ])  # fmt: skip
 def test_an_imported_mesh_tells_the_size_of_its_body(mass: float, facts: dict[str, object], codes: list[str]) -> None:
     mesh = '<mesh filename="package://p/arm.stl"/>'

@@ -56,8 +56,8 @@ def test_names_propose_pairs(left: str, right: str) -> None:
 
 
 @pytest.mark.parametrize(("right", "words"), [
-    (RIGHT._replace(mass=3.0), "its mass is 3 kg, not 2"),
-    (RIGHT._replace(mass=0.0), "its mass is 0 kg, not 2"),
+    (RIGHT._replace(mass=3.0), "its mass is 3 kg, that of the other 2"),
+    (RIGHT._replace(mass=0.0), "its mass is 0 kg, that of the other 2"),
     (RIGHT._replace(products=LEFT.products), "an element of the inertia is 0.002 kg·m² beside its mirror image"),
     (RIGHT._replace(axis="1 0 0"), "its axis has another direction"),
 ])  # fmt: skip
@@ -67,9 +67,9 @@ def test_a_difference_is_told(right: Leg, words: str) -> None:
 
 
 @pytest.mark.parametrize(("left", "right", "words"), [
-    (limit(effort=20), limit(effort=10), "its effort is 10, not 20"),
-    (limit(velocity=3), limit(velocity=4), "its velocity is 4, not 3"),
-    (dynamics(1, 2), dynamics(1, 3), "its friction is 3, not 2"),
+    (limit(effort=20), limit(effort=10), "its effort is 10, that of the other 20"),
+    (limit(velocity=3), limit(velocity=4), "its velocity is 4, that of the other 3"),
+    (dynamics(1, 2), dynamics(1, 3), "its friction is 3, that of the other 2"),
     (limit(-0.5, 2), limit(-2, 0.5), "moves from -2 to 0.5, the mirror image of the other from -0.5 to 2"),
 ])  # fmt: skip
 def test_joints_are_compared_too(left: str, right: str, words: str) -> None:
@@ -110,7 +110,9 @@ def test_real_robots(file: str) -> None:
 def test_shapes_of_another_size_are_told() -> None:
     small, large = (f'<visual><geometry><sphere radius="{radius}"/></geometry></visual>' for radius in (0.05, 0.08))
     (found,) = told(left_hip=LEFT._replace(shape=small), right_hip=RIGHT._replace(shape=large))
-    assert found == "link 'right_hip' is no mirror image of 'left_hip': its shapes reach 0.08 m, not 0.05"
+    assert (
+        found == "link 'right_hip' is no mirror image of 'left_hip': its shapes reach 0.08 m, those of the other 0.05"
+    )
     assert told(left_hip=LEFT._replace(shape=small), right_hip=RIGHT._replace(shape=small)) == []
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, dot, link_poses, own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.shapes import Body
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Origin, Vector
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Cylinder, Joint, Origin, Sphere, Vector
 from urdfsync.urdf.validate import Finding
 
 _LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
@@ -24,6 +25,12 @@ _FOLLOWED = 0.02
 _LIGHT = 0.05
 """In kg: a slide of a lighter part may let a whole robot move anywhere."""
 _GRAVITY = 9.80665
+_SLOW, _FAST = 30, 720
+"""In degrees per second: usual velocities of arms."""
+_LONGEST_WAY = 300
+"""In s: a drive that takes longer over its range, or a turn, does not move its joint."""
+_UNBALANCED = 0.05
+"""In radii: the greatest distance of a wheel's centre of mass from its axis."""
 
 
 def find_impossible_joints(
@@ -34,6 +41,10 @@ def find_impossible_joints(
     `poses` are those of the links with all joints at 0.
     """
     yield from _check_efforts(tree)
+    yield from _check_exchanged(tree)
+    yield from _check_speeds(tree)
+    yield from _check_losses(tree)
+    yield from _check_wheels(tree, bodies)
     yield from _check_loads(tree, bodies, poses)
     yield from _check_followers(tree)
     for body in bodies.values():
@@ -53,6 +64,66 @@ def _check_efforts(tree: KinematicTree) -> Iterator[Finding]:
         if efforts.get(joint.name) == 0 and (joint.actuated or not are_told):
             message = f"joint {joint.name} / limit has effort = 0: no drive moves it; another joint has {greatest:g}"
             yield Finding("zero-effort", f"joint {joint.name} / limit", message)
+
+
+def _check_exchanged(tree: KinematicTree) -> Iterator[Finding]:
+    """Check that no joint has the effort of the others as velocity, and their velocity as effort."""
+    pairs = {joint.name: (joint.limit.effort, joint.limit.velocity) for joint in tree.joints if joint.limit}
+    (common, count), *_ = Counter(pairs.values()).most_common(1) or [((0.0, 0.0), 0)]
+    for name, (effort, velocity) in pairs.items() if count > 1 and common[0] != common[1] else ():
+        if (velocity, effort) == common:
+            message = f"joint {name} / limit has effort = {effort:g} and velocity = {velocity:g}, "
+            message += f"but {count} other joints {velocity:g} and {effort:g}"
+            yield Finding("limits-exchanged", f"joint {name} / limit", message)
+
+
+def _check_speeds(tree: KinematicTree) -> Iterator[Finding]:
+    """Check that velocities are not in degrees per second, as whole numbers would show; equal ones are placeholders."""
+    limits = {joint.name: joint.limit for joint in tree.joints if joint.type == "revolute" and joint.limit}
+    speeds = [limit.velocity or 0.0 for limit in limits.values()]
+    are_whole = all(_SLOW <= speed <= _FAST and speed.is_integer() for speed in speeds)
+    if are_whole and len(set(speeds)) > 1:
+        place = f"joint {next(iter(limits))} / limit"
+        message = f"{place}: velocities of {min(speeds):g} to {max(speeds):g} rad/s may be in degrees per second"
+        yield Finding("angle-unit", place, message)
+
+
+def _check_losses(tree: KinematicTree) -> Iterator[Finding]:
+    """Check that no loss holds a joint against the whole effort of its drive."""
+    for joint in tree.joints:
+        effort, losses = joint.limit.effort if joint.limit else 0.0, joint.dynamics
+        lower, upper = own_range(joint)
+        seconds = losses.damping * min(upper - lower, math.tau) / effort if losses and effort else 0.0
+        if losses and effort and losses.friction > effort:
+            words = f"does not overcome its friction of {losses.friction:g}"
+        elif losses and seconds > _LONGEST_WAY:
+            words = f"takes {seconds:.3g} s for its way, against a damping of {losses.damping:g}"
+        else:
+            continue
+        message = f"joint {joint.name} / dynamics: with its whole effort of {effort:g}, the joint {words}"
+        yield Finding("stuck", f"joint {joint.name} / dynamics", message)
+
+
+def _check_wheels(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[Finding]:
+    """Check that wheels are balanced: round links at the ends of continuous joints."""
+    parents = {joint.parent for joint in tree.joints}
+    for joint in tree.joints:
+        body = bodies[joint.child]
+        shapes = body.link.collisions or body.link.visuals
+        if joint.type == "continuous" and joint.child not in parents and len(shapes) == 1 and body.mass > _LIGHT:
+            geometry = shapes[0].geometry
+            radius = geometry.radius if isinstance(geometry, Cylinder | Sphere) else 0.0
+            center = body.inertial.origin.xyz if body.inertial else (0.0, 0.0, 0.0)
+            on_axis, off_axis = (_from_axis(joint.axis, point) for point in (shapes[0].origin.xyz, center))
+            if on_axis < _SAME * radius and off_axis > _UNBALANCED * radius:
+                message = f"link {joint.child} / inertial: the centre of mass of a wheel of {radius:g} m is "
+                message += f"{off_axis:.3g} m beside its axis"
+                yield Finding("unbalanced", f"link {joint.child} / inertial / origin", message)
+
+
+def _from_axis(axis: Vector, point: Vector) -> float:
+    """Return the distance of a point from the line along a unit vector through the origin."""
+    return math.sqrt(max(dot(point, point) - dot(axis, point) ** 2, 0.0))
 
 
 def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping[str, Pose]) -> Iterator[Finding]:

@@ -11,7 +11,13 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.bodies import find_impossible_bodies
 from urdfsync.urdf.plausibility.joints import find_impossible_joints
 from urdfsync.urdf.plausibility.series import find_odd_ones
-from urdfsync.urdf.plausibility.shapes import find_bodies, find_far_shapes, find_large_meshes, find_length
+from urdfsync.urdf.plausibility.shapes import (
+    find_bodies,
+    find_displaced_collisions,
+    find_far_shapes,
+    find_large_meshes,
+    find_length,
+)
 from urdfsync.urdf.plausibility.symmetry import find_asymmetries
 from urdfsync.urdf.validate import Finding, diagnostic
 
@@ -27,6 +33,7 @@ def judge(version: Version) -> Iterator[Diagnostic]:
         *find_large_meshes(tree, imports, length),
         *find_impossible_bodies(tree, bodies, length),
         *find_far_shapes(bodies, length),
+        *find_displaced_collisions(bodies),
         *find_impossible_joints(tree, bodies, length, poses),
     ]
     odd = list(find_odd_ones(tree, bodies))

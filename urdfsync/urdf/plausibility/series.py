@@ -52,7 +52,8 @@ def find_odd_ones(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[F
     forms, numbers, children = dict[str, int](), dict[_Form, int](), tree.children()
     for joint in reversed(tree.joints):
         behind = [(_distances(after.origin.xyz), forms[after.name]) for after in children.get(joint.child, ())]
-        form = joint.type, _distances(joint.axis), *sorted(behind)
+        # a driven wheel among passive ones is another part
+        form = joint.type, joint.actuated, joint.limit is None, _distances(joint.axis), *sorted(behind)
         forms[joint.name] = numbers.setdefault(form, len(numbers))
     rows, keys = defaultdict[_Form, list[Joint]](list), {tree.links[0].name: 0}
     for joint in tree.joints:

@@ -27,6 +27,8 @@ from urdfsync.urdf.validate import Finding
 
 _FAR, _FAR_AWAY = 10, 2
 """A shape is too far from its link if its distance exceeds ten lengths of the robot and two metres."""
+_BESIDE, _BESIDE_PART = 0.01, 0.2
+"""A collision shape is beside an equal visual shape by 1 cm and a fifth of its reach."""
 _TOO_LARGE, _LARGEST = 20, 2.0
 """A mesh of more than 20 lengths of the robot and more than 2 m is probably in another unit."""
 _SCALES = (0.001, 0.01, 0.0254)
@@ -96,13 +98,13 @@ def _extent(shape: Visual | Collision, imports: Mapping[str, Import], largest: f
     """Return the extent of a shape; a mesh larger than `largest` is in another unit, and its size unknown."""
     geometry, place = shape.geometry, shape.origin.xyz
     if not isinstance(geometry, Mesh):
-        return Extent(place, _reach(geometry), _volume(geometry))
-    (lower, upper), volume = _measured(geometry, imports) or (((), ()), math.inf)
+        return Extent(place, _reach(geometry), volume(geometry))
+    (lower, upper), enclosed = _measured(geometry, imports) or (((), ()), math.inf)
     size = math.dist(lower, upper)
     if not lower or size > largest:
         return Extent(place, math.inf, math.inf)
     x, y, z = ((a + b) / 2 for a, b in zip(lower, upper, strict=True))
-    return Extent(compose(pose(shape.origin), (IDENTITY[0], (x, y, z)))[1], size / 2, volume)
+    return Extent(compose(pose(shape.origin), (IDENTITY[0], (x, y, z)))[1], size / 2, enclosed)
 
 
 def find_far_shapes(bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
@@ -120,6 +122,20 @@ def find_far_shapes(bodies: Mapping[str, Body], length: float) -> Iterator[Findi
                 yield Finding("shape-far", f"{place} / origin", message)
 
 
+def find_displaced_collisions(bodies: Mapping[str, Body]) -> Iterator[Finding]:
+    """Yield a finding for each link whose one collision shape equals its one visual shape, but stands beside it."""
+    for name, body in bodies.items():
+        visuals, collisions = body.link.visuals, body.link.collisions
+        if len(visuals) == len(collisions) == 1 and visuals[0].geometry == collisions[0].geometry:
+            (visual,), (collision,) = body.visuals, body.collisions
+            away = math.dist(visual.center, collision.center)
+            is_simple = not isinstance(visuals[0].geometry, Mesh | Sphere)  # spheres may touch the ground
+            if is_simple and away > max(_BESIDE, _BESIDE_PART * visual.reach):
+                place = f"link {name} / collision 1"
+                message = f"{place} is {away:.3g} m beside the visual shape of the same form"
+                yield Finding("collision-beside", f"{place} / origin", message)
+
+
 def find_large_meshes(tree: KinematicTree, imports: Mapping[str, Import], length: float) -> Iterator[Finding]:
     """Yield a finding for each mesh that is too large for a robot of this length, at its first shape."""
     sizes = {key: math.dist(*file.facts[BOUNDS]) for key, file in imports.items() if file.facts.get(BOUNDS)}
@@ -135,7 +151,7 @@ def find_large_meshes(tree: KinematicTree, imports: Mapping[str, Import], length
                 fitting = [scale for scale in _SCALES if length / _TOO_LARGE < size * scale < _TOO_LARGE * length]
                 factors = " ".join(f"{factor * fitting[0]:g}" for factor in mesh(found).scale) if fitting else ""
                 message = f"mesh `{mesh(found).filename}` is {size:.3g} m large in a robot of {length:.3g} m"
-                hint = f'write scale="{factors}", or export it in m' if fitting else ""
+                hint = f'write scale="{factors}", or export it in m' if len(fitting) == 1 else ""
                 yield Finding("mesh-size", f"link {link.name} / {kind} {number} / geometry", message, hint)
 
 
@@ -171,7 +187,8 @@ def _reach(geometry: Geometry) -> float:
     raise TypeError(geometry)
 
 
-def _volume(geometry: Geometry) -> float:
+def volume(geometry: Geometry) -> float:
+    """Return the volume of a simple shape in m³."""
     match geometry:
         case Box(size=(x, y, z)):
             return x * y * z

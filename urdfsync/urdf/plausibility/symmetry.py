@@ -74,9 +74,9 @@ def find_asymmetries(
     plane = _plane_of(pairs)
     for one, other in pairs:
         if plane is not None and _lie_in(plane, one, other):
-            yield from _compare_bodies(plane, *_faulty_first("link", one, other, faulty))
+            links_findings = list(_compare_bodies(plane, *_faulty_first("link", one, other, faulty)))
+            yield from links_findings or _compare_shapes(bodies[one.link.name], bodies[other.link.name])
             yield from _compare_joints(plane, *_faulty_first("joint", one, other, faulty))
-            yield from _compare_shapes(bodies[one.link.name], bodies[other.link.name])
 
 
 def _faulty_first(kind: str, one: _Side, other: _Side, faulty: Collection[str]) -> tuple[_Side, _Side]:
@@ -144,16 +144,16 @@ def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
         if not _are_alike(a, b):
             (a, wrong), (b, right) = ((a, one), (b, other)) if b else ((b, other), (a, one))
             message = f"link {wrong.link.name!r} is no mirror image of {right.link.name!r}: "
-            message += f"its {what} is {a:.4g} {unit}, not {b:.4g}"
+            message += f"its {what} is {a:.4g} {unit}, that of the other {b:.4g}"
             yield Finding("not-mirrored", f"link {wrong.link.name} / inertial", message)
             return
     if mine is None or others is None or not mine.mass or _are_same_part(one.link, other.link):
         return
-    (centre, tensor), (others_centre, others_tensor) = _body(one, mine), _body(other, others)
+    (center, tensor), (others_center, others_tensor) = _body(one, mine), _body(other, others)
     sides = f"link {one.link.name!r} is no mirror image of {other.link.name!r}"
-    size = max(math.dist(centre, one.pose[1]), math.dist(others_centre, other.pose[1]))
+    size = max(math.dist(center, one.pose[1]), math.dist(others_center, other.pose[1]))
     is_copy = "; the numbers are a copy" if mine == others else ""
-    away = math.dist(plane.point(centre), others_centre)
+    away = math.dist(plane.point(center), others_center)
     if away > max(_NEAR, _ALIKE * size):
         message = f"{sides}: the centre of mass is {away:.3g} m beside its mirror image{is_copy}"
         yield Finding("not-mirrored", f"link {one.link.name} / inertial / origin", message)
@@ -167,20 +167,30 @@ def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
 
 
 def _compare_joints(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding]:
-    """Compare axes, limits and losses of joints."""
+    """Compare axes, limits and losses of joints; all differences of a pair are one finding."""
+    differences = list(_joint_differences(plane, one, other))
+    if differences:
+        message = f"joint {one.joint.name!r} is no mirror image of {other.joint.name!r}: "
+        message += "; ".join(words for _, words in differences)
+        yield Finding("not-mirrored", f"joint {one.joint.name}{differences[0][0]}", message)
+
+
+def _joint_differences(plane: _Plane, one: _Side, other: _Side) -> Iterator[tuple[str, str]]:
+    """Yield each difference of two joints: the place of the number, and words."""
     mine, others = one.joint, other.joint
+    if mine.type != others.type:
+        yield "", f"it is {mine.type}, the other {others.type}"
     if mine.type != others.type or mine.type not in MOTION_KINDS:
         return
-    sides = f"joint {mine.name!r} is no mirror image of {others.name!r}"
     for block, what in (("limit", "effort"), ("limit", "velocity"), ("dynamics", "damping"), ("dynamics", "friction")):
         a, b = (getattr(getattr(joint, block), what, None) for joint in (mine, others))
         is_told = block == "limit" and not (a and b)  # an effort or velocity of 0 is a fault without the other side
         if a is not None and b is not None and not _are_alike(a, b) and not is_told:
-            yield Finding("not-mirrored", f"joint {mine.name} / {block}", f"{sides}: its {what} is {a:g}, not {b:g}")
+            yield f" / {block}", f"its {what} is {a:g}, that of the other {b:g}"
     axis, others_axis = (_turned(side.pose[0], side.joint.axis) for side in (one, other))
     along = dot(plane.vector(axis), others_axis)
     if abs(along) < math.cos(_ANGLE):
-        yield Finding("not-mirrored", f"joint {mine.name} / axis", f"{sides}: its axis has another direction")
+        yield " / axis", "its axis has another direction"
         return
     (lower, upper), (others_lower, others_upper) = own_range(mine), own_range(others)
     # a mirror reverses turns, not slides
@@ -190,9 +200,8 @@ def _compare_joints(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
         return
     apart = max(abs(lower - others_lower), abs(upper - others_upper))
     if apart > max(_ANGLE, _ALIKE * (upper - lower)):
-        message = f"{sides}: it moves from {lower:.4g} to {upper:.4g}, the mirror image of the other"
-        message += f" from {others_lower:.4g} to {others_upper:.4g}"
-        yield Finding("not-mirrored", f"joint {mine.name} / limit", message)
+        words = f"it moves from {lower:.4g} to {upper:.4g}, the mirror image of the other"
+        yield " / limit", f"{words} from {others_lower:.4g} to {others_upper:.4g}"
 
 
 def _compare_shapes(one: Body, other: Body) -> Iterator[Finding]:
@@ -200,7 +209,7 @@ def _compare_shapes(one: Body, other: Body) -> Iterator[Finding]:
     sizes = [max((shape.reach for shape in body.visuals), default=0.0) for body in (one, other)]
     if min(sizes) > _LEAST and max(sizes) < math.inf and max(sizes) > _SIZE * min(sizes):
         message = f"link {one.link.name!r} is no mirror image of {other.link.name!r}: "
-        message += f"its shapes reach {sizes[0]:.3g} m, not {sizes[1]:.3g}"
+        message += f"its shapes reach {sizes[0]:.3g} m, those of the other {sizes[1]:.3g}"
         yield Finding("not-mirrored", f"link {one.link.name} / visual 1", message)
 
 
