@@ -86,7 +86,8 @@ def _check_center(body: Body, center: Vector, length: float) -> Iterator[Finding
     """Check that the centre of mass is not far outside of the link's shapes, nor of the robot."""
     place, shapes = f"link {body.link.name} / inertial", (*body.visuals, *body.collisions)
     reach = max((shape.reach for shape in shapes), default=0.0)
-    gap = _distance_from_box(shapes, center) if shapes else 0.0
+    is_inside = any(math.dist(shape.center, center) <= shape.reach for shape in shapes)
+    gap = _distance_from_box(shapes, center) if shapes and not is_inside else 0.0
     away, far = math.hypot(*center), max(_AWAY * length, _FAR_AWAY) if length and not shapes else _FARTHEST
     if body.mass > _LIGHT and gap > max(_OUTSIDE * reach, _OUTSIDE_AT_LEAST):
         message = f"{place}: the centre of mass is {gap:.4g} m outside of shapes that reach {reach:.3g} m"
