@@ -118,7 +118,8 @@ def _check_densities(bodies: Mapping[str, Body]) -> Iterator[Finding]:
     usual = sorted(dense.values())[len(dense) // 2] if len(dense) > 1 else 0.0
     for name, density in dense.items():
         mass, volumes = bodies[name].mass, bodies[name].volumes
-        is_unlike = len(dense) > 2 and density > max(_METAL, _UNLIKE * usual)
+        # a mesh may show a part of its body only
+        is_unlike = len(dense) > 2 and density > max(_METAL, _UNLIKE * usual) and not bodies[name].has_meshes
         if mass > _LIGHT and not (mass / min(volumes) >= _AIR and density <= _TUNGSTEN and not is_unlike):
             volume = max(volumes) if density > _AIR else min(volumes)
             shown = mass / volume

@@ -64,6 +64,11 @@ class Body(NamedTuple):
     """In m: the reach of all shapes from the centre of mass; infinite if unknown, 0 without shapes."""
 
     @property
+    def has_meshes(self) -> bool:
+        """Whether a shape is a mesh."""
+        return any(isinstance(shape.geometry, Mesh) for shape in (*self.link.visuals, *self.link.collisions))
+
+    @property
     def volumes(self) -> list[float]:
         """In m³: of the visual and of the collision shapes, which may be simplified; empty if one is unknown."""
         groups = [group for group in (self.visuals, self.collisions) if group]
