@@ -66,7 +66,8 @@ class Body(NamedTuple):
     @property
     def has_meshes(self) -> bool:
         """Whether a shape is a mesh."""
-        return any(isinstance(shape.geometry, Mesh) for shape in (*self.link.visuals, *self.link.collisions))
+        shapes: Sequence[Visual | Collision] = (*self.link.visuals, *self.link.collisions)
+        return any(isinstance(shape.geometry, Mesh) for shape in shapes)
 
     @property
     def volumes(self) -> list[float]:
