@@ -203,7 +203,9 @@ class Reading(msgspec.Struct, frozen=True):
     """
 
     def place(self, element: str, source: str) -> tuple[str, int]:
-        """Return file and line of an element; an unknown element is in line 0 of the `source`."""
+        """Return file and line of an element, or of the known element around it; else line 0 of the `source`."""
+        while element not in self.lines and " / " in element:
+            element = element.rpartition(" / ")[0]
         return self.files.get(element, source), self.lines.get(element, 0)
 
 

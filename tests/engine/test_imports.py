@@ -237,7 +237,9 @@ def test_missing_meshes_are_one_warning_for_each_package(workspace: Path) -> Non
     source.write_text(text.replace("package://six_axis_arm/meshes/carousel.obj", "package://turntable/carousel.obj"))
 
     def told(full: bool = False) -> list[str]:
-        found = [one for one in crashes.run(workspace, full=full).diagnostics if one.code not in ("density", "inertia-size")]
+        found = [
+            one for one in crashes.run(workspace, full=full).diagnostics if one.code not in ("density", "inertia-size")
+        ]
         return [str(one).partition(": ")[2] for one in found]
 
     warnings = [

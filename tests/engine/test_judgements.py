@@ -62,6 +62,23 @@ def test_a_new_judgement_is_told_first_and_an_old_one_waits(project: Path, capsy
     assert heads(told(capsys, "build", "--verbose"), OLD, NEW.replace("since this export: ", ""))
 
 
+def test_the_side_that_the_export_changed_is_told(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    project.write_text(pair(2, 2))
+    cli.main(["build"])
+    project.write_text(pair(9, 2))
+    assert heads(told(capsys, "build"), "warning: since this export: link 'left_hip' is no mirror image of 'right_hip'")
+
+
+def test_an_old_difference_hides_no_new_one(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    project.write_text(pair(2, 9))
+    cli.main(["build"])
+    moved = '<link name="right_hip"><inertial><origin xyz="0 0 0.1"/>'
+    project.write_text(pair(2, 9).replace('<link name="right_hip"><inertial>', moved))
+    assert heads(
+        told(capsys, "build"), "warning: since this export: link 'right_hip' is no mirror image of 'left_hip': the"
+    )
+
+
 def test_a_renamed_part_keeps_its_old_judgement(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     project.write_text(pair(2, 9))
     cli.main(["build"])

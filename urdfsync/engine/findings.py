@@ -65,8 +65,8 @@ def find_lasting(inputs: Inputs, generation: Generation, decision: Decision) -> 
     """Return the findings that a build repeats if nobody changes a file, except those of `tell_uses`."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
     changes, file = decision.differences.changes, shown(inputs.robot.source)
-    last = (inputs.last.version, changes.renames) if changes and changes.changes else ()
-    findings += judge(inputs.domain, generation.now, generation.reading, file, *last)
+    last = inputs.last.version if changes and changes.changes else None
+    findings += judge(inputs.domain, generation.now, generation.reading, file, last, changes)
     if decision.misfits:
         findings += _diagnose(inputs, generation.now.snapshot, decision, decision.differences.former)
     if inputs.users_files.is_too_wide:

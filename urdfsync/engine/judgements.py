@@ -5,11 +5,12 @@ A judgement follows from the model alone, so the recorded model tells which ones
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Protocol
 
 import msgspec
 
+from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Domain, ElementKey, Reading, Version
 from urdfsync.engine.last_build import NO_MODEL
@@ -18,8 +19,11 @@ from urdfsync.engine.last_build import NO_MODEL
 class Judgements(Protocol):
     """Judges models; the attribute `judgements` of a domain. Findings have an `element`, and no place. Pure."""
 
-    def judge(self, version: Version) -> Iterable[Diagnostic]:
-        """Return warnings about parts of a valid model that can hardly be meant."""
+    def judge(self, version: Version, changed: Collection[str]) -> Iterable[Diagnostic]:
+        """Return warnings about parts of a valid model that can hardly be meant.
+
+        Of two parts that contradict each other, one in `changed`, such as `link hand`, is told as the wrong one.
+        """
         ...
 
     def find_jumps(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterable[Diagnostic]:
@@ -33,19 +37,21 @@ def judge(
     reading: Reading,
     file: str,
     last: Version | None = None,
-    renames: Mapping[ElementKey, str] | None = None,
+    changes: Changes | None = None,
 ) -> list[Diagnostic]:
     """Return the judgements about a model at their places; `file` is its source's name.
 
-    Those that the `last` version lacks are new. Without a last version, nothing is new.
+    Those that the `last` version lacks are new; `changes` lead to it. Without a last version, nothing is new.
     """
     judgements: Judgements | None = domain.judgements
     if judgements is None:
         return []
-    findings = list(judgements.judge(now))
+    changes = changes or Changes()
+    changed = {change.element for change in changes.changes}
+    findings = list(judgements.judge(now, changed))
     if last is None or not findings:
         return [_placed(finding, reading, file) for finding in findings]
-    known = set(_known(judgements, last, renames or {}))
+    known = set(_known(judgements, last, changes.renames, changed))
     return [
         _placed(finding, reading, file, is_new=(finding.code, finding.element) not in known) for finding in findings
     ]
@@ -65,10 +71,13 @@ def _placed(finding: Diagnostic, reading: Reading, file: str, *, is_new: bool = 
     return msgspec.structs.replace(finding, file=place, line=line, is_new=is_new)
 
 
-def _known(judgements: Judgements, last: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, str]]:
+def _known(
+    judgements: Judgements, last: Version, renames: Mapping[ElementKey, str], changed: Collection[str]
+) -> Iterator[tuple[str, str]]:
     """Yield code and element of each judgement about the last model, by the names of the present model."""
+    former = {f"{kind} {name}": f"{kind} {old}" for (kind, old), name in renames.items()}
     try:
-        findings = list(judgements.judge(last))
+        findings = list(judgements.judge(last, {former.get(element, element) for element in changed}))
     except NO_MODEL:  # the recorded model may be invalid
         return
     for finding in findings:

@@ -155,6 +155,8 @@ _WARNINGS = {
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "write masses in kg",
     "mass-jump": "check the unit and the material in the exporter",
+    "unit-jump": "check the unit in the exporter",
+    "inertial-lost": "check the material and the mass in the exporter",
     "mesh-size": "export it in m",
     "density": "correct the mass or the shapes",
     "weak-effort": 'correct the effort or the masses; if a spring carries the weight, write `ignore = ["weak-effort"]`',

@@ -250,7 +250,7 @@ def _with_version(
     known = {(finding.code, finding.message) for finding in told_before}
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
     differences = changes.compare(old, new, domain, robot.options, matching)
-    judged = judge(domain, new, reading, current.text.name, old, differences.renames)
+    judged = judge(domain, new, reading, current.text.name, old, differences)
     judged += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
     new_findings = [current.text.locate(finding) for finding in judged if finding.is_new]
     new_findings += [finding for finding in told if (finding.code, finding.message) not in known]

@@ -83,12 +83,15 @@ def _check_masses(tree: KinematicTree, bodies: Mapping[str, Body], length: float
 
 
 def _check_center(body: Body, center: Vector, length: float) -> Iterator[Finding]:
-    """Check that the centre of mass is not far outside of the link's shapes, nor of the robot."""
-    place, shapes = f"link {body.link.name} / inertial", (*body.visuals, *body.collisions)
+    """Check that the centre of mass is not far outside of the link's shapes, nor of the robot.
+
+    Without visual shapes, collision shapes may stand for a part of the link, such as a foot.
+    """
+    place, shapes = f"link {body.link.name} / inertial", (*body.visuals, *body.collisions) if body.visuals else ()
     reach = max((shape.reach for shape in shapes), default=0.0)
     is_inside = any(math.dist(shape.center, center) <= shape.reach for shape in shapes)
     gap = _distance_from_box(shapes, center) if shapes and not is_inside else 0.0
-    away, far = math.hypot(*center), max(_AWAY * length, _FAR_AWAY) if length and not shapes else _FARTHEST
+    away, far = math.hypot(*center), max(_AWAY * length, _FAR_AWAY) if length and not body.radius else _FARTHEST
     if body.mass > _LIGHT and gap > max(_OUTSIDE * reach, _OUTSIDE_AT_LEAST):
         message = f"{place}: the centre of mass is {gap:.4g} m outside of shapes that reach {reach:.3g} m"
     elif away > far:
@@ -113,7 +116,7 @@ def _check_densities(bodies: Mapping[str, Body]) -> Iterator[Finding]:
     dense = {
         name: body.mass / max(body.volumes)
         for name, body in bodies.items()
-        if body.mass and body.gyration < body.radius and min(body.volumes, default=0.0) > _LEAST_VOLUME
+        if body.visuals and body.mass and body.gyration < body.radius and min(body.volumes, default=0.0) > _LEAST_VOLUME
     }
     usual = sorted(dense.values())[len(dense) // 2] if len(dense) > 1 else 0.0
     for name, density in dense.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
@@ -29,6 +30,7 @@ _SLOW, _FAST = 30, 720
 """In degrees per second: usual velocities of arms."""
 _LONGEST_WAY = 300
 """In s: a drive that takes longer over its range, or a turn, does not move its joint."""
+_WHEEL = re.compile("wheel|caster|tyre|tire|rotor|prop")
 _UNBALANCED = 0.05
 """In radii: the greatest distance of a wheel's centre of mass from its axis."""
 
@@ -110,7 +112,8 @@ def _check_wheels(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[F
     for joint in tree.joints:
         body = bodies[joint.child]
         shapes = body.link.collisions or body.link.visuals
-        if joint.type == "continuous" and joint.child not in parents and len(shapes) == 1 and body.mass > _LIGHT:
+        is_wheel = joint.type == "continuous" and _WHEEL.search(joint.child.lower())  # a crank is eccentric
+        if is_wheel and joint.child not in parents and len(shapes) == 1 and body.mass > _LIGHT:
             geometry = shapes[0].geometry
             radius = geometry.radius if isinstance(geometry, Cylinder | Sphere) else 0.0
             center = body.inertial.origin.xyz if body.inertial else (0.0, 0.0, 0.0)
@@ -225,7 +228,8 @@ def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]
     soft = joint.safety_controller
     if soft and soft.soft_lower_limit < soft.soft_upper_limit:
         past = max(limit.lower - soft.soft_lower_limit, soft.soft_upper_limit - limit.upper)
-        if _SAME * (limit.upper - limit.lower) < past < _SWITCHED_OFF:
+        encloses = soft.soft_lower_limit <= limit.lower and soft.soft_upper_limit >= limit.upper
+        if past > _SAME * (limit.upper - limit.lower) and (past < _SWITCHED_OFF or not encloses):
             message = f"{path}: the soft limits {soft.soft_lower_limit:g} to {soft.soft_upper_limit:g} are outside of "
             message += f"the limits {limit.lower:g} to {limit.upper:g}"
             yield Finding("soft-limits", f"{path} / safety_controller", message)

@@ -1,4 +1,4 @@
-"""Finds the odd one out of a row of equal parts: one of four wheels, of six legs, of three fingers.
+"""Finds the odd one out of a row of equal parts: one of four wheels, of four fingers, of six legs.
 
 Parts are a row if only numbers and places tell their names apart, and if they are congruent: the same joints stand at
 the same distances behind them, about the same axes. Then equal masses and drives are expected.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import NamedTuple, TypeAlias
 
 from urdfsync.urdf.kinematics.poses import own_range
@@ -19,7 +19,7 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint, Vector
 from urdfsync.urdf.validate import Finding
 
 _PLACES = {*SIDES, *"front rear back mid middle center centre index ring little pinky ff mf".split()}
-_FEWEST = 3
+_FEWEST = 4
 _ALIKE = 0.02
 """The other parts of a row differ by this part of a number at most."""
 _OUT = 2
@@ -43,8 +43,11 @@ class _Number(NamedTuple):
     values: Sequence[float]
 
 
-def find_odd_ones(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[Finding]:
-    """Yield a finding for each number of a link or joint that differs from all others of its row."""
+def find_odd_ones(tree: KinematicTree, bodies: Mapping[str, Body], faulty: Set[str]) -> Iterator[Finding]:
+    """Yield a finding for each number of a link or joint that differs from all others of its row.
+
+    Elements in `faulty`, such as `link wheel_1`, have another finding, and show no usual number.
+    """
     stems = {joint.child: _stem(joint.child) for joint in tree.joints}
     common = {stem for stem, count in Counter(stems.values()).items() if count >= _FEWEST}
     if not common:
@@ -64,7 +67,8 @@ def find_odd_ones(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[F
         keys[joint.child] = numbers.setdefault(row, len(numbers))
         if joint.type in MOTION_KINDS and stems[joint.child] in common:
             rows[row].append(joint)
-    for joints in rows.values():
+    for row_joints in rows.values():
+        joints = [each for each in row_joints if faulty.isdisjoint((f"link {each.child}", f"joint {each.name}"))]
         if len(joints) >= _FEWEST:
             for number in _numbers(joints, [bodies[joint.child] for joint in joints]):
                 if finding := _odd_one(number, joints):

@@ -138,7 +138,7 @@ def find_displaced_collisions(bodies: Mapping[str, Body]) -> Iterator[Finding]:
             is_simple = not isinstance(visuals[0].geometry, Mesh | Sphere)  # spheres may touch the ground
             if is_simple and away > max(_BESIDE, _BESIDE_PART * visual.reach):
                 place = f"link {name} / collision 1"
-                message = f"{place} is {away:.3g} m beside the visual shape of the same form"
+                message = f"link {name}: its visual and its collision shape have one form, but are {away:.3g} m apart"
                 yield Finding("collision-beside", f"{place} / origin", message)
 
 

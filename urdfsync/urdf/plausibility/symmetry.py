@@ -57,12 +57,12 @@ class _Side(NamedTuple):
 
 
 def find_asymmetries(
-    tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping[str, Pose], faulty: Collection[str]
+    tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping[str, Pose], suspects: Sequence[Collection[str]]
 ) -> Iterator[Finding]:
     """Yield a finding for each difference of a link or joint from the mirror image of its other side.
 
-    `poses` are those of the links with all joints at 0. `faulty` has the paths of elements with other findings, such
-    as `link left_hip`: of two sides, the faulty one is told as the wrong one.
+    `poses` are those of the links with all joints at 0. `suspects` have paths of elements such as `link left_hip`: of
+    two sides, the one in the first of these collections is told as the wrong one, else the one in the second.
     """
     joints = {joint.child: joint for joint in tree.joints}
     names = [(name, across) for name in joints if (across := _other_side(name)) in joints and across < name]
@@ -74,14 +74,17 @@ def find_asymmetries(
     plane = _plane_of(pairs)
     for one, other in pairs:
         if plane is not None and _lie_in(plane, one, other):
-            links_findings = list(_compare_bodies(plane, *_faulty_first("link", one, other, faulty)))
-            yield from links_findings or _compare_shapes(bodies[one.link.name], bodies[other.link.name])
-            yield from _compare_joints(plane, *_faulty_first("joint", one, other, faulty))
+            link_findings = list(_compare_bodies(plane, *_suspect_first("link", one, other, suspects)))
+            yield from link_findings or _compare_shapes(bodies[one.link.name], bodies[other.link.name])
+            yield from _compare_joints(plane, *_suspect_first("joint", one, other, suspects))
 
 
-def _faulty_first(kind: str, one: _Side, other: _Side, faulty: Collection[str]) -> tuple[_Side, _Side]:
+def _suspect_first(kind: str, one: _Side, other: _Side, suspects: Sequence[Collection[str]]) -> tuple[_Side, _Side]:
     names = [f"{kind} {side.link.name if kind == 'link' else side.joint.name}" for side in (one, other)]
-    return (other, one) if names[1] in faulty and names[0] not in faulty else (one, other)
+    for group in suspects:
+        if (names[0] in group) != (names[1] in group):
+            return (one, other) if names[0] in group else (other, one)
+    return one, other
 
 
 def _plane_of(pairs: Sequence[tuple[_Side, _Side]]) -> _Plane | None:
@@ -146,7 +149,7 @@ def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
             message = f"link {wrong.link.name!r} is no mirror image of {right.link.name!r}: "
             message += f"its {what} is {a:.4g} {unit}, that of the other {b:.4g}"
             yield Finding("not-mirrored", f"link {wrong.link.name} / inertial", message)
-            return
+            break
     if mine is None or others is None or not mine.mass or _are_same_part(one.link, other.link):
         return
     (center, tensor), (others_center, others_tensor) = _body(one, mine), _body(other, others)
@@ -157,6 +160,7 @@ def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
     if away > max(_NEAR, _ALIKE * size):
         message = f"{sides}: the centre of mass is {away:.3g} m beside its mirror image{is_copy}"
         yield Finding("not-mirrored", f"link {one.link.name} / inertial / origin", message)
+    if away > max(_NEAR, _ALIKE * size) or not _are_alike(*masses) or not _are_alike(*sizes):
         return
     mirrored = _mirrored(plane, tensor)
     rows = zip(mirrored, others_tensor, strict=True)
@@ -167,12 +171,10 @@ def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
 
 
 def _compare_joints(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding]:
-    """Compare axes, limits and losses of joints; all differences of a pair are one finding."""
-    differences = list(_joint_differences(plane, one, other))
-    if differences:
-        message = f"joint {one.joint.name!r} is no mirror image of {other.joint.name!r}: "
-        message += "; ".join(words for _, words in differences)
-        yield Finding("not-mirrored", f"joint {one.joint.name}{differences[0][0]}", message)
+    """Compare axes, limits and losses of joints."""
+    for place, words in _joint_differences(plane, one, other):
+        message = f"joint {one.joint.name!r} is no mirror image of {other.joint.name!r}: {words}"
+        yield Finding("not-mirrored", f"joint {one.joint.name}{place}", message)
 
 
 def _joint_differences(plane: _Plane, one: _Side, other: _Side) -> Iterator[tuple[str, str]]:
@@ -186,7 +188,7 @@ def _joint_differences(plane: _Plane, one: _Side, other: _Side) -> Iterator[tupl
         a, b = (getattr(getattr(joint, block), what, None) for joint in (mine, others))
         is_told = block == "limit" and not (a and b)  # an effort or velocity of 0 is a fault without the other side
         if a is not None and b is not None and not _are_alike(a, b) and not is_told:
-            yield f" / {block}", f"its {what} is {a:g}, that of the other {b:g}"
+            yield f" / {block} / {what}", f"its {what} is {a:g}, that of the other {b:g}"
     axis, others_axis = (_turned(side.pose[0], side.joint.axis) for side in (one, other))
     along = dot(plane.vector(axis), others_axis)
     if abs(along) < math.cos(_ANGLE):
@@ -200,13 +202,17 @@ def _joint_differences(plane: _Plane, one: _Side, other: _Side) -> Iterator[tupl
         return
     apart = max(abs(lower - others_lower), abs(upper - others_upper))
     if apart > max(_ANGLE, _ALIKE * (upper - lower)):
-        words = f"it moves from {lower:.4g} to {upper:.4g}, the mirror image of the other"
-        yield " / limit", f"{words} from {others_lower:.4g} to {others_upper:.4g}"
+        words = f"it moves from {lower + 0.0:.4g} to {upper + 0.0:.4g}, the mirror image of the other"
+        yield " / limit", f"{words} from {others_lower + 0.0:.4g} to {others_upper + 0.0:.4g}"
 
 
 def _compare_shapes(one: Body, other: Body) -> Iterator[Finding]:
     """Compare the sizes of visual shapes; a mesh that is not in the package has none."""
     sizes = [max((shape.reach for shape in body.visuals), default=0.0) for body in (one, other)]
+    if one.visuals and other.visuals and bool(one.collisions) != bool(other.collisions):
+        name, across = (one.link.name, other.link.name) if other.collisions else (other.link.name, one.link.name)
+        message = f"link {name!r} is no mirror image of {across!r}: it has no collision shape"
+        yield Finding("not-mirrored", f"link {name} / collision", message)
     if min(sizes) > _LEAST and max(sizes) < math.inf and max(sizes) > _SIZE * min(sizes):
         message = f"link {one.link.name!r} is no mirror image of {other.link.name!r}: "
         message += f"its shapes reach {sizes[0]:.3g} m, those of the other {sizes[1]:.3g}"
