@@ -13,8 +13,13 @@ from urdfsync.domain import ElementKey
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.validate import Finding
 
-_UNITS = {1000.0: "milli?", 180 / math.pi: "degrees?", 30 / math.pi: "turns a minute?", 25.4: "inches?"}
-"""Ratios of units that exporters confuse."""
+_UNITS = {
+    1000.0: "m and mm",
+    180 / math.pi: "rad and degrees",
+    30 / math.pi: "rad/s and turns a minute",
+    25.4: "mm and inches",
+}
+"""Pairs of units that exporters confuse, by their ratio."""
 _SAME_UNIT = 0.005
 _JUMP = 9.99
 """A greater ratio of two masses is probably a mistake: a factor of 10, with room for rounding."""
@@ -55,7 +60,7 @@ def find_jumps(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> Ite
         yield Finding("mass-jump", first.path, message)
     for unit, jumps in units.items():
         first = jumps[0]
-        message = f"{first.path} jumps from {first.before:g} to {first.after:g}{_more(jumps)}: {unit}"
+        message = f"{first.path} jumps from {first.before:g} to {first.after:g}{_more(jumps)}, by the ratio of {unit}"
         yield Finding("unit-jump", first.path, message)
     if lost:
         message = f"{lost[0]} has lost its <inertial>{_more(lost)}"
