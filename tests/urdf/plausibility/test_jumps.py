@@ -33,7 +33,7 @@ LARGE = BOX.replace("0.1 0.1 0.1", "100 100 100")
 @pytest.mark.parametrize(("old", "new", "words"), [
     (two(limit(effort=20)), two(limit(effort=20000)), "joint j / limit / effort jumps from 20 to 20000: m and mm"),
     (two(limit(velocity=3)), two(limit(velocity=171.9)), "limit / velocity jumps from 3 to 171.9: rad and degrees"),
-    (two(limit(velocity=2)), two(limit(velocity=19.1)), "limit / velocity jumps from 2 to 19.1: rad/s and turns a minute"),
+    (two(limit(velocity=2)), two(limit(velocity=19.1)), "velocity jumps from 2 to 19.1: rad/s and turns a minute"),
     (two(dynamics(1, 2)), two(dynamics(1000, 2)), "joint j / dynamics / damping jumps from 1 to 1000: m and mm"),
     (two(), two(xyz="0 0 200"), "joint j / origin / xyz jumps from 0.2 to 200: m and mm"),
     (two(shape=BOX), two(shape=LARGE),
