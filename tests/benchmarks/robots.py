@@ -12,7 +12,7 @@ from pathlib import Path
 _MASS = '<mass value="'
 _INERTIAL = """\
 <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
-    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+    <inertia ixx="0.0042" ixy="0" ixz="0" iyy="0.0042" iyz="0" izz="0.0017"/></inertial>
 """
 _SHAPE = """\
   <{kind}><origin xyz="0 0 0.1" rpy="0 0 0.1"/><geometry>{geometry}</geometry></{kind}>

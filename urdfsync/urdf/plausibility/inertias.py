@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import msgspec
 
-from urdfsync.urdf.kinematics.poses import Matrix, pose, turned_inertia
+from urdfsync.urdf.kinematics.poses import Matrix, dot, pose, turned_inertia
 from urdfsync.urdf.plausibility.shapes import Body, volume
-from urdfsync.urdf.robot import Box, Collision, Cylinder, Geometry, Inertia, Inertial, Sphere, Vector, Visual
+from urdfsync.urdf.robot import Box, Collision, Cylinder, Geometry, Inertia, Inertial, Origin, Sphere, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
 _GYRATION, _GYRATION_IN_MOTION = 3, 1.5
@@ -82,64 +82,75 @@ class _Solid(NamedTuple):
     """A part of a body of one density, in the link's frame."""
 
     mass: float
-    center: Vector
-    own: Matrix
-    """The inertia about the center."""
+    origin: Origin
+    own: Inertia
+    """The inertia about the origin, in its axes."""
+
+    @property
+    def trace(self) -> float:
+        """The sum of the moments of `own`."""
+        return self.own.ixx + self.own.iyy + self.own.izz
 
 
 def _misfit(body: Body, inertial: Inertial) -> str:
     """Return to what other body of the link's simple shapes the inertia belongs, in words; empty if unknown."""
-    center, given = inertial.origin.xyz, turned_inertia(pose(inertial.origin)[0], inertial.inertia)
+    center, inertia = inertial.origin.xyz, inertial.inertia
+    trace = inertia.ixx + inertia.iyy + inertia.izz
+    groups: Sequence[Sequence[Visual | Collision]] = (body.link.collisions, body.link.visuals)
+    bodies = [solids for shapes in groups if (solids := _solids(shapes, body.mass))]
+    # traces need no rotations: mostly they show that the inertia belongs to none of these bodies
+    if not any(abs(trace - likely) < 2 * _FITS * trace for solids in bodies for likely in _likely_traces(solids)):
+        return ""
+    given = turned_inertia(pose(inertial.origin)[0], inertia)
     size = max(given[k][k] for k in range(3))
 
     def error(other: Matrix) -> float:
         return max(abs(given[i][k] - other[i][k]) for i in range(3) for k in range(3)) / size
 
-    groups: Sequence[Sequence[Visual | Collision]] = (body.link.collisions, body.link.visuals)
-    bodies = [(shapes, solids) for shapes in groups if (solids := _solids(shapes, body.mass))] if size else []
-    if any(error(_joined(solids, center)) < _DIFFERS for _, solids in bodies):
+    if any(error(_joined(solids, center)) < _DIFFERS for solids in bodies):
         return ""
-    for shapes, solids in bodies:
+    for solids in bodies:
         if error(_joined(solids, (0.0, 0.0, 0.0))) < _FITS and math.hypot(*center) > 0:
             return "the inertia fits the shapes about the link's origin, not about the centre of mass"
-        if error(_sum([solid.own for solid in solids])) < _FITS:
+        away, (_, origin, own) = math.dist(solids[0].origin.xyz, center), solids[0]
+        if error(_sum([turned_inertia(pose(solid.origin)[0], solid.own) for solid in solids])) < _FITS:
             if len(solids) > 1:
                 return "the inertia fits the sum of the shapes' own, without the terms of their distances"
-            away = math.dist(solids[0].center, center)
             if away > _BESIDE * max(body.visuals + body.collisions, key=lambda extent: extent.reach).reach:
                 return f"the inertia fits the shape, but the centre of mass is {away:.3g} m beside it"
-        if len(solids) == 1 and math.dist(solids[0].center, center) < _FITS * body.radius:
-            own = _own_inertia(shapes[0].geometry, body.mass)
-            rotation = pose(shapes[0].origin)[0]
-            for x, y, z in itertools.permutations((own.ixx, own.iyy, own.izz)) if own else ():
-                if error(turned_inertia(rotation, Inertia(ixx=x, iyy=y, izz=z))) < _FITS:
+        if len(solids) == 1 and away < _FITS * body.radius:
+            for x, y, z in itertools.permutations((own.ixx, own.iyy, own.izz)):
+                if error(turned_inertia(pose(origin)[0], Inertia(ixx=x, iyy=y, izz=z))) < _FITS:
                     return "the inertia fits the shape with its axes exchanged"
     return ""
 
 
 def _solids(shapes: Sequence[Visual | Collision], mass: float) -> list[_Solid]:
     """Return shapes as solids of one density with this mass; none if a shape is a mesh or a capsule."""
-    volumes = [0.0 if _own_inertia(shape.geometry, 1.0) is None else volume(shape.geometry) for shape in shapes]
-    if not all(volumes):
+    if not all(isinstance(shape.geometry, Box | Cylinder | Sphere) for shape in shapes):
         return []
+    whole = sum(volume(shape.geometry) for shape in shapes)
     solids = []
-    for shape, part in zip(shapes, volumes, strict=True):
-        own = _own_inertia(shape.geometry, mass * part / sum(volumes))
-        rotation, center = pose(shape.origin)
-        if own is not None:
-            solids.append(_Solid(mass * part / sum(volumes), center, turned_inertia(rotation, own)))
+    for shape in shapes if whole else ():
+        part = mass * volume(shape.geometry) / whole
+        solids.append(_Solid(part, shape.origin, _own_inertia(shape.geometry, part)))
     return solids
+
+
+def _likely_traces(solids: Sequence[_Solid]) -> tuple[float, float]:
+    """Return the traces of two wrong inertias: about the link's origin, and without the terms of distances."""
+    own = sum(solid.trace for solid in solids)
+    return own, own + sum(2 * solid.mass * dot(solid.origin.xyz, solid.origin.xyz) for solid in solids)
 
 
 def _joined(solids: Sequence[_Solid], point: Vector) -> Matrix:
     """Return the inertia of solids about a point, by the parallel axis theorem."""
     terms = list[Sequence[Sequence[float]]]()
-    for mass, center, own in solids:
-        x, y, z = (a - b for a, b in zip(center, point, strict=True))
-        square = x * x + y * y + z * z
-        way = (x, y, z)
+    for mass, origin, own in solids:
+        way = [a - b for a, b in zip(origin.xyz, point, strict=True)]
+        square = dot(way, way)
         shifted = [[mass * ((square if i == k else 0.0) - way[i] * way[k]) for k in range(3)] for i in range(3)]
-        terms += [own, shifted]
+        terms += [turned_inertia(pose(origin)[0], own), shifted]
     return _sum(terms)
 
 
@@ -147,8 +158,8 @@ def _sum(terms: Sequence[Sequence[Sequence[float]]]) -> Matrix:
     return tuple(tuple(sum(term[i][k] for term in terms) for k in range(3)) for i in range(3))  # type: ignore[return-value]
 
 
-def _own_inertia(geometry: Geometry, mass: float) -> Inertia | None:
-    """Return the inertia of a solid shape about its centre; None for a mesh or a capsule."""
+def _own_inertia(geometry: Geometry, mass: float) -> Inertia:
+    """Return the inertia of a solid box, cylinder or sphere about its centre."""
     match geometry:
         case Box(size=(x, y, z)):
             a, b, c = mass * (y * y + z * z) / 12, mass * (x * x + z * z) / 12, mass * (x * x + y * y) / 12
@@ -158,7 +169,7 @@ def _own_inertia(geometry: Geometry, mass: float) -> Inertia | None:
         case Sphere(radius=radius):
             a = b = c = mass * radius * radius * 2 / 5
         case _:
-            return None
+            raise TypeError(geometry)
     return Inertia(ixx=a, iyy=b, izz=c)
 
 
