@@ -106,3 +106,17 @@ def test_documents_name_the_element(project: Path, capsys: pytest.CaptureFixture
     cli.main(["build", "--check", "--format", "sarif"])
     (run,) = json.loads(capsys.readouterr().out)["runs"]
     assert [result["ruleId"] for result in run["results"]] == ["not-mirrored", "zero-effort", "out-of-step"]
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("modelica_library")
+def test_a_strict_check_passes_no_judgement(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    project.write_text(pair(2, 9))
+    cli.main(["build", "--quiet"])
+    assert cli.main(["check"]) == 0
+    assert cli.main(["check", "--strict"]) == 1, "the result of the first check is remembered, the judgement is not"
+    streams = capsys.readouterr()
+    assert "\npair: differs: " in streams.out
+    assert "is no mirror image of 'left_hip'" in streams.err
+    Path("urdfsync.toml").write_text(f'{CONFIG}ignore = ["not-mirrored"]\n')
+    assert cli.main(["check", "--strict"]) == 0

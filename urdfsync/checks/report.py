@@ -42,6 +42,8 @@ def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     sentences = [*_numbers(result), *(_two_tools(result) if len(result.tools) > 1 else ())]
     if result.between is None:
         sentences += _differences(result)
+    if result.strict and result.is_doubtful:
+        sentences.append(("the source has parts that can hardly be meant: see the warnings", "bold red"))
     for effect in result.effects:
         changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
         style = _edit_style(result) if changed else "dim"

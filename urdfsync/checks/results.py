@@ -230,11 +230,16 @@ class CheckResult(msgspec.Struct):
         return bool(self.numbers and self.numbers.edits) or any(effect.deviations for effect in self.effects)
 
     @property
+    def is_doubtful(self) -> bool:
+        """Whether the source has a part that can hardly be meant; only a strict check judges it."""
+        return any(finding.element and finding.severity is Severity.WARNING for finding in self.diagnostics)
+
+    @property
     def status(self) -> CheckStatus:
-        """The verdict; if `strict`, effects of edits count as differences, and unknown effects as a gap."""
+        """The verdict; if `strict`, effects of edits and judgements count as differences, unknown effects as a gap."""
         if self.failed:
             return CheckStatus.FAILED
-        if self.differs or (self.strict and self.is_changed_by_edits):
+        if self.differs or (self.strict and (self.is_changed_by_edits or self.is_doubtful)):
             return CheckStatus.DIFFERS
         if not self.in_step:
             return CheckStatus.OUT_OF_STEP if self.built else CheckStatus.NOT_BUILT

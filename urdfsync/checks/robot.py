@@ -23,6 +23,7 @@ from urdfsync.checks.remote import RemoteCache
 from urdfsync.checks.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.engine.judgements import judge
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.processes.workers import tell
@@ -79,6 +80,10 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         result.robot = robot.name  # another robot may have the same inputs
         result.folder, result.strict = shown(robot.folder), options.strict  # a saved check may have other values
         result.add(texts.missing_resources(package))  # the fingerprint does not cover these files
+        if options.strict:
+            made, file = package.generation, shown(robot.source)
+            judged = judge(package.inputs.domain, made.now, made.reading, file)
+            result.add(robot.without_ignored(map(package.inputs.source.locate, judged)))
     except Exception as error:  # noqa: BLE001 - only this robot fails
         result.add(findings_of(error))
     result.add(remote.warnings)

@@ -35,7 +35,7 @@ def add(commands: arguments.Commands) -> None:
     option = parser.add_argument
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     option("--report", type=Path, metavar="FILE.html", help="write a page with the result of one robot")
-    option("--strict", action="store_true", help="effects of edits and unchecked robots count as differences")
+    option("--strict", action="store_true", help="effects of edits, doubtful sources and unchecked robots fail")
     titles = {name: compiler.TITLE for name, compiler in COMPILERS.items()}
     arguments.add_tool(parser, {**titles, BOTH: BOTH})
     jobs = "robots at the same time (default: as cores and memory allow)"
