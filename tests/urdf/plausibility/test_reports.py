@@ -9,10 +9,11 @@ import re
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from support.packages import read
 
 _TEXT = (Path(__file__).parent / "reports.txt").read_text(encoding="utf-8")
-_HEAD = re.compile(r"^== (?P<report>.*?): (?P<fault>.*)\n(?:=> (?P<told>.*)\n)+", re.MULTILINE)
 _SHAPE = re.compile(r"<shape>(.*?)</shape>")
 
 
@@ -40,3 +41,15 @@ def test_a_reported_export_is_told(told: list[str], urdf: str) -> None:
 def test_most_reports_are_told() -> None:
     silent = [title for title, told, _ in _reports() if told[0].startswith("silent: ")]
     assert len(_reports()) - len(silent) > 45
+
+
+NUMBER = re.compile(r'(?<=[" ])-?\d[\d.e-]*(?=[" ])')
+EXTREME = st.sampled_from("0 1e200 -1e200 1e308 1e-320 -0 5e-324 1e154 1e-160 123456789 -3 0.5 1e17".split())
+
+
+@given(st.sampled_from([urdf for _, _, urdf in _reports()]), st.data())
+def test_any_numbers_can_be_judged(urdf: str, data: st.DataObject) -> None:
+    places = data.draw(st.lists(st.sampled_from(list(NUMBER.finditer(urdf))), max_size=6, unique_by=re.Match.start))
+    for place in sorted(places, key=re.Match.start, reverse=True):
+        urdf = f"{urdf[: place.start()]}{data.draw(EXTREME)}{urdf[place.end() :]}"
+    read(urdf.encode())

@@ -126,7 +126,8 @@ def _check_wheels(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[F
 
 def _from_axis(axis: Vector, point: Vector) -> float:
     """Return the distance of a point from the line along a unit vector through the origin."""
-    return math.sqrt(max(dot(point, point) - dot(axis, point) ** 2, 0.0))
+    along = dot(axis, point)
+    return math.sqrt(max(dot(point, point) - along * along, 0.0))  # `**` of a large number would raise an error
 
 
 def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping[str, Pose]) -> Iterator[Finding]:
