@@ -59,3 +59,15 @@ def test_the_least_weight_never_exceeds_the_greatest(
         if finding.code == "weak-effort":
             least = float(finding.message.partition("takes ")[2].partition(" ")[0])
             assert least <= greatest * (1 + 1e-3)
+
+
+@pytest.mark.parametrize(("center", "codes"), [
+    ("0 0 0.001", []), ("0.01 0 0", ["unbalanced"]), ("1e200 0 0", ["center-of-mass", "unbalanced"]),
+])  # fmt: skip
+def test_a_wheel_is_balanced(center: str, codes: list[str]) -> None:
+    inertia = '<inertia ixx="0.005" iyy="0.005" izz="0.008" ixy="0" ixz="0" iyz="0"/>'
+    shape = '<visual><geometry><cylinder radius="0.1" length="0.05"/></geometry></visual>'
+    body = f'<inertial><origin xyz="{center}"/><mass value="1.6"/>{inertia}</inertial>'
+    turn = joint("j", "continuous", "base", "wheel", axis="0 0 1")
+    found = read(robot(BASE, f'<link name="wheel">{body}{shape}</link>', turn).encode()).diagnostics
+    assert sorted(one.code for one in found) == codes
