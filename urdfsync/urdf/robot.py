@@ -177,6 +177,11 @@ class Inertia(msgspec.Struct, frozen=True, gc=False):
     iyz: Annotated[float, _INERTIA] = 0.0
     izz: Annotated[float, _INERTIA] = 0.0
 
+    @property
+    def trace(self) -> float:
+        """The sum of the three moments, in kg·m²; the same in all axes."""
+        return self.ixx + self.iyy + self.izz
+
 
 class Inertial(msgspec.Struct, frozen=True, gc=False):
     """Mass and inertia; `origin` places the inertial frame at the centre of mass."""

@@ -53,7 +53,7 @@ def test_the_least_weight_never_exceeds_the_greatest(
     turn = joint("j", "revolute", "base", "arm", axis="0.6 0 0.8", rpy=rpy,
                  inside=[limit(lower, lower + width, effort=1e-6)])  # fmt: skip
     tree = KinematicTree.of(version(BASE, body, turn).snapshot)
-    findings = find_impossible_joints(tree, find_bodies(tree, {}), 1.0, link_poses(tree, {}))
+    findings = find_impossible_joints(tree, find_bodies(tree, {}, 1.0), 1.0, link_poses(tree, {}))
     greatest = find_extremes(tree)[1]["j"]
     for finding in findings:
         if finding.code == "weak-effort":

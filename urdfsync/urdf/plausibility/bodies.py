@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.inertias import find_wrong_inertia
-from urdfsync.urdf.plausibility.shapes import Body, Extent
+from urdfsync.urdf.plausibility.shapes import LIGHT, TUNGSTEN, Body, Extent
 from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.validate import Finding
 
@@ -22,14 +22,12 @@ _OUTSIDE, _OUTSIDE_AT_LEAST = 2.5, 0.1
 
 Simplified shapes leave out motors: those of a published humanoid do so by 2.4 times.
 """
-_TUNGSTEN, _AIR = 20_000, 1
-"""In kg/m³: the bounds of densities."""
+_AIR = 1
+"""In kg/m³: no body is lighter."""
 _METAL, _UNLIKE = 9_000, 5
 """A body is too dense beside others by five times their usual density, if it is denser than most metals, in kg/m³."""
 _LEAST_VOLUME = 1e-5
 """In m³: smaller shapes only mark a place."""
-_LIGHT = 0.05
-"""In kg: a lighter part may only mark a place."""
 _DUST = 1e-6
 """In kg: a lighter mass behind a moving joint stands for none."""
 
@@ -92,7 +90,7 @@ def _check_center(body: Body, center: Vector, length: float) -> Iterator[Finding
     is_inside = any(math.dist(shape.center, center) <= shape.reach for shape in shapes)
     gap = _distance_from_box(shapes, center) if shapes and not is_inside else 0.0
     away, far = math.hypot(*center), max(_AWAY * length, _FAR_AWAY) if length and not body.radius else _FARTHEST
-    if body.mass > _LIGHT and gap > max(_OUTSIDE * reach, _OUTSIDE_AT_LEAST):
+    if body.mass > LIGHT and gap > max(_OUTSIDE * reach, _OUTSIDE_AT_LEAST):
         message = f"{place}: the centre of mass is {gap:.4g} m outside of shapes that reach {reach:.3g} m"
     elif away > far:
         message = f"{place}: the centre of mass is {away:.6g} m away from its link, in a robot of {length:.3g} m"
@@ -123,11 +121,11 @@ def _check_densities(bodies: Mapping[str, Body]) -> Iterator[Finding]:
         mass, volumes = bodies[name].mass, bodies[name].volumes
         # a mesh may show a part of its body only
         is_unlike = len(dense) > 2 and density > max(_METAL, _UNLIKE * usual) and not bodies[name].has_meshes
-        if mass > _LIGHT and not (mass / min(volumes) >= _AIR and density <= _TUNGSTEN and not is_unlike):
+        if mass > LIGHT and not (mass / min(volumes) >= _AIR and density <= TUNGSTEN and not is_unlike):
             volume = max(volumes) if density > _AIR else min(volumes)
             shown = mass / volume
             message = f"link {name} / inertial: {mass:.4g} kg in shapes of {volume * 1000:.3g} l are "
             message += f"{shown:,.0f} kg/m³" if shown > 10 else f"{shown:.2g} kg/m³"
-            if _AIR <= usual <= _TUNGSTEN:
+            if _AIR <= usual <= TUNGSTEN:
                 message += f"; as dense as other links, it would have {usual * volume:.3g} kg"
             yield Finding("density", f"link {name} / inertial / mass", message)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync.urdf.kinematics.poses import Matrix, dot, pose, turned_inertia
-from urdfsync.urdf.plausibility.shapes import Body, volume
+from urdfsync.urdf.plausibility.shapes import LIGHT, TUNGSTEN, Body, volume
 from urdfsync.urdf.robot import Box, Collision, Cylinder, Geometry, Inertia, Inertial, Origin, Sphere, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
@@ -23,10 +23,6 @@ _MARKER = 0.002
 """In m: a smaller shape only marks a place, and the size of its body is unknown."""
 _UNKNOWN_GYRATION, _UNKNOWN_SIZE = 10, 0.5
 """Greatest radius of gyration of a body of unknown size, in lengths of the robot, and the least length in m."""
-_TUNGSTEN = 20_000
-"""In kg/m³."""
-_LIGHT = 0.05
-"""In kg: a lighter part may only mark a place, and may have an inertia of 0 by rounding."""
 _POINT = 1e-6
 """In m: a smaller radius of gyration is a rounding error of 0."""
 _TOLERANCE = 1e-6
@@ -64,9 +60,9 @@ def _wrong_size(body: Body, inertial: Inertial, length: float, *, is_moving: boo
     gyration, radius = body.gyration, body.radius
     is_in_joint = is_moving and math.hypot(*inertial.origin.xyz) < _POINT
     # a ball of tungsten is the smallest body
-    least = math.sqrt(0.6) * math.cbrt(3 * body.mass / (4 * math.pi * _TUNGSTEN)) / 2 if is_moving else _POINT
-    factor = _GYRATION_IN_MOTION if is_moving and body.mass > _LIGHT else _GYRATION
-    if gyration < least and (radius or is_in_joint) and body.mass > _LIGHT:
+    least = math.sqrt(0.6) * math.cbrt(3 * body.mass / (4 * math.pi * TUNGSTEN)) / 2 if is_moving else _POINT
+    factor = _GYRATION_IN_MOTION if is_moving and body.mass > LIGHT else _GYRATION
+    if gyration < least and (radius or is_in_joint) and body.mass > LIGHT:
         shape = " with a shape" if radius else ""
         if gyration < _POINT:
             return f"a body of {body.mass:g} kg{shape} has no inertia"
@@ -86,16 +82,10 @@ class _Solid(NamedTuple):
     own: Inertia
     """The inertia about the origin, in its axes."""
 
-    @property
-    def trace(self) -> float:
-        """The sum of the moments of `own`."""
-        return self.own.ixx + self.own.iyy + self.own.izz
-
 
 def _misfit(body: Body, inertial: Inertial) -> str:
     """Return to what other body of the link's simple shapes the inertia belongs, in words; empty if unknown."""
-    center, inertia = inertial.origin.xyz, inertial.inertia
-    trace = inertia.ixx + inertia.iyy + inertia.izz
+    center, inertia, trace = inertial.origin.xyz, inertial.inertia, inertial.inertia.trace
     groups: Sequence[Sequence[Visual | Collision]] = (body.link.collisions, body.link.visuals)
     bodies = [solids for shapes in groups if (solids := _solids(shapes, body.mass))]
     # traces need no rotations: mostly they show that the inertia belongs to none of these bodies
@@ -139,7 +129,7 @@ def _solids(shapes: Sequence[Visual | Collision], mass: float) -> list[_Solid]:
 
 def _likely_traces(solids: Sequence[_Solid]) -> tuple[float, float]:
     """Return the traces of two wrong inertias: about the link's origin, and without the terms of distances."""
-    own = sum(solid.trace for solid in solids)
+    own = sum(solid.own.trace for solid in solids)
     return own, own + sum(2 * solid.mass * dot(solid.origin.xyz, solid.origin.xyz) for solid in solids)
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, dot, link_poses, own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.plausibility.shapes import Body
+from urdfsync.urdf.plausibility.shapes import LIGHT, Body
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Cylinder, Joint, Origin, Sphere, Vector
 from urdfsync.urdf.validate import Finding
 
@@ -23,8 +23,6 @@ _SAME, _SWITCHED_OFF = 1e-3, 5
 """Soft limits may be outside by this part of the joint's range; far outside, in rad or m, they are switched off."""
 _FOLLOWED = 0.02
 """A joint may follow another one outside of its limits by this part of its range."""
-_LIGHT = 0.05
-"""In kg: a slide of a lighter part may let a whole robot move anywhere."""
 _GRAVITY = 9.80665
 _SLOW, _FAST = 30, 720
 """In degrees per second: usual velocities of arms."""
@@ -113,7 +111,7 @@ def _check_wheels(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[F
         body = bodies[joint.child]
         shapes = body.link.collisions or body.link.visuals
         is_wheel = joint.type == "continuous" and _WHEEL.search(joint.child.lower())  # a crank is eccentric
-        if is_wheel and joint.child not in parents and len(shapes) == 1 and body.mass > _LIGHT:
+        if is_wheel and joint.child not in parents and len(shapes) == 1 and body.mass > LIGHT:
             geometry = shapes[0].geometry
             radius = geometry.radius if isinstance(geometry, Cylinder | Sphere) else 0.0
             center = body.inertial.origin.xyz if body.inertial else (0.0, 0.0, 0.0)
@@ -240,6 +238,6 @@ def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]
         if is_whole and _FOUR_TURNS < widest <= _TWO_TURNS_IN_DEGREES:
             message = f"{path}: limits of {limit.lower:g} and {limit.upper:g} rad may be in degrees"
             yield Finding("angle-unit", place, message)
-    elif max(_LONG_SLIDE, _LONG_SLIDE * length) < widest <= _LONGEST_SLIDE and mass > _LIGHT:
+    elif max(_LONG_SLIDE, _LONG_SLIDE * length) < widest <= _LONGEST_SLIDE and mass > LIGHT:
         message = f"{path}: limits of {limit.lower:g} and {limit.upper:g} m may be in millimetres"
         yield Finding("length-unit", place, message)

@@ -26,7 +26,8 @@ from urdfsync.urdf.validate import Finding, diagnostic
 def judge(version: Version, changed: Collection[str] = ()) -> Iterator[Diagnostic]:
     """Yield a finding for each implausible part of a valid robot; without imports, meshes have no size."""
     tree, imports = KinematicTree.of(version.snapshot), version.imports or {}
-    bodies, length, poses = find_bodies(tree, imports), find_length(tree), link_poses(tree, {})
+    length, poses = find_length(tree), link_poses(tree, {})
+    bodies = find_bodies(tree, imports, length)
     findings = [
         *find_large_meshes(tree, imports, length),
         *find_impossible_bodies(tree, bodies, length),

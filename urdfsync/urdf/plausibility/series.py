@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.plausibility.shapes import Body
+from urdfsync.urdf.plausibility.shapes import LIGHT, Body
 from urdfsync.urdf.plausibility.symmetry import SIDES, WORD
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Vector
 from urdfsync.urdf.validate import Finding
@@ -24,8 +24,6 @@ _ALIKE = 0.02
 """The other parts of a row differ by this part of a number at most."""
 _OUT = 2
 """The odd one differs by this factor."""
-_LIGHT = 0.05
-"""In kg: the mass of a lighter part need not be exact."""
 _DIGITS = 3
 """Distances in a row are equal to a millimetre, directions to a thousandth."""
 
@@ -87,7 +85,7 @@ def _stem(name: str) -> str:
 
 def _numbers(row: Sequence[Joint], bodies: Sequence[Body]) -> Iterator[_Number]:
     masses = [body.mass for body in bodies]
-    if max(masses) > _LIGHT:
+    if max(masses) > LIGHT:
         yield _Number("link", "inertial", "mass", "kg", masses)
         radii = [body.gyration for body in bodies]
         yield _Number("link", "inertial", "radius of gyration", "m", radii)

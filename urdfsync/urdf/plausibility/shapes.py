@@ -25,6 +25,10 @@ from urdfsync.urdf.robot import (
 )
 from urdfsync.urdf.validate import Finding
 
+LIGHT = 0.05
+"""In kg: a lighter part may only mark a place, and its numbers need not be exact."""
+TUNGSTEN = 20_000
+"""In kg/m³: no body is denser."""
 _FAR, _FAR_AWAY = 10, 2
 """A shape is too far from its link if its distance exceeds ten lengths of the robot and two metres."""
 _BESIDE, _BESIDE_PART = 0.01, 0.2
@@ -52,16 +56,19 @@ class Body(NamedTuple):
     """A link with its inertia and the extents of its shapes."""
 
     link: Link
-    inertial: Inertial | None
     visuals: tuple[Extent, ...]
     collisions: tuple[Extent, ...]
-
     mass: float
     """In kg; 0 without an `<inertial>`."""
     gyration: float
     """In m: the root mean square distance of the mass from its centre; 0 without mass or inertia."""
     radius: float
     """In m: the reach of all shapes from the centre of mass; infinite if unknown, 0 without shapes."""
+
+    @property
+    def inertial(self) -> Inertial | None:
+        """The link's inertia."""
+        return self.link.inertial
 
     @property
     def has_meshes(self) -> bool:
@@ -85,18 +92,18 @@ def find_length(tree: KinematicTree) -> float:
     return max(distances.values())
 
 
-def find_bodies(tree: KinematicTree, imports: Mapping[str, Import]) -> Mapping[str, Body]:
-    """Return the bodies of links by name; `imports` have the facts of meshes."""
-    largest, bodies = _largest(find_length(tree)), {}
+def find_bodies(tree: KinematicTree, imports: Mapping[str, Import], length: float) -> Mapping[str, Body]:
+    """Return the bodies of links of a robot of this length by name; `imports` have the facts of meshes."""
+    largest, bodies = _largest(length), {}
     for link in tree.links:
         visuals = tuple(_extent(shape, imports, largest) for shape in link.visuals)
         collisions = tuple(_extent(shape, imports, largest) for shape in link.collisions)
         mass, gyration, center = 0.0, 0.0, (0.0, 0.0, 0.0)
         if link.inertial is not None:
             mass, center, inertia = link.inertial.mass, link.inertial.origin.xyz, link.inertial.inertia
-            gyration = math.sqrt(max(inertia.ixx + inertia.iyy + inertia.izz, 0.0) / 2 / mass) if mass else 0.0
+            gyration = math.sqrt(max(inertia.trace, 0.0) / 2 / mass) if mass else 0.0
         radii = (math.dist(shape.center, center) + shape.reach for shape in (*visuals, *collisions))
-        bodies[link.name] = Body(link, link.inertial, visuals, collisions, mass, gyration, max(radii, default=0.0))
+        bodies[link.name] = Body(link, visuals, collisions, mass, gyration, max(radii, default=0.0))
     return bodies
 
 
@@ -117,13 +124,9 @@ def find_far_shapes(bodies: Mapping[str, Body], length: float) -> Iterator[Findi
     """Yield a finding for each shape far outside of a robot of this length."""
     far = max(_FAR * length, _FAR_AWAY)
     for body in bodies.values() if length else ():
-        link = body.link
-        shapes = [("visual", k, one.origin) for k, one in enumerate(link.visuals, start=1)]
-        shapes += [("collision", k, one.origin) for k, one in enumerate(link.collisions, start=1)]
-        for (kind, number, origin), extent in zip(shapes, (*body.visuals, *body.collisions), strict=True):
-            away = math.hypot(*origin.xyz)
+        for (place, shape), extent in zip(_places(body.link), (*body.visuals, *body.collisions), strict=True):
+            away = math.hypot(*shape.origin.xyz)
             if away - (extent.reach if math.isfinite(extent.reach) else 0) > far:
-                place = f"link {link.name} / {kind} {number}"
                 message = f"{place} is {away:.3g} m away from its link, in a robot of {length:.3g} m"
                 yield Finding("shape-far", f"{place} / origin", message)
 
@@ -149,16 +152,20 @@ def find_large_meshes(tree: KinematicTree, imports: Mapping[str, Import], length
     if not large:
         return
     for link in tree.links:
-        shapes = [("visual", k, visual.geometry) for k, visual in enumerate(link.visuals, start=1)]
-        shapes += [("collision", k, shape.geometry) for k, shape in enumerate(link.collisions, start=1)]
-        for kind, number, geometry in shapes:
-            found = key(geometry) if isinstance(geometry, Mesh) else ""
+        for place, shape in _places(link):
+            found = key(shape.geometry) if isinstance(shape.geometry, Mesh) else ""
             if size := large.pop(found, 0.0):
                 fitting = [scale for scale in _SCALES if length / _TOO_LARGE < size * scale < _TOO_LARGE * length]
                 factors = " ".join(f"{factor * fitting[0]:g}" for factor in mesh(found).scale) if fitting else ""
                 message = f"mesh `{mesh(found).filename}` is {size:.3g} m large in a robot of {length:.3g} m"
                 hint = f'write scale="{factors}", or export it in m' if len(fitting) == 1 else ""
-                yield Finding("mesh-size", f"link {link.name} / {kind} {number} / geometry", message, hint)
+                yield Finding("mesh-size", f"{place} / geometry", message, hint)
+
+
+def _places(link: Link) -> Iterator[tuple[str, Visual | Collision]]:
+    """Yield the path of each shape, with the shape: visual shapes first."""
+    yield from ((f"link {link.name} / visual {number}", shape) for number, shape in enumerate(link.visuals, start=1))
+    yield from ((f"link {link.name} / collision {number}", shape) for number, shape in enumerate(link.collisions, 1))
 
 
 def _measured(mesh: Mesh, imports: Mapping[str, Import]) -> tuple[_Bounds, float] | None:

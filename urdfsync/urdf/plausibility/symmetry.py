@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, own_range, pose, turned_inertia
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.plausibility.shapes import Body
+from urdfsync.urdf.plausibility.shapes import LIGHT, Body
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Inertial, Joint, Link, Mesh, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
@@ -30,8 +30,6 @@ _ANGLE = 0.1
 """In rad or m: the greatest difference of mirrored limits."""
 _SIZE = 1.5
 """Sizes of mirrored shapes differ by this factor at most: their meshes may show other details."""
-_LIGHT = 0.05
-"""In kg: screws and washers need not be mirrored."""
 _LEAST = 0.01
 """In m: sides that are closer lie in the plane of symmetry."""
 
@@ -140,9 +138,9 @@ def _compare_bodies(plane: _Plane, one: _Side, other: _Side) -> Iterator[Finding
     """Compare masses, centres of mass and inertias."""
     mine, others = one.link.inertial, other.link.inertial
     masses = [inertial.mass if inertial else 0.0 for inertial in (mine, others)]
-    if max(masses) < _LIGHT:
+    if max(masses) < LIGHT:
         return
-    sizes = [_trace(inertial) for inertial in (mine, others)]
+    sizes = [inertial.inertia.trace if inertial else 0.0 for inertial in (mine, others)]
     for what, unit, (a, b) in (("mass", "kg", masses), ("sum of principal inertias", "kg·m²", sizes)):
         if not _are_alike(a, b):
             (a, wrong), (b, right) = ((a, one), (b, other)) if b else ((b, other), (a, one))
@@ -244,10 +242,6 @@ def _mirrored(plane: _Plane, tensor: Matrix) -> Matrix:
     """Return the mirror image of a symmetric tensor: M·I·M for the reflection M."""
     columns = [plane.vector(row) for row in tensor]  # M·row, since the tensor is symmetric
     return tuple(plane.vector(row) for row in zip(*columns, strict=True))  # type: ignore[return-value]
-
-
-def _trace(inertial: Inertial | None) -> float:
-    return inertial.inertia.ixx + inertial.inertia.iyy + inertial.inertia.izz if inertial else 0.0
 
 
 def _moved(point: Vector, direction: Vector, distance: float) -> Vector:
