@@ -52,19 +52,20 @@ def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
 def compose(outer: Pose, inner: Pose) -> Pose:
     """Return the product of two poses: `inner` is given in the frame of `outer`."""
     # written out, this takes a quarter of the time: builds judge each changed robot (docs/speed.md)
-    (row_x, row_y, row_z), (x, y, z) = outer
-    ((ax, bx, cx), (ay, by, cy), (az, bz, cz)), (px, py, pz) = inner
+    row_x, row_y, row_z = outer[0]
+    ((ax, bx, cx), (ay, by, cy), (az, bz, cz)), place = inner
 
     def turned(row: Vector) -> Vector:
         r, s, t = row
         return r * ax + s * ay + t * az, r * bx + s * by + t * bz, r * cx + s * cy + t * cz
 
-    place = (px, py, pz)
-    return (turned(row_x), turned(row_y), turned(row_z)), (
-        x + dot(row_x, place),
-        y + dot(row_y, place),
-        z + dot(row_z, place),
-    )
+    return (turned(row_x), turned(row_y), turned(row_z)), moved(outer, place)
+
+
+def moved(place: Pose, point: Vector) -> Vector:
+    """Return a point, given in the frame of a pose, in the frame of the pose's origin."""
+    (row_x, row_y, row_z), (x, y, z) = place
+    return x + dot(row_x, point), y + dot(row_y, point), z + dot(row_z, point)
 
 
 def motion(joint: Joint, position: float) -> Pose:
@@ -87,8 +88,8 @@ def link_poses(tree: KinematicTree, positions: Mapping[str, float]) -> Mapping[s
     """Return the poses of all links in the root frame; a joint without a given position is at 0."""
     poses = {tree.links[0].name: IDENTITY}
     for joint in tree.joints:
-        moved = compose(pose(joint.origin), motion(joint, positions.get(joint.name, 0.0)))
-        poses[joint.child] = compose(poses[joint.parent], moved)
+        step = compose(pose(joint.origin), motion(joint, positions.get(joint.name, 0.0)))
+        poses[joint.child] = compose(poses[joint.parent], step)
     return poses
 
 
@@ -155,10 +156,13 @@ def across(axis: Vector) -> tuple[Vector, Vector]:
 
 def turned_inertia(rotation: Matrix, inertia: Inertia) -> Matrix:
     """Return an inertia as a tensor in the frame to which `rotation` turns: R·I·Rᵀ."""
-    i = inertia
-    rows = ((i.ixx, i.ixy, i.ixz), (i.ixy, i.iyy, i.iyz), (i.ixz, i.iyz, i.izz))
-    half = [[dot(turned, row) for row in rows] for turned in rotation]  # R·I, since I is symmetric
-    return tuple(tuple(dot(row, turned) for turned in rotation) for row in half)  # type: ignore[return-value]
+    i, (x, y, z) = inertia, rotation
+    a, b, c = (i.ixx, i.ixy, i.ixz), (i.ixy, i.iyy, i.iyz), (i.ixz, i.iyz, i.izz)
+    along_x = dot(x, a), dot(x, b), dot(x, c)  # a row of R·I, since I is symmetric
+    along_y = dot(y, a), dot(y, b), dot(y, c)
+    along_z = dot(z, a), dot(z, b), dot(z, c)
+    xy, xz, yz = dot(along_x, y), dot(along_x, z), dot(along_y, z)
+    return (dot(along_x, x), xy, xz), (xy, dot(along_y, y), yz), (xz, yz, dot(along_z, z))
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:

@@ -111,14 +111,19 @@ def _check_densities(bodies: Mapping[str, Body]) -> Iterator[Finding]:
 
     Three bodies or more also tell a usual density.
     """
-    dense = {
-        name: body.mass / max(body.volumes)
+    measured = {
+        name: body.volumes
         for name, body in bodies.items()
-        if body.visuals and body.mass and body.gyration < body.radius and min(body.volumes, default=0.0) > _LEAST_VOLUME
+        if body.visuals and body.mass and body.gyration < body.radius
+    }
+    dense = {
+        name: bodies[name].mass / max(volumes)
+        for name, volumes in measured.items()
+        if min(volumes, default=0.0) > _LEAST_VOLUME
     }
     usual = sorted(dense.values())[len(dense) // 2] if len(dense) > 1 else 0.0
     for name, density in dense.items():
-        mass, volumes = bodies[name].mass, bodies[name].volumes
+        mass, volumes = bodies[name].mass, measured[name]
         # a mesh may show a part of its body only
         is_unlike = len(dense) > 2 and density > max(_METAL, _UNLIKE * usual) and not bodies[name].has_meshes
         if mass > LIGHT and not (mass / min(volumes) >= _AIR and density <= TUNGSTEN and not is_unlike):

@@ -86,8 +86,7 @@ class _Solid(NamedTuple):
 def _misfit(body: Body, inertial: Inertial) -> str:
     """Return to what other body of the link's simple shapes the inertia belongs, in words; empty if unknown."""
     center, inertia, trace = inertial.origin.xyz, inertial.inertia, inertial.inertia.trace
-    groups: Sequence[Sequence[Visual | Collision]] = (body.link.collisions, body.link.visuals)
-    bodies = [solids for shapes in groups if (solids := _solids(shapes, body.mass))]
+    bodies = _bodies(body)
     # traces need no rotations: mostly they show that the inertia belongs to none of these bodies
     if not any(abs(trace - likely) < 2 * _FITS * trace for solids in bodies for likely in _likely_traces(solids)):
         return ""
@@ -95,7 +94,8 @@ def _misfit(body: Body, inertial: Inertial) -> str:
     size = max(given[k][k] for k in range(3))
 
     def error(other: Matrix) -> float:
-        return max(abs(given[i][k] - other[i][k]) for i in range(3) for k in range(3)) / size
+        pairs = zip(itertools.chain(*given), itertools.chain(*other), strict=True)
+        return max(abs(a - b) for a, b in pairs) / size
 
     if any(error(_joined(solids, center)) < _DIFFERS for solids in bodies):
         return ""
@@ -103,7 +103,7 @@ def _misfit(body: Body, inertial: Inertial) -> str:
         if error(_joined(solids, (0.0, 0.0, 0.0))) < _FITS and math.hypot(*center) > 0:
             return "the inertia fits the shapes about the link's origin, not about the centre of mass"
         away, (_, origin, own) = math.dist(solids[0].origin.xyz, center), solids[0]
-        if error(_sum([turned_inertia(pose(solid.origin)[0], solid.own) for solid in solids])) < _FITS:
+        if error(_joined([_moved(solid, center) for solid in solids], center)) < _FITS:
             if len(solids) > 1:
                 return "the inertia fits the sum of the shapes' own, without the terms of their distances"
             if away > _BESIDE * max(body.visuals + body.collisions, key=lambda extent: extent.reach).reach:
@@ -115,16 +115,24 @@ def _misfit(body: Body, inertial: Inertial) -> str:
     return ""
 
 
-def _solids(shapes: Sequence[Visual | Collision], mass: float) -> list[_Solid]:
-    """Return shapes as solids of one density with this mass; none if a shape is a mesh or a capsule."""
-    if not all(isinstance(shape.geometry, Box | Cylinder | Sphere) for shape in shapes):
-        return []
-    whole = sum(volume(shape.geometry) for shape in shapes)
-    solids = []
-    for shape in shapes if whole else ():
-        part = mass * volume(shape.geometry) / whole
-        solids.append(_Solid(part, shape.origin, _own_inertia(shape.geometry, part)))
-    return solids
+def _bodies(body: Body) -> list[list[_Solid]]:
+    """Return the bodies of the collision and of the visual shapes, as solids of one density with the link's mass.
+
+    A mesh or a capsule is no solid. Shapes that differ in nothing are one body.
+    """
+    forms: list[list[tuple[Geometry, Origin]]] = []
+    groups: Sequence[Sequence[Visual | Collision]] = (body.link.collisions, body.link.visuals)
+    for shapes in groups:
+        form = [(shape.geometry, shape.origin) for shape in shapes]
+        if form not in forms and all(isinstance(geometry, Box | Cylinder | Sphere) for geometry, _ in form):
+            forms.append(form)
+    bodies = []
+    for form in forms:
+        volumes = [volume(geometry) for geometry, _ in form]
+        masses = [body.mass * part / sum(volumes) for part in volumes if sum(volumes)]
+        solids = [_Solid(mass, origin, _own_inertia(one, mass)) for mass, (one, origin) in zip(masses, form)]  # noqa: B905
+        bodies += [solids] if solids else []
+    return bodies
 
 
 def _likely_traces(solids: Sequence[_Solid]) -> tuple[float, float]:
@@ -135,17 +143,21 @@ def _likely_traces(solids: Sequence[_Solid]) -> tuple[float, float]:
 
 def _joined(solids: Sequence[_Solid], point: Vector) -> Matrix:
     """Return the inertia of solids about a point, by the parallel axis theorem."""
-    terms = list[Sequence[Sequence[float]]]()
+    xx = yy = zz = xy = xz = yz = 0.0
     for mass, origin, own in solids:
-        way = [a - b for a, b in zip(origin.xyz, point, strict=True)]
-        square = dot(way, way)
-        shifted = [[mass * ((square if i == k else 0.0) - way[i] * way[k]) for k in range(3)] for i in range(3)]
-        terms += [turned_inertia(pose(origin)[0], own), shifted]
-    return _sum(terms)
+        tensor = turned_inertia(pose(origin)[0], own)
+        x, y, z = (a - b for a, b in zip(origin.xyz, point, strict=True))
+        xx += tensor[0][0] + mass * (y * y + z * z)
+        yy += tensor[1][1] + mass * (x * x + z * z)
+        zz += tensor[2][2] + mass * (x * x + y * y)
+        xy += tensor[0][1] - mass * x * y
+        xz += tensor[0][2] - mass * x * z
+        yz += tensor[1][2] - mass * y * z
+    return (xx, xy, xz), (xy, yy, yz), (xz, yz, zz)
 
 
-def _sum(terms: Sequence[Sequence[Sequence[float]]]) -> Matrix:
-    return tuple(tuple(sum(term[i][k] for term in terms) for k in range(3)) for i in range(3))  # type: ignore[return-value]
+def _moved(solid: _Solid, point: Vector) -> _Solid:
+    return solid._replace(origin=Origin(xyz=point, rpy=solid.origin.rpy))
 
 
 def _own_inertia(geometry: Geometry, mass: float) -> Inertia:
@@ -197,6 +209,9 @@ def principal_moments(inertia: Inertia) -> Vector:
     longer than a build of a small robot.
     """
     values = msgspec.structs.astuple(inertia)
+    if not (values[1] or values[2] or values[4]):
+        low, middle, high = sorted((values[0], values[3], values[5]))
+        return low, middle, high
     scale = max(map(abs, values)) or 1.0  # without this, squares of large numbers overflow
     xx, xy, xz, yy, yz, zz = (value / scale for value in values)
     mean = (xx + yy + zz) / 3

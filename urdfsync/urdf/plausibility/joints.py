@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, dot, link_poses, own_range, start_positions
+from urdfsync.urdf.kinematics.poses import Pose, dot, link_poses, moved, own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.shapes import LIGHT, Body
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Cylinder, Joint, Origin, Sphere, Vector
@@ -142,7 +142,7 @@ def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping
     for name, body in bodies.items():
         masses[name], moments[name] = body.mass, (0.0, 0.0, 0.0)
         if body.inertial and body.mass:
-            _, (x, y, z) = compose(poses[name], (IDENTITY[0], body.inertial.origin.xyz))
+            x, y, z = moved(poses[name], body.inertial.origin.xyz)
             moments[name] = body.mass * x, body.mass * y, body.mass * z
     for joint in reversed(tree.joints):
         mass, moment = masses[joint.child], moments[joint.child]

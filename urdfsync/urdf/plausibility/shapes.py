@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from urdfsync.domain import Import, further_key
-from urdfsync.urdf.kinematics.poses import IDENTITY, compose, pose
+from urdfsync.urdf.kinematics.poses import moved, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes.lookup import BOUNDS, PARTS, VOLUME, key, mesh
 from urdfsync.urdf.robot import (
@@ -117,7 +117,7 @@ def _extent(shape: Visual | Collision, imports: Mapping[str, Import], largest: f
     if not lower or size > largest:
         return Extent(place, math.inf, math.inf)
     x, y, z = ((a + b) / 2 for a, b in zip(lower, upper, strict=True))
-    return Extent(compose(pose(shape.origin), (IDENTITY[0], (x, y, z)))[1], size / 2, enclosed)
+    return Extent(moved(pose(shape.origin), (x, y, z)), size / 2, enclosed)
 
 
 def find_far_shapes(bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
