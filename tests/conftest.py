@@ -10,6 +10,7 @@ import shutil
 import signal
 import sys
 import tempfile
+import zlib
 from collections import Counter
 from collections.abc import Callable, Collection, Generator, Iterator, Sequence
 from pathlib import Path
@@ -270,8 +271,13 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     return files.snapshot
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option of CI that runs only a part of the slow tests."""
+    parser.addoption("--part", metavar="N/M", default="1/1", help="run the N-th of M parts of the tests marked slow")
+
+
 @pytest.hookimpl(wrapper=True, tryfirst=True)  # before `-m` reads the marks
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None]:
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> Generator[None]:
     """Mark tests whose result does not depend on the Python, and all but a test's first case; put long tests first.
 
     xdist gives each process a piece of this list, and later the rests of other pieces. So each piece begins with long
@@ -284,12 +290,15 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None]:
             item.add_marker("once")
         cases[test] += 1
     yield
-    slow = [item for item in items if item.get_closest_marker("slow")]
+    number, parts = map(int, config.getoption("part").split("/"))
+    all_slow = [item for item in items if item.get_closest_marker("slow")]
+    slow = [item for item in all_slow if zlib.crc32(item.nodeid.encode()) % parts == number - 1]
+    config.hook.pytest_deselected(items=[item for item in all_slow if item not in slow])
     quick = [item for item in items if not item.get_closest_marker("slow")]
     pieces: list[list[pytest.Item]] = [[] for _ in range(int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))]
     for _, tests in itertools.groupby(slow, key=lambda item: item.path):
         min(pieces, key=len).extend(tests)
-    size = len(items) // len(pieces)
+    size = (len(slow) + len(quick)) // len(pieces)
     for piece in pieces:
         room = max(0, size - len(piece))
         piece += quick[:room]
