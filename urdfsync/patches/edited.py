@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from urdfsync.engine.edits import EditedFile
-from urdfsync.merge.edits import in_words
+from urdfsync.merge.edits import Edit, in_words
 from urdfsync.modelica.values import literals, read_values
 from urdfsync.patches.literals import NUMBER
 from urdfsync.patches.sources import Key
 
-ONLY_MODELICA = "only Modelica can state it"
+_NO_NUMBER = "only numbers of records go into a patch"
 _NAMED = re.compile(r"`(.+)`")
 
 
@@ -57,20 +57,16 @@ def edited_values(file: EditedFile, path: str) -> Iterator[EditedValue | Staying
     for value in read_values(file.mine):
         before = base.get(value.path, "")
         old, new, words = literals(before), literals(value.text), tuple(NUMBER.findall(value.text))
-        if value.text == before or (old == new and old is not None):
+        is_same = value.text == before or (old == new and old is not None)
+        if is_same or isinstance(new, str) or isinstance(old, str):
             continue
         told = f"{value.path} {before or '(none)'} → {value.text}"
-        if isinstance(new, str) or (old is not None and not isinstance(old, tuple)):
-            yield Staying(file.path, told, "it is no number")
-        elif new is None or tuple(map(float, words)) != new:
+        if new is None or tuple(map(float, words)) != new:
             yield Staying(file.path, told, "it is no plain decimal number")
         elif old and len(old) != len(new):
             yield Staying(file.path, told, "it has another count of numbers")
         else:
             yield EditedValue((path, value.path), old or (), new, words, told)
-    mine = {value.path for value in read_values(file.mine)}
-    for name in base.keys() - mine:
-        yield Staying(file.path, f"{name} removed", "the source states it, or its default")
 
 
 def other_edits(file: EditedFile, values: Sequence[str]) -> Iterator[Staying]:
@@ -82,12 +78,14 @@ def other_edits(file: EditedFile, values: Sequence[str]) -> Iterator[Staying]:
     elif not edits:
         yield Staying(file.path, "", "only blanks, the order of things or the spelling of numbers differ")
     else:
-        others = [edit for edit in edits if not _places(edit.element, edit.part) & {*values}]
+        others = [edit for edit in edits if not _is_of(edit, values)]
         for element, told in in_words(others):
-            yield Staying(file.path, f"{element}: {told}", ONLY_MODELICA)
+            yield Staying(file.path, f"{element}: {told}", _NO_NUMBER)
 
 
-def _places(element: str, part: str) -> set[str]:
-    """Return the paths that a value of an element may have in its record."""
-    name, first = _NAMED.search(element), part.partition(" ")[0]
-    return {first, *([f"{name[1]}.{first}".rstrip("."), name[1]] if name else [])}
+def _is_of(edit: Edit, values: Sequence[str]) -> bool:
+    """Whether an edit is one of a record's `values`, or adds the part around one."""
+    name, first = _NAMED.search(edit.element), edit.part.partition(" ")[0]
+    places = [first, *([f"{name[1]}.{first}".rstrip(".")] if name else [])]
+    beginnings = tuple(f"{place}." for place in places) if edit.base is None else ()
+    return any(value in places or value.startswith(beginnings) for value in values)

@@ -63,7 +63,7 @@ def _find_patch(config: Config, robot: RobotConfig, options: BuildOptions, edite
         found = list(edited_values(file, path)) if is_record else []
         of_file = [each for each in found if isinstance(each, EditedValue)]
         staying += [each for each in found if isinstance(each, Staying)]
-        staying += other_edits(file, [each.key[1] for each in of_file])
+        staying += other_edits(file, [each.told.partition(" ")[0] for each in found])
         values, places = [*values, *of_file], {**places, path: file.path}
     if not values:
         return RobotPatch(robot.name, {}, tuple(staying))

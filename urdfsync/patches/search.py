@@ -75,7 +75,14 @@ class Search:
 
     def _accept(self, values: Sequence[EditedValue], changes: Changes) -> None:
         self._accepted += values
-        self.changes |= changes
+        self.changes = self._with(changes)
+
+    def _with(self, changes: Changes) -> Changes:
+        """Return the accepted changes with further ones; what is inserted at one place follows each other."""
+        inserted = {
+            literal: f"{self.changes.get(literal, '')}{new}" for literal, new in changes.items() if not literal.text
+        }
+        return self.changes | changes | inserted
 
     def _literals(self) -> Iterator[Literal]:
         for file, content in self._contents.items():
@@ -98,7 +105,7 @@ class Search:
 
     def _misfit(self, values: Sequence[EditedValue], changes: Changes) -> str:
         """Return why changes are not exactly these edits; empty if they are. Accepted changes are made, too."""
-        changes = self.changes | changes
+        changes = self._with(changes)
         contents = replaced(self._contents, changes)
         if reasons := self._refused(contents):
             return "; ".join(reasons)
@@ -157,18 +164,23 @@ class Search:
 
     def _at_tags(self, value: EditedValue, owner: str) -> Iterator[Changes]:
         """Yield changes of the tags of an element that may be an edit."""
-        lines = {line for path, line in self.before.lines.items() if path == owner or path.startswith(f"{owner} / ")}
+        parts = dict[tuple[str, int], list[str]]()
+        for path, line in sorted(self.before.lines.items(), key=lambda item: item[1]):
+            if path == owner or path.startswith(f"{owner} / "):
+                parts.setdefault(self._place(line), []).append(path)
         *_, around, name = ["", *map(_snake, value.key[1].split("."))]
         pairs = [(around, name), (name, "xyz" if len(value.new) > 1 else "value")]
-        for place, line in dict.fromkeys(map(self._place, sorted(lines))):
+        for (place, line), paths in parts.items():
             file = Path(working_folder() / place)
             text = decoded(self._contents[file]) if file in self._contents else ""
+            # a second element would take the place of the first one, with a warning
+            missing = [pair for pair in pairs if not any(f"{path} / {pair[0]}" in self.before.lines for path in paths)]
             for tag in _tags(text, line):
                 yield from _replacing(file, text, tag, value)
                 ends = [match.end() for match in _ATTRIBUTE.finditer(tag[0])] or [len(tag[0].rstrip("/>"))]
                 if words := _new_attribute(value, tag[0], name):
                     yield {Literal(file, tag.start() + ends[-1], "", line): words}
-                for element, attribute in pairs if not tag[0].endswith("/>") else ():
+                for element, attribute in missing if not tag[0].endswith("/>") else ():
                     new = f"<{element}{_new_attribute(value, '', attribute)}/>"
                     yield {Literal(file, tag.end(), "", line): f"{_indented(text, tag.start())}{new}"}
 

@@ -75,7 +75,9 @@ class SourceReader:
         if text.expansion and not robot.command:
             given = {str(path): content for path, content in contents.items()}
             made = expansion.expand(self._inputs, robot.arguments or {}, given)
-            text = Source(made.text.encode(), text.name, self._inputs.places(made), companions=text.companions)
+            text = Source(
+                made.text.encode(), text.name, self._inputs.places(made), (), made, companions=text.companions
+            )
         elif robot.source in contents:
             text = msgspec.structs.replace(text, content=contents[robot.source])
         places = dict(self._companions(robot))
