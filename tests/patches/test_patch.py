@@ -20,9 +20,16 @@ pytestmark = NEEDS_GIT
 CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 FORE, ELBOW = "modelica/Arm/Links/ForeParameters.mo", "modelica/Arm/Joints/ElbowParameters.mo"
 HEAD = '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+BASE, CALL, INCLUDE = (
+    '<link name="base"/>\n',
+    '<xacro:wheel name="{}" mass="{}"/>\n',
+    '<xacro:include filename="{}.xacro"/>\n',
+)
 WHEEL = """\
   <xacro:macro name="wheel" params="name mass">
-    <link name="${name}"><inertial><mass value="${mass}"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+    <link name="${name}">
+      <inertial><mass value="${mass}"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+    </link>
     <joint name="to_${name}" type="continuous"><parent link="base"/><child link="${name}"/><axis xyz="0 1 0"/></joint>
   </xacro:macro>
 """
@@ -100,7 +107,7 @@ def test_a_patch_names_file_and_line(repository: Repository, execute: Execute) -
         ' <robot name="arm">\n   <link name="base"/>\n   <link name="fore">\n'
         f"-{line.format('2.5')}+{line.format('3')}"
         '   </link>\n   <joint name="elbow" type="revolute">\n'
-        '     <parent link="base"/><child link="fore"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="5" velocity="2"/>\n'
+        f" {ELBOW_ARM.splitlines()[6]}\n"
     )
 
 
@@ -198,20 +205,21 @@ def test_literals_of_a_xacro(repository: Repository, execute: Execute) -> None:
 
 
 def test_defaults_and_properties_of_nested_files(repository: Repository, execute: Execute) -> None:
+    inner = f"{HEAD}<xacro:arg name='mass' default='2.5'/>\r\n<xacro:property name='m' value='$(arg mass)'/></robot>\n"
     files = {
-        "arm.xacro": f'{HEAD}<xacro:include filename="a/a.xacro"/>\n<link name="base"/>\n<xacro:wheel name="w" mass="${{m}}"/></robot>',
-        "a/a.xacro": f'{HEAD}<xacro:include filename="b/b.xacro"/>\n{WHEEL}</robot>\n',
-        "a/b/b.xacro": f"{HEAD}<xacro:arg name='mass' default='2.5'/>\r\n<xacro:property name='m' value='$(arg mass)'/></robot>\n",
+        "arm.xacro": f"{HEAD}{INCLUDE.format('a/a')}{BASE}{CALL.format('w', '${m}')}</robot>",
+        "a/a.xacro": f"{HEAD}{INCLUDE.format('b/b')}{WHEEL}</robot>\n",
+        "a/b/b.xacro": inner,
     }
     build(execute, {**files}, CONFIG.replace("arm.urdf", "arm.xacro"))
     edit("modelica/Arm/Links/WParameters.mo", ("mass = 2.5", "mass = 3"))
     assert apply(repository, execute) == []
-    assert Path("a/b/b.xacro").read_bytes().decode() == files["a/b/b.xacro"].replace("2.5", "3")
+    assert Path("a/b/b.xacro").read_bytes().decode() == inner.replace("2.5", "3")
 
 
 def test_a_literal_that_feeds_two_parts_stays(repository: Repository, execute: Execute) -> None:
-    calls = '<xacro:wheel name="{}" mass="${{m}}"/>'
-    text = f'{HEAD}<xacro:property name="m" value="2.5"/>\n{WHEEL}<link name="base"/>{calls.format("a")}{calls.format("b")}</robot>'
+    calls = "".join(CALL.format(name, "${m}") for name in "ab")
+    text = f'{HEAD}<xacro:property name="m" value="2.5"/>\n{WHEEL}{BASE}{calls}</robot>'
     build(execute, {"arm.xacro": text}, CONFIG.replace("arm.urdf", "arm.xacro"))
     records = [f"modelica/Arm/Links/{name}Parameters.mo" for name in "AB"]
     edit(records[0], ("mass = 2.5", "mass = 3"))
@@ -226,7 +234,7 @@ def test_a_literal_that_feeds_two_parts_stays(repository: Repository, execute: E
     ("expression", "value", "why"),
     [
         ("${2*m}", 5, "no number of the source (arm.xacro:4) is this one: it is computed, or a default"),
-        ("${m}", 2.5, "its number in arm.xacro:2 also feeds arm.xacro:5"),
+        ("${m}", 2.5, "its number in arm.xacro:2 also feeds arm.xacro:5, arm.xacro:10"),
     ],
 )
 def test_an_expression_is_not_inverted(
@@ -234,13 +242,12 @@ def test_an_expression_is_not_inverted(
 ) -> None:
     """A literal may also feed elements that no model has."""
     gazebo = '<gazebo reference="a"><mu2 value="${3*m}"/></gazebo>'
-    text = f'{HEAD}<xacro:property name="m" value="2.5"/><link name="base"/>\n\n{WHEEL.strip()}\n<xacro:wheel name="a" mass="{expression}"/>{gazebo}</robot>'
-    build(execute, {"arm.xacro": text.replace("\n\n", "\n")}, CONFIG.replace("arm.urdf", "arm.xacro"))
+    parts = f"{BASE}{WHEEL}{CALL.format('a', expression)}{gazebo}"
+    text = f'{HEAD}<xacro:property name="m" value="2.5"/>{parts}</robot>'
+    build(execute, {"arm.xacro": text}, CONFIG.replace("arm.urdf", "arm.xacro"))
     record = "modelica/Arm/Links/AParameters.mo"
     edit(record, (f"mass = {value}", "mass = 6"))
-    patch, (line,) = patch_and_told()
-    assert patch == b""
-    assert line.startswith(f"{record}: inertial.mass {value} → 6: stays, since {why[:40]}"), line
+    assert patch_and_told() == (b"", [f"{record}: inertial.mass {value} → 6: stays, since {why}"])
 
 
 # --- places -------------------------------------------------------------------------------------------------------
@@ -337,13 +344,20 @@ def test_positions_in_the_configuration(repository: Repository, execute: Execute
     assert Path("urdfsync.toml").read_text() == CONFIG + "start = { elbow = 0.25 }\n"
 
 
-def test_a_table(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Cells of a table are literals, too."""
-    shutil.copytree(Path(__file__).parents[1] / "table/examples/servos", folder, dirs_exist_ok=True)
-    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(folder.parent))
+def test_cells_of_a_table(repository: Repository, execute: Execute) -> None:
+    """Numbers with a factor between the units of cell and record stay, and so do those of an arm with these motors."""
+    shutil.copytree(Path(__file__).parents[1] / "table/examples/servos", repository.folder, dirs_exist_ok=True)
     execute("build", "--quiet")
-    patch, told = patch_and_told()
-    assert (patch, told) == (b"", [])
+    record, joint = "modelica/Servos/Records/S41.mo", "modelica/Arm/Joints/ElbowParameters.mo"
+    edit(joint, ("reduction = 353.5", "reduction = 360"))
+    why = "its number also feeds robot `servos`"
+    assert patch_and_told() == (b"", [f"{joint}: transmission.reduction 353.5 → 360: stays, since {why}"])
+    Path("urdfsync.toml").write_text(Path("urdfsync.toml").read_text().partition("[robots.arm]")[0])
+    edit(record, ("= 353.5", "= 360"), ("= 4.1", "= 4.2"))
+    patch, (line,) = patch_and_told()
+    assert b"\n-S41,410,46,353.5,0.6,20,0.05," in patch
+    assert b"\n+S41,410,46,360,0.6,20,0.05," in patch
+    assert line.startswith(f"{record}: stall_torque 4.1 → 4.2: stays, since no number of the source")
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -70,7 +71,7 @@ def _find_patch(config: Config, robot: RobotConfig, options: BuildOptions, edite
     reader = SourceReader(config, robot, options)
     contents = reader.contents()
     owners = generation.package.owners
-    refused = partial(_refusals, config, robot, options)
+    refused = partial(_refusals, config, list(_other_readers(config, robot, options)))
     search = Search(partial(look, reader, inputs, generation), contents, owners, values, refused)
     search.run()
     staying += [
@@ -81,29 +82,20 @@ def _find_patch(config: Config, robot: RobotConfig, options: BuildOptions, edite
     return RobotPatch(robot.name, search.changes, tuple(staying))
 
 
-def _refusals(config: Config, robot: RobotConfig, options: BuildOptions, contents: Contents) -> list[str]:
+def _other_readers(config: Config, robot: RobotConfig, options: BuildOptions) -> Iterator[SourceReader]:
+    """Yield the readers of the other robots. A robot that can't be read is left out: a build reports it."""
+    for other in config.robots:
+        if other.name != robot.name:
+            with contextlib.suppress(UrdfsyncError):
+                yield SourceReader(config, other, options)
+
+
+def _refusals(config: Config, others: Sequence[SourceReader], contents: Contents) -> list[str]:
     """Return why changed contents can't be in the patch: outside of the project, or read by another robot."""
     top = top_of(config.root)
     outside = [file for file in contents if path_in(top, file) is None]
     reasons = [f"its number is in {shown(file)}, outside of {shown(top)}" for file in outside]
-    others = [other for other in config.robots if other.name != robot.name]
-    fed = [other.name for other in others if _is_fed(config, other, options, contents)]
-    return [*reasons, *(f"its number also feeds robot `{name}`" for name in fed)]
-
-
-def _is_fed(config: Config, robot: RobotConfig, options: BuildOptions, contents: Contents) -> bool:
-    """Whether changed contents change what a robot is read from."""
-    try:
-        reader = SourceReader(config, robot, options)
-    except UrdfsyncError:
-        return False  # a robot that can't be read is fed by nothing; `build` reports it
-    if not contents.keys() & {*reader.files}:
-        return False
-    if contents.keys() & {*robot.command_inputs}:
-        return True
-    (before, text), (after, changed) = reader.read({}), reader.read(contents)
-    one, other = ((each.options, each.arguments) for each in (before, after))
-    return one != other or (text.content, text.companions) != (changed.content, changed.companions)
+    return [*reasons, *(f"its number also feeds robot `{other.name}`" for other in others if other.is_fed(contents))]
 
 
 def patch_text(config: Config, patches: Sequence[RobotPatch]) -> bytes:

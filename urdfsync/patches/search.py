@@ -107,9 +107,9 @@ class Search:
         """Return why changes are not exactly these edits; empty if they are. Accepted changes are made, too."""
         changes = self._with(changes)
         contents = replaced(self._contents, changes)
-        if reasons := self._refused(contents):
-            return "; ".join(reasons)
         try:
+            if reasons := self._refused(contents):
+                return "; ".join(reasons)
             now = self._look(contents)
         except UrdfsyncError as error:
             return f"the source would be wrong: {error.diagnostics[0].message}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
@@ -58,6 +59,21 @@ class SourceReader:
     def contents(self) -> dict[Path, bytes]:
         """Return the contents of all files that the source is made of, and of the configuration. Raises OSError."""
         return {path: read_unrecorded(path) for path in self.files}
+
+    @property
+    def name(self) -> str:
+        """The robot's name."""
+        return self._robot.name
+
+    def is_fed(self, contents: Contents) -> bool:
+        """Whether these contents change what the robot is read from. Raises UrdfsyncError."""
+        if not contents.keys() & {*self.files}:
+            return False
+        return bool(contents.keys() & {*self._robot.command_inputs}) or self.read(contents) != self._unchanged
+
+    @functools.cached_property
+    def _unchanged(self) -> tuple[RobotConfig, Source]:
+        return self.read({})
 
     def _companions(self, robot: RobotConfig) -> list[tuple[str, Path]]:
         """Return the companions of the source: option and path of each, in the order of `Source.companions`."""
