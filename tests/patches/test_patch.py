@@ -230,6 +230,31 @@ def test_a_literal_that_feeds_two_parts_stays(repository: Repository, execute: E
     assert Path("arm.xacro").read_text() == text.replace("2.5", "3")
 
 
+def test_two_edits_of_one_number_stay(repository: Repository, execute: Execute) -> None:
+    calls = "".join(CALL.format(name, "${m}") for name in "ab")
+    text = f'{HEAD}<xacro:property name="m" value="2.5"/>\n{WHEEL}{BASE}{calls}</robot>'
+    build(execute, {"arm.xacro": text}, CONFIG.replace("arm.urdf", "arm.xacro"))
+    edit("modelica/Arm/Links/AParameters.mo", ("mass = 2.5", "mass = 3"))
+    edit("modelica/Arm/Links/BParameters.mo", ("mass = 2.5", "mass = 4"))
+    patch, told = patch_and_told()
+    assert (patch, len(told)) == (b"", 2)
+    assert all(line.endswith("or another edit changes the same number") for line in told)
+
+
+def test_what_a_macro_leaves_out_is_inserted_for_one_part(repository: Repository, execute: Execute) -> None:
+    one = f"{HEAD}{WHEEL}{BASE}{CALL.format('a', '2')}</robot>"
+    build(execute, {"arm.xacro": one}, CONFIG.replace("arm.urdf", "arm.xacro"))
+    edit("modelica/Arm/Joints/To_aParameters.mo", ("xyz = {0, 0, 0}", "xyz = {0, 0.5, 0}"))
+    patch, told = patch_and_told()
+    assert b'type="continuous"><origin xyz="0 0.5 0"/><parent ' in patch
+    assert told == []
+    Path("arm.xacro").write_text(one.replace("</robot>", f"{CALL.format('b', '2')}</robot>"))
+    execute("build", "--quiet")
+    patch, (line,) = patch_and_told()
+    assert patch == b""
+    assert line.endswith("its number in arm.xacro:7 also feeds origin.xyz of joint to_b")
+
+
 @pytest.mark.parametrize(
     ("expression", "value", "why"),
     [

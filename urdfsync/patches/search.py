@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
@@ -115,7 +116,7 @@ class Search:
             return f"the source would be wrong: {error.diagnostics[0].message}"
         edited = [*self._accepted, *values]
         if any(now.values.get(value.key) != value.new for value in edited):
-            return "it is computed from numbers of the source"
+            return "the source computes it, or another edit changes the same number"
         if others := self._others(now, edited):
             places = ", ".join(sorted({f"{literal.file.name}:{literal.line}" for literal in changes}))
             return f"its number in {places}{_FEEDS}{', '.join(others[:3])}{', …' * (len(others) > 3)}"
@@ -130,19 +131,19 @@ class Search:
             follows = self._owners.get(key[0]) == _WHOLE and key[0] not in files
             if key not in wanted and not follows and self.before.values.get(key) != now.values.get(key):
                 others.append(f"{key[1]} of {self._owners.get(key[0], key[0])}")
-        if not others and self.before.text.expansion:
-            count = sum(max(len(value.changed), 1) for value in edited)
-            others = self._lines_beyond(now, count)
-        return others
+        return others or (self._lines_beyond(now, edited) if self.before.text.expansion else [])
 
-    def _lines_beyond(self, now: Look, count: int) -> list[str]:
-        """Return the places of changed words in the expanded source, if there are more than `count`."""
+    def _lines_beyond(self, now: Look, edited: Sequence[EditedValue]) -> list[str]:
+        """Return the places of changed lines of the expanded source, if more changed than the edited values."""
         old, new = (look.text.content.decode().splitlines() for look in (self.before, now))
-        pairs = [(n, a.split(), b.split()) for n, (a, b) in enumerate(zip(old, new, strict=False), 1) if a != b]
+        if len(old) != len(new):  # an element was inserted
+            added = Counter(new) - Counter(old)
+            return [] if added.total() <= len(edited) else [line.strip() for line in added]
+        pairs = [(n, a.split(), b.split()) for n, (a, b) in enumerate(zip(old, new, strict=True), 1) if a != b]
         words = sum(sum(map(str.__ne__, a, b)) + abs(len(a) - len(b)) for _, a, b in pairs)
-        if len(old) == len(new) and words <= count:
+        if words <= sum(len(value.changed) for value in edited):
             return []
-        return list(dict.fromkeys("{}:{}".format(*self._place(line)) for line, _, _ in pairs)) or ["other elements"]
+        return list(dict.fromkeys("{}:{}".format(*self._place(line)) for line, _, _ in pairs))
 
     def _place(self, line: int) -> tuple[str, int]:
         """Return the file and the line that the user wrote, by a line of the source that is read."""
@@ -182,7 +183,7 @@ class Search:
                     yield {Literal(file, tag.start() + ends[-1], "", line): words}
                 for element, attribute in missing if not tag[0].endswith("/>") else ():
                     new = f"<{element}{_new_attribute(value, '', attribute)}/>"
-                    yield {Literal(file, tag.end(), "", line): f"{_indented(text, tag.start())}{new}"}
+                    yield {Literal(file, tag.end(), "", line): f"{_indented(text, tag)}{new}"}
 
     def _why_unknown(self, value: EditedValue) -> str:
         owner = self._owners.get(value.key[0], "")
@@ -220,11 +221,11 @@ def _tags(text: str, line: int) -> Iterator[re.Match[str]]:
         yield match
 
 
-def _indented(text: str, start: int) -> str:
-    """Return the line end and the indentation of a new child of the tag at a place."""
-    indent = re.search(r"[^\S\r\n]*\Z", text[:start])
-    end = "\r\n" if "\r\n" in text else "\n"
-    return f"{end}{indent[0] if indent else ''}  "
+def _indented(text: str, tag: re.Match[str]) -> str:
+    """Return the line end and the indentation of a new child of a tag; empty if its children are in the tag's line."""
+    end = _LINE_END.match(text, tag.end())
+    indent = re.search(r"[^\S\r\n]*\Z", text[: tag.start()])
+    return f"{end[0]}{indent[0]}  " if end and indent else ""
 
 
 def _replacing(file: Path, text: str, tag: re.Match[str], value: EditedValue) -> Iterator[Changes]:

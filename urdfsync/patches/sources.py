@@ -87,7 +87,7 @@ class SourceReader:
         if config.file in contents:
             read = contents[config.file].decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
             robots = configuration.parse(read, config.file, shown(config.file)).robots
-            robot = next(each for each in robots if each.name == robot.name)
+            robot = next((each for each in robots if each.name == robot.name), robot)
         if text.expansion and not robot.command:
             given = {str(path): content for path, content in contents.items()}
             made = expansion.expand(self._inputs, robot.arguments or {}, given)
