@@ -252,7 +252,7 @@ def test_what_a_macro_leaves_out_is_inserted_for_one_part(repository: Repository
     execute("build", "--quiet")
     patch, (line,) = patch_and_told()
     assert patch == b""
-    assert line.endswith("its number in arm.xacro:7 also feeds origin.xyz of joint to_b")
+    assert line.endswith("its number in arm.xacro:6 also feeds origin.xyz of joint to_b")
 
 
 @pytest.mark.parametrize(

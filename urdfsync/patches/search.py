@@ -59,8 +59,9 @@ class Search:
                 self.reasons[value.key] = "the source has changed it, too: build first"
             else:
                 known.append(value)
-        wanted = {value.old[k] for value in known if value.old for k in value.changed}
-        origins = self._trace([literal for literal in self._literals() if float(literal.text) in wanted])
+        origins = self._find_origins(
+            {(value.key, k): value.old[k] for value in known if value.old for k in value.changed}
+        )
         groups = list(_by_literal(known, origins))
         together = {literal: text for _, changes in groups for literal, text in changes.items()}
         if groups and not self._misfit([value for values, _ in groups for value in values], together):
@@ -85,9 +86,18 @@ class Search:
         }
         return self.changes | changes | inserted
 
-    def _literals(self) -> Iterator[Literal]:
+    def _find_origins(self, numbers: Mapping[tuple[Key, int], float]) -> dict[tuple[Key, int], Literal]:
+        """Return the literals behind numbers of records, by the value and the place in it."""
+        by_number = dict[float, list[Literal]]()
         for file, content in self._contents.items():
-            yield from find_literals(file, content)
+            for literal in find_literals(file, content):
+                by_number.setdefault(float(literal.text), []).append(literal)
+        wanted = {*numbers.values()} & by_number.keys()
+        origins = self._trace([literal for number in wanted for literal in by_number[number]])
+        # a factor `1.0*` beside a number was changed with it: try each number alone
+        for number in {numbers[place] for place in numbers.keys() - origins.keys()} & wanted if len(wanted) > 1 else ():
+            origins |= self._trace(by_number[number])
+        return origins
 
     def _trace(self, literals: Sequence[Literal]) -> dict[tuple[Key, int], Literal]:
         """Return the literal behind each number of the records that is one of these literals."""
