@@ -176,7 +176,7 @@ def _is_told(folder: Path, file: Path, path: str, told: list[str]) -> bool:
     return any(line.startswith(f"{file.relative_to(folder)}: {path} ") for line in told)
 
 
-@pytest.mark.parametrize("file", sampled(ROBOTS, 1 if CASES else 6))
+@pytest.mark.parametrize("file", sampled(ROBOTS, 1 if CASES else 12))
 def test_edits_of_a_urdf(
     file: str, corpus: Path, folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -185,7 +185,7 @@ def test_edits_of_a_urdf(
     run(seed, folder, execute, monkeypatch, {"bot.urdf": content})
 
 
-@pytest.mark.parametrize("file", sampled(SMALL, 1 if CASES else 6))
+@pytest.mark.parametrize("file", sampled(SMALL, 1 if CASES else 12))
 def test_edits_of_a_xacro(
     file: str, corpus: Path, folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
