@@ -29,11 +29,16 @@ class Stream:
         self._try(self._inner.write, text)
         return len(text)
 
+    def write_bytes(self, content: bytes) -> None:
+        """Write bytes as they are, unless an earlier write failed."""
+        self.flush()
+        self._try(self._inner.buffer.write, content)
+
     def flush(self) -> None:
         """Pass on the buffered text."""
         self._try(self._inner.flush)
 
-    def _try(self, function: Any, *arguments: str) -> None:
+    def _try(self, function: Any, *arguments: str | bytes) -> None:
         if self.error is None or self.error.errno == errno.ENOSPC:  # a full disk may have space later
             try:
                 function(*arguments)

@@ -6,11 +6,13 @@ import argparse
 from functools import partial
 from typing import TYPE_CHECKING
 
-from urdfsync.api import diff, edits
+from urdfsync.api import diff, edits, load
 from urdfsync.commands import arguments
+from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
+from urdfsync.files import shown
 from urdfsync.output.build_section import show
-from urdfsync.output.console import Console
+from urdfsync.output.console import Console, line
 from urdfsync.versions import report
 from urdfsync.versions.comparison import Comparison, exit_code
 
@@ -31,7 +33,8 @@ def add(commands: arguments.Commands) -> None:
         epilog="examples: urdfsync diff cad/arm.urdf\n"
         "          urdfsync diff arm --against HEAD~1\n"
         "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n"
-        "          urdfsync diff --edits modelica/Arm/Links",
+        "          urdfsync diff --edits modelica/Arm/Links\n"
+        "          urdfsync diff --edits --patch | git apply",
     )
     parser.add_argument(
         "sources", nargs="*", metavar="SOURCE", help="sources or robots, with --edits also outputs (default: all)"
@@ -39,16 +42,38 @@ def add(commands: arguments.Commands) -> None:
     other = parser.add_mutually_exclusive_group()
     other.add_argument("--against", metavar="VERSION", help="the older version: git revision, else file")
     other.add_argument("--edits", action="store_true", help="show what you edited in the packages instead")
+    words = "with --edits: write the edits that the sources can state as a patch of the sources; tell what stays"
+    parser.add_argument("--patch", action="store_true", help=words)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Show what changed in each source, or what the user edited."""
+    if args.patch:
+        return _write_patch(args, console)
     given = {"config": args.config, "wait": args.wait, "progress": console.progress}
     if args.edits:
         edited = edits(*args.sources, **given, on_result=partial(_show_edits, console))
         return console.end(Exit.ERROR if any(each.failed for each in edited) else Exit.IN_STEP)
     compared = diff(*args.sources, **given, against=args.against, on_result=partial(_show_changes, console))
     return console.end(exit_code(compared))
+
+
+def _write_patch(args: argparse.Namespace, console: Console) -> int:
+    """Write the patch of the sources on the output stream, and what stays on the error stream."""
+    if not args.edits or console.is_document:
+        message = "--patch writes a patch of what --edits shows" if not args.edits else "--patch writes no document"
+        hint = "add --edits" if not args.edits else "leave out --format; --edits alone can write a document"
+        raise arguments.UsageError(args.parser, message, hint)
+    from urdfsync.patches.patch import RobotPatch, find_patches, patch_text  # the merge takes a while to load
+
+    config, patches = load(args.config), list[RobotPatch]()
+    for patch in find_patches(args.sources, config, BuildOptions(dry=True, wait=args.wait, progress=console.progress)):
+        patches.append(patch)
+        console.findings(patch.diagnostics)
+        staying = [f"{shown(config.root / each.file)}: {each.told}" for each in patch.staying]
+        console.print((line((text, "")) for text in staying if not console.quiet), error=True)
+    console.write(patch_text(config, patches))
+    return console.end(Exit.ERROR if any(patch.failed for patch in patches) else Exit.IN_STEP)
 
 
 def _show_changes(console: Console, compared: Comparison) -> None:

@@ -144,10 +144,14 @@ def _variable_hash(name: str) -> str | None:
     return None if value is None else digest(value.encode(errors="surrogateescape"))
 
 
-def expand(inputs: SourceFiles, arguments: Mapping[str, str]) -> Expansion:
-    """Expand a source by xacro, in a process of its own. Raises SourceError."""
+def expand(inputs: SourceFiles, arguments: Mapping[str, str], contents: Mapping[str, bytes] | None = None) -> Expansion:
+    """Expand a source by xacro, in a process of its own. Raises SourceError.
+
+    `contents` override files on disk, by absolute path.
+    """
     folders = tuple(map(str, inputs.package_paths))
-    answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root)))
+    limits = CPU_SECONDS, MEMORY
+    answer = _ask(Request(str(inputs.source), arguments, folders, *limits, str(inputs.root), contents or {}))
     if (problem := answer.problem) is not None:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         for path in answer.files:

@@ -85,13 +85,15 @@ class Source(msgspec.Struct, frozen=True):
         """Return a diagnostic about the text, with the files and lines that the user wrote."""
         if not self.places or found.file != self.name or not found.line:
             return found
-        file, line = self._place(found.line)
+        file, line = self.place(found.line)
         message = self._with_places(found.message, file)
         details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # calls of one macro repeat details
         return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
 
-    def _place(self, line: int) -> tuple[str, int]:
+    def place(self, line: int) -> tuple[str, int]:
         """Return the original place of the element at a line of the text; above the root element, the root's place."""
+        if not self.places:
+            return self.name, line
         number = bisect_right(self.places, line, key=lambda place: place[0])
         return self.places[max(number - 1, 0)][1:]
 
@@ -100,9 +102,9 @@ class Source(msgspec.Struct, frozen=True):
 
         def replace(match: re.Match[str]) -> str:
             lines = [int(line) for line in match[2].split(", ")]
-            if all(self._place(line) == (self.name, line) for line in lines):
+            if all(self.place(line) == (self.name, line) for line in lines):
                 return match[0]
-            places = dict.fromkeys(map(self._place, lines))
+            places = dict.fromkeys(map(self.place, lines))
             alone = all(file == told for file, _ in places)
             listed = ", ".join(str(line) if alone else f"{file}:{line}" for file, line in places)
             return f"line{'s' * (len(places) > 1)} {listed}"

@@ -58,6 +58,8 @@ class Request(msgspec.Struct, frozen=True):
     """The bytes that the expansion may allocate."""
     folder: str = "."
     """The value of `$(cwd)`. The process has another working folder: PYTHONPATH may have relative entries."""
+    contents: Mapping[str, bytes] = {}
+    """Contents of files that override the disk, by path."""
 
 
 class Problem(msgspec.Struct, frozen=True):
@@ -161,7 +163,9 @@ def find_matches(pattern: str) -> list[str]:
 class _Files:
     """Opens and finds files and packages for xacro, and records all of them."""
 
-    def __init__(self, packages: ros_packages.Packages) -> None:
+    def __init__(self, packages: ros_packages.Packages, contents: Mapping[str, bytes]) -> None:
+        """`contents` of files override the disk."""
+        self._contents = contents
         self.hashes: dict[str, str | None] = {}
         self.patterns: dict[str, None] = {}
         self.packages: dict[str, str] = {}
@@ -191,7 +195,7 @@ class _Files:
             raise TypeError(f"the name of a file must be text, not {path!r}")
         path = os.path.abspath(path)  # noqa: PTH100 - links are not followed
         self.hashes[path] = None
-        content = read_unrecorded(path)
+        content = self._contents[path] if path in self._contents else read_unrecorded(path)
         self.hashes[path] = text_digest(content)
         file = _OpenedFile(io.BytesIO(content), encoding="utf-8")
         file.name = path
@@ -262,7 +266,8 @@ def expand(request: Request) -> Answer:
         from urdfsync.engine import xacro_expressions
     except ImportError as error:
         return Answer(problem=Problem("no-xacro", f"xacro can't be loaded: {error}"))
-    files = _Files(ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source)))
+    packages = ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source))
+    files = _Files(packages, request.contents)
     said = io.StringIO()
     # xacro asks ROS 2 for packages; ROS 2 need not be installed
     ament = types.ModuleType("ament_index_python.packages")

@@ -20,7 +20,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.documents import Document, plain
 from urdfsync.spelling import visible
-from urdfsync.streams import has_colours, is_terminal
+from urdfsync.streams import Stream, has_colours, is_terminal
 
 if TYPE_CHECKING:
     import rich.console
@@ -157,6 +157,12 @@ class Console:
         """Write lines on the output stream; with `error` on the error stream."""
         self.stop_progress()
         write_lines(lines, sys.stderr if error else sys.stdout)
+
+    def write(self, content: bytes) -> None:
+        """Write bytes on the output stream."""
+        self.stop_progress()
+        stream = sys.stdout if isinstance(sys.stdout, Stream) else Stream(sys.stdout)
+        stream.write_bytes(content)
 
     def tell(self, lines: Iterable[StyledLine]) -> None:
         """Write lines on the output stream, unless it gets a document or the user gives --quiet."""

@@ -1,0 +1,1 @@
+"""Turns edits of generated records into a patch of the source."""
