@@ -63,6 +63,8 @@ def read_cases(given: Sequence[str], sampling: Sampling) -> Cases:
     files = [text for text in given if "=" not in text]
     if files and len(given) > 1:
         _refuse(f"`{files[0]}` is a file with all cases, so it must be the only `--vary`", _HINT)
+    if files and not Path(files[0]).exists():
+        _refuse(f"there is no file `{files[0]}`", f"name a CSV file, or {_HINT}")
     if files:
         return _read_file(Path(files[0]))
     spreads = [read_spread(text) for text in given]
@@ -119,7 +121,8 @@ def _numbers(text: str, words: Iterable[str]) -> tuple[float, ...]:
         except ValueError:
             numbers.append(math.nan)
         if not math.isfinite(numbers[-1]) or "_" in word:
-            _refuse(f"`{word.strip()}` in `{text}` is no number", _HINT)
+            what = f"`{word.strip()}` in `{text}` is no number" if word.strip() else f"in `{text}` a number is missing"
+            _refuse(what, _HINT)
     return tuple(numbers)
 
 
