@@ -30,7 +30,7 @@ from urdfsync.output.terminal import text
 if TYPE_CHECKING:
     from urdfsync.checks.results import CheckResult
     from urdfsync.engine.edits import RobotEdits
-    from urdfsync.simulation.report import Simulation
+    from urdfsync.simulation.report import Simulation, StudyDisplay
     from urdfsync.versions.comparison import Comparison
 
 R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
@@ -241,6 +241,39 @@ def simulate(
     result = run.simulate(loaded, robot, SimulateOptions(tool=chosen, **given), progress)
     write_outputs(files, result)
     return Simulation(**msgspec.structs.asdict(result) | {"files": files})
+
+
+def vary(
+    *robots: str,
+    config: Place = None,
+    files: Mapping[str, Path] | None = None,
+    tool: str | None = None,
+    trusted: bool = False,
+    progress: Progress = no_progress,
+    **given: Any,
+) -> StudyDisplay:
+    """Simulate many cases of a robot, as `urdfsync simulate --vary` does.
+
+    `given` are fields of `VaryOptions`: `vary` has the varied parameters, `NAME=SPEC`. The result has `cases`,
+    `summaries` and `worst`. It writes `files`: `csv` (a row for each case) or `plot`. Raises UrdfsyncError as
+    `simulate` does; a case that fails raises nothing.
+    """
+    from urdfsync.checks import compilers
+    from urdfsync.simulation import vary as cases
+    from urdfsync.simulation.files import check_outputs, input_files, write_outputs
+    from urdfsync.simulation.report import StudyDisplay
+    from urdfsync.simulation.results import VaryOptions
+
+    loaded, files = load(config), files or {}
+    robot = loaded.select_one(robots, "simulate", given.get("model", ""))
+    inputs = input_files(loaded, robot, given.get("motion"))
+    if tables := [Path(name) for name in given.get("vary", ()) if "=" not in name]:
+        inputs["the file with the cases"] = tables[0]
+    check_outputs(files, inputs)
+    chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
+    study = cases.vary(loaded, robot, VaryOptions(tool=chosen, **given), progress)
+    write_outputs(files, study)
+    return StudyDisplay(**msgspec.structs.asdict(study) | {"files": files})
 
 
 def record(

@@ -58,8 +58,9 @@ def _main(given: list[str]) -> int:
         problems, code = error.diagnostics, Exit.ERROR
     except UrdfsyncError as error:
         problems, code = error.diagnostics, Exit.LOCKED if error.is_locked else Exit.ERROR
-    except KeyboardInterrupt:
-        message = "interrupted; run the command again to finish the work"
+    except KeyboardInterrupt as interruption:
+        kept = f"; {interruption}" if interruption.args else ""
+        message = f"interrupted{kept}; run the command again to finish the work"
         problems, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, the code for a package out of step
         problems, code = findings_of(error), Exit.ERROR

@@ -116,7 +116,7 @@ def test_progress_is_told_in_robots_that_have_been_read(robots: Path, monkeypatc
             told.append((done, total))
             executor.work()
 
-    monkeypatch.setattr(pool, "workers", lambda *_: contextlib.nullcontext(Workers(executor, None)))
+    monkeypatch.setattr(pool, "workers", lambda *_: contextlib.nullcontext(Workers(executor, None, 1)))
     run_all(jobs=2, progress=progress)
     assert told == [(number, COUNT) for number in range(COUNT)]
 

@@ -131,7 +131,13 @@ class Compiling:
         """Of single models."""
 
     def __call__(
-        self, tool: Tool, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
+        self,
+        tool: Tool,
+        job: CompileJob,
+        cache: UserCache,
+        limits: Limits,
+        progress: object = None,
+        on_result: object = None,
     ) -> list[CompileResult]:
         """Return a result for each task."""
         self.roots += job.roots
@@ -144,4 +150,4 @@ class Compiling:
 def thread_workers(count: int, address: str = "") -> Iterator[Workers]:
     """Replace `workers` by threads of this process, which see the stand-ins of a test."""
     with ThreadPoolExecutor(count) as executor:
-        yield Workers(executor, None)
+        yield Workers(executor, None, 1)

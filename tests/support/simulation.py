@@ -53,7 +53,13 @@ class Compiler:
         self.parameters = {f"robot.shoulder.parameters.limits.{name}": limit for name, limit in limits.items()}
 
     def __call__(
-        self, tool: Tool, job: CompileJob, cache: UserCache, limits: Limits, progress: object = None
+        self,
+        tool: Tool,
+        job: CompileJob,
+        cache: UserCache,
+        limits: Limits,
+        progress: object = None,
+        on_result: object = None,
     ) -> list[CompileResult]:
         """Return the next of the results, or the series."""
         self.jobs.append(job)

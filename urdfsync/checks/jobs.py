@@ -33,7 +33,8 @@ class Jobs(msgspec.Struct, frozen=True):
     folder: Path
     """The folder for copies of the package."""
     progress: Callable[[], None] | None = None
-    """See `process.run`."""
+    on_result: Callable[[CompileResult], None] | None = None
+    """See `process.run` for both. Problems of these results name the copies of files."""
 
     def run(
         self,
@@ -74,7 +75,7 @@ class Jobs(msgspec.Struct, frozen=True):
         originals[roots[-1]] = self.robot.output / top.name
         tasks = [_with_imports(task, needed) for task in tasks]
         job = CompileJob(tuple(roots), tuple(tasks))
-        results = compilers.run_job(self.tool, job, cache, self.limits, self.progress)
+        results = compilers.run_job(self.tool, job, cache, self.limits, self.progress, self.on_result)
         return [_with_originals(result, originals) for result in results]
 
 

@@ -6,6 +6,7 @@ As a program, this module calls the function that is pickled on stdin.
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import pickle
 import signal
@@ -14,7 +15,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, TypeVar
+from typing import IO, Any, TypeVar
 
 import msgspec
 import psutil
@@ -77,13 +78,33 @@ def run(
     limits: Limits,
     environment: Mapping[str, str] | None = None,
     progress: Callable[[], None] | None = None,
+    on_result: Callable[[T], None] | None = None,
 ) -> list[T]:
     """Return all that a function yields in a process of its own, and end the process.
 
-    Calls `progress` repeatedly until the function ends.
+    Calls `progress` repeatedly until the function ends, and `on_result` with each result, soon after it was yielded.
     Raises LimitError, BrokenProcessError, and the function's own UrdfsyncError or ImportError.
     """
     started = set[psutil.Process]()  # the children of an ended process can't be found any more
+    results, position = list[Any](), 0
+
+    def take(data: IO[bytes]) -> None:
+        """Take the results in `data`, which begins behind the results that were taken before."""
+        nonlocal position
+        begin, place = position, data.tell()
+        for result in _loaded(data):
+            results.append(result)
+            position = begin + data.tell() - place
+            if on_result and result is not None and not isinstance(result, Exception):
+                on_result(result)
+
+    def look() -> None:
+        # The process writes at the file's present place, so this place must not move. Windows has no `pread`.
+        if on_result and hasattr(os, "pread"):
+            take(io.BytesIO(os.pread(answers.fileno(), os.fstat(answers.fileno()).st_size - position, position)))
+        if progress:
+            progress()
+
     with tempfile.TemporaryFile() as answers, tempfile.TemporaryFile() as errors:
         with subprocess.Popen(  # noqa: S603 - a command of ours
             processes.python_module("urdfsync.checks.process"),
@@ -100,13 +121,14 @@ def run(
                     with contextlib.suppress(OSError):  # the process has ended; its exit code says why
                         process.stdin.write(pickle.dumps((limits.seconds - limits.used, function, arguments)))
                         process.stdin.flush()
-                _wait(process, limits, started, progress)
+                _wait(process, limits, started, look)
             finally:
                 for child in started:
                     with contextlib.suppress(psutil.Error):
                         child.kill()
                 process.kill()
-        results = list(_loaded(answers))
+        answers.seek(position)
+        take(answers)
         if results and isinstance(results[-1], Exception):
             raise results[-1]
         if process.returncode or not results or results[-1] is not None:
@@ -120,13 +142,12 @@ def _wait(
     process: subprocess.Popen[bytes],
     limits: Limits,
     started: set[psutil.Process],
-    progress: Callable[[], None] | None,
+    look: Callable[[], None],
 ) -> None:
     """Wait until a process ends, and collect its child processes in `started`. Raises LimitError."""
     begin = worked = time.monotonic()
     while True:
-        if progress:
-            progress()
+        look()
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(_INTERVAL)
             return
@@ -156,8 +177,7 @@ def _wait(
             raise LimitError.of("out-of-memory", message, hint=hint)
 
 
-def _loaded(answers: Any) -> Iterator[Any]:
-    answers.seek(0)
+def _loaded(answers: IO[bytes]) -> Iterator[Any]:
     with contextlib.suppress(EOFError, pickle.UnpicklingError):  # the process ended while it wrote
         while True:
             yield pickle.load(answers)  # noqa: S301 - written by a process of ours
@@ -167,18 +187,23 @@ def main() -> None:
     """Call the function from stdin. Write each result, then None or an error, to stdout."""
     with processes.reserve_stdout() as answers:
         seconds, function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from a process of ours
-        # Ends this process if its parent is gone: native code may block all threads of Python.
-        if sys.platform != "win32":
-            signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.0) + _GRACE)
+        _end_after(seconds)
         processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python's exit
         last = None
         try:
             for result in function(*arguments):
                 answers.write(pickle.dumps(result))
                 answers.flush()  # after a crash, earlier answers are complete
+                _end_after(seconds)  # a parent may allow this time for each result
         except (UrdfsyncError, ImportError) as error:
             last = error
         answers.write(pickle.dumps(last))
+
+
+def _end_after(seconds: float) -> None:
+    """End this process after some processor time if its parent is gone: native code may block Python's threads."""
+    if sys.platform != "win32":
+        signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.0) + _GRACE)
 
 
 if __name__ == "__main__":

@@ -22,6 +22,7 @@ from urdfsync.engine.result import Exit, Result
 from urdfsync.output.console import Console
 from urdfsync.output.documents import Document, document_type
 from urdfsync.simulation.fmu import WrittenFmu
+from urdfsync.simulation.outcomes import Study
 from urdfsync.simulation.results import SimulateResult
 from urdfsync.versions.comparison import Comparison
 
@@ -31,7 +32,7 @@ _RESULTS: dict[str, tuple[Any, ...]] = {
     "diff": (Comparison, RobotEdits),
     "report": (PageDocument,),
     "check": (CheckResult,),
-    "simulate": (SimulateResult,),
+    "simulate": (SimulateResult, Study),
     "fmu": (WrittenFmu,),
     "record": (WholeRecord,),
     "library": (LibraryDocument,),

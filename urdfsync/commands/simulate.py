@@ -7,15 +7,16 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.api import simulate
+from urdfsync.api import simulate, vary
 from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.simulation.report import result_lines
-from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions
+from urdfsync.simulation.cases import SAMPLES
+from urdfsync.simulation.report import result_lines, study_lines
+from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions, VaryOptions
 
 
 def add(commands: arguments.Commands) -> None:
@@ -23,7 +24,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "simulate",
-        "--wait --trust --set --timeout --memory",
+        "--wait --trust --set --jobs --executor --timeout --memory",
         help="simulate a robot, and compare its joints with their limits",
         description="Simulate the Test model of a robot, or a model of yours, with the package as it is on disk. Show "
         "for each joint its range, speed and effort beside its limits, and warn of exceeded limits. Only the files "
@@ -31,7 +32,8 @@ def add(commands: arguments.Commands) -> None:
         epilog="examples: urdfsync simulate arm --plot arm.png\n"
         "          urdfsync simulate --model Plant.Cell --stop 5 --csv cell.csv\n"
         "          urdfsync simulate arm --set robot.elbow.parameters.dynamics.damping=4\n"
-        "          urdfsync simulate arm --input motion.csv",
+        "          urdfsync simulate arm --input motion.csv\n"
+        "          urdfsync simulate arm --vary robot.hand.parameters.inertial.mass=0..5 --cases 200 --csv cases.csv",
     )
     option = parser.add_argument
     option("robots", nargs="*", metavar="ROBOT", help="the robot, if the project has several")
@@ -45,17 +47,28 @@ def add(commands: arguments.Commands) -> None:
     methods = "; ".join(f"{', '.join(compiler.METHODS)} ({compiler.TITLE})" for compiler in COMPILERS.values())
     option("--method", metavar="M", default="", help=f"method of the integration: {methods}")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
-    option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs")
+    option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs, or all cases")
     more = "another variable for the CSV file, such as 'robot.hand.*'; may be repeated"
     option("--variable", dest="variables", action="append", metavar="PATTERN", default=[], help=more)
     option("--plot", type=Path, metavar="FILE.png|svg", help="draw positions, speeds and efforts against their limits")
     option("--report", type=Path, metavar="FILE.html", help="write a page in which the robot moves, as `report` does")
+    spec = "simulate many cases: a parameter and 0..1 or normal(1,0.1) to sample, [1,2] or 0..1/5 for each value; may "
+    spec += "be repeated; or a CSV file, whose header names parameters"
+    option("--vary", action="append", metavar="NAME=SPEC|FILE.csv", default=[], help=spec)
+    option("--cases", type=arguments.count, metavar="N", help=f"number of samples for --vary (default: {SAMPLES})")
+    option("--seed", type=int, default=0, metavar="N", help="seed of the samples (default: 0)")
+    kinds = "Latin hypercube, or independent random samples (default: latin)"
+    option("--sampling", choices=("latin", "random"), default="latin", help=kinds)
     arguments.add_tool(parser, {name: compiler.TITLE for name, compiler in COMPILERS.items()})
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write the named files, and show the result."""
     files = {kind: file for kind in ("csv", "plot") if (file := getattr(args, kind)) is not None}
+    if args.vary:
+        return _run_cases(args, console, files)
+    if args.cases or args.jobs or args.executor:
+        raise arguments.UsageError(args.parser, "`--cases`, `--jobs` and `--executor` need `--vary`")
     write_report = prepare_page(args, console, args.report, motion=args.motion) if args.report else None
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
@@ -67,3 +80,15 @@ def run(args: argparse.Namespace, console: Console) -> int:
     console.findings(result.diagnostics)
     stopped = any(finding.severity is Severity.ERROR for finding in result.diagnostics)
     return console.end(Exit.ERROR if stopped else Exit.IN_STEP)
+
+
+def _run_cases(args: argparse.Namespace, console: Console, files: dict[str, Path]) -> int:
+    """Simulate many cases of one robot. A failed case is a difference, since the others have results."""
+    if args.report or args.variables:
+        message = "`--vary` has no page and no `--variable`: simulate one case with them"
+        raise arguments.UsageError(args.parser, message, "the worst case is shown with its command")
+    study = arguments.call(vary, VaryOptions, args, console, files=files, tool=args.tool, trusted=args.trusted)
+    console.add(study)
+    console.tell(study_lines(study))
+    console.findings(study.diagnostics)
+    return console.end(Exit.OUT_OF_STEP if study.failed else Exit.IN_STEP)

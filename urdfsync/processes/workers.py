@@ -34,8 +34,9 @@ _steps: SimpleQueue[str] | None = None
 class Workers:
     """Takes jobs, which are functions of modules with arguments that can be pickled."""
 
-    def __init__(self, executor: Executor, steps: SimpleQueue[str] | None) -> None:
-        self._executor, self._queue = executor, steps
+    def __init__(self, executor: Executor, steps: SimpleQueue[str] | None, count: int) -> None:
+        """`count` is the number of jobs that run at the same time."""
+        self._executor, self._queue, self.count = executor, steps, count
 
     def submit(self, job: Callable[..., T], *arguments: Any) -> Future[T]:
         """Submit a job, to run in the present working folder."""
@@ -59,7 +60,7 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
         with contextlib.closing(_connect(address)) as client:
             executor = client.get_executor()
             try:
-                yield Workers(executor, None)
+                yield Workers(executor, None, max(1, sum(client.nthreads().values())))
             except BaseException:
                 executor.shutdown(wait=False)  # cancels jobs that no worker has begun
                 raise
@@ -72,7 +73,7 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
         end, steps = context.Pipe(duplex=False), context.SimpleQueue()
         executor = ProcessPoolExecutor(count, context, _begin, (end[0], steps))
     try:
-        yield Workers(executor, steps)
+        yield Workers(executor, steps, count)
     except BaseException:
         end[1].close()  # ends the workers, which read the other end of this pipe
         raise

@@ -13,6 +13,7 @@ from urdfsync.dependencies.places import real
 from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, put, shown
+from urdfsync.simulation.outcomes import Study, table
 from urdfsync.simulation.results import SimulateResult
 
 if TYPE_CHECKING:
@@ -76,18 +77,19 @@ def write_file(file: Path, content: bytes) -> None:
         raise not_writable(file, f"the file can't be written: {error.strerror}", hint) from None
 
 
-def write_outputs(files: Mapping[str, Path], result: SimulateResult) -> None:
+def write_outputs(files: Mapping[str, Path], result: SimulateResult | Study) -> None:
     """Write the files. Raises OutputError."""
     for kind, file in files.items():
         write_file(file, _content(kind, file, result))
 
 
-def _content(kind: str, file: Path, result: SimulateResult) -> bytes:
+def _content(kind: str, file: Path, result: SimulateResult | Study) -> bytes:
     if kind == "csv":
-        return "".join(_csv_lines(result.series)).encode()
-    from urdfsync.simulation.plot import draw  # its import takes 0.5 s; matplotlib is an extra
+        return "".join(table(result) if isinstance(result, Study) else _csv_lines(result.series)).encode()
+    from urdfsync.simulation.plot import draw, draw_study  # their import takes 0.5 s; matplotlib is an extra
 
-    return draw(result, file.suffix.lower().removeprefix("."))
+    form = file.suffix.lower().removeprefix(".")
+    return draw_study(result, form) if isinstance(result, Study) else draw(result, form)
 
 
 def _csv_lines(series: Series) -> Iterator[str]:

@@ -53,6 +53,24 @@ def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, flo
     return results
 
 
+def energies(layouts: Layouts, series: Series, parameters: Mapping[str, float]) -> list[float | None]:
+    """Return for each of `joint_results` the energy in J that its drive gives and takes; None without a drive."""
+    import numpy as np  # see below
+
+    amounts: list[float | None] = []
+    for place, layout in robots(layouts, series):
+        for axis in layout:
+            given = {name: _values(signal, place, series, parameters) for name, signal in _signals(axis)}
+            effort, speed = given.get("effort"), given.get("speed")
+            if any(values is not None for values in given.values()):
+                if effort is None or speed is None:
+                    amounts.append(None)
+                    continue
+                power = np.abs(effort * speed)
+                amounts.append(float((np.diff(series["time"]) * (power[:-1] + power[1:]) / 2).sum()))
+    return amounts
+
+
 def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
     """Yield the result of each loop of each robot in a model, except loops whose joint the user has replaced."""
     for place, _ in robots(bench.layouts, series) if bench.loops else ():

@@ -35,6 +35,7 @@ _UNITS = {
 }
 """The possible units of a column, with their factors, by the unit of the input."""
 _SMOOTH = ("rad", "m", "rad/s", "m/s")
+_NO_MOTION = "write a header, `time` and the inputs, and two rows or more"
 _OVERSHOOT = 0.05
 """The share of the range of an input by which its spline may leave two rows; a sine with 8 rows a turn takes 0.04."""
 _STRAIGHT = 2
@@ -52,7 +53,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
     """Read a CSV file with a first column `time`, and a column for each input. Raises SourceError."""
     if not inputs:
         _refuse(file, "the model has no inputs that a motion could drive", hint="leave `--input` out")
-    (line, header), *rows = _read_rows(file)
+    (line, header), *rows = read_rows(file, MOST_ROWS, "rows", _NO_MOTION, least=2)
     factors = _columns(file, line, header, inputs)
     columns: dict[str, list[float]] = {name: [] for name in factors}
     for line, row in rows:
@@ -69,8 +70,11 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
     return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
 
 
-def _read_rows(file: Path) -> Sequence[Row]:
-    """Return the rows that are not empty, with their line numbers: a header, and at least two more rows."""
+def read_rows(file: Path, most: int, noun: str, missing: str, *, least: int = 1) -> Sequence[Row]:
+    """Return the rows of a CSV file that are not empty, with their line numbers. Raises SourceError.
+
+    The file has a header, and from `least` to `most` rows below it; `missing` is the hint for a file with fewer.
+    """
     try:
         text = read_unrecorded(file).decode("utf-8-sig")  # does not wait for a pipe, or read an endless device
     except OSError as error:
@@ -84,13 +88,12 @@ def _read_rows(file: Path) -> Sequence[Row]:
         for row in reader:
             if any(cell.strip() for cell in row):
                 rows.append((reader.line_num, row))
-            if len(rows) > MOST_ROWS + 1:
-                hint = "leave out rows: values between rows are interpolated"
-                _refuse(file, f"the file has more than {MOST_ROWS} rows", hint=hint)
+            if len(rows) > most + 1:
+                _refuse(file, f"the file has more than {most} {noun}", hint="leave some out")
     except csv.Error as error:
         _refuse(file, f"the file is no CSV: {error}", reader.line_num)
-    if len(rows) < 3:
-        _refuse(file, "the file has no motion", hint="write a header, `time` and the inputs, and two rows or more")
+    if len(rows) < 1 + least:
+        _refuse(file, f"the file has no {noun}" if least == 1 else "the file has no motion", hint=missing)
     try:
         return rows if separator == "," else [rows[0], *with_points(rows[1:], range(len(rows[0][1])))]
     except MarkError as error:

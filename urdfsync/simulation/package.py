@@ -134,7 +134,17 @@ def run_task(
             names = msgspec.structs.replace(task, source=plain, runs=(), export=None)
             (answer,) = jobs.run("plain", package.files.texts, [names], changed)
             result = answer if answer.parameters else result
-    faults = find_unknown(model.name, task.parameters, result.parameters)
+    check_compiled(prepared, options, task, result)
+    return result
+
+
+def check_compiled(prepared: Prepared, options: SimulateOptions, task: CompileTask, result: CompileResult) -> None:
+    """Raise UrdfsyncError if the model of a task does not compile, or if a parameter can't be changed."""
+    package, model = prepared.package, prepared.model
+    faults = find_unknown(model.name, (*task.parameters, *task.varied), result.parameters)
+    for name in result.structural:
+        message = f"`{name}` can't be varied: the compiler evaluates it, or it is no single real number"
+        faults.append(Diagnostic(Severity.ERROR, "vary", message, hint=f"simulate once per value: `--set {name}=…`"))
     for name in result.without_effect:
         message = f"`{name}` can't be changed: nothing in the compiled model depends on it"
         faults.append(
@@ -154,4 +164,3 @@ def run_task(
         faults += complaints
     if faults:
         raise UrdfsyncError(*faults)
-    return result

@@ -11,6 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from urdfsync.diagnostics import ConfigError
+from urdfsync.simulation.outcomes import QUANTITIES, Extent, Study
 from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
 _ROWS = ("position", "speed", "effort")
@@ -19,6 +20,10 @@ _MOST = 12
 """The greatest number of series of a picture without joints."""
 _WIDTH, _HEIGHT = 6.4, 2.6
 """Width and height of a panel, in inches."""
+_LONGEST = 90
+"""Letters that fit below a row of panels."""
+_PLAIN = {"svg.hashsalt": "urdfsync", "text.parse_math": False, "text.usetex": False}
+"""No dates in SVG; `$` in the name of a joint begins no formula."""
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The colours of Okabe and Ito, which colour-blind people can distinguish."""
 
@@ -32,9 +37,7 @@ def draw(result: SimulateResult, kind: str) -> bytes:
     if not (result.joints or 0 < len(series) <= _MOST):
         message = f"the simulation has no joints, and {len(series)} variables: a picture has at most {_MOST}"
         raise ConfigError.of("no-plot", message, hint="name some with `--variable`")
-    # no dates in SVG; `$` in the name of a joint begins no formula
-    plain = {"svg.hashsalt": "urdfsync", "text.parse_math": False, "text.usetex": False}
-    with rc_context({**plain, "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
+    with rc_context({**_PLAIN, "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
         if series:
             return _saved(_draw_series(result, series), kind)
         columns = list(_columns(result.joints))
@@ -54,6 +57,55 @@ def draw(result: SimulateResult, kind: str) -> bytes:
             last.tick_params(labelbottom=True)
             panels[0][column].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
         return _saved(figure, kind)
+
+
+def draw_study(study: Study, kind: str) -> bytes:
+    """Return a picture of all cases: for each joint how often its speed and effort have each size, and their limits.
+
+    The last row has the load of each case over each varied parameter. Raises ConfigError if all cases failed.
+    """
+    simulated = [number for number, outcome in enumerate(study.outcomes) if not outcome.problem]
+    if not simulated:
+        raise ConfigError.of("no-plot", "all cases failed, so there is nothing to draw")
+    names = study.names
+    width = max(len(names), len(study.varied.names), 1)
+    with rc_context({**_PLAIN, "font.size": 8, "axes.grid": True, "grid.alpha": 0.3}):
+        figure = Figure(figsize=(max(2.2 * width, 6.4), 3 * _HEIGHT), layout="constrained")
+        FigureCanvasAgg(figure)
+        figure.suptitle(f"{study.model}: {study.within} of {len(study.outcomes)} cases within all limits")
+        rows: Any = figure.subfigures(2, 1, height_ratios=(2, 1))
+        panels = rows[0].subplots(2, max(len(names), 1), squeeze=False)
+        for row, quantity in enumerate(("speed", "effort")):
+            place = QUANTITIES.index(quantity)
+            for panel, (column, joint) in zip(panels[row], enumerate(names), strict=False):
+                extents = [study.outcomes[number].joints[column].extents[place] for number in simulated]
+                _draw_sizes(panel, [extent for extent in extents if extent], joint.units[place])
+                panel.set_title(f"{joint.short}: {quantity}", fontsize=8)
+        panels = rows[1].subplots(1, len(study.varied.names), squeeze=False, sharey=True)[0]
+        for column, (panel, name) in enumerate(zip(panels, study.varied.names, strict=True)):
+            for status, colour in (("within", _COLOURS[2]), ("beyond", _COLOURS[1])):
+                chosen = [number for number in simulated if study.outcomes[number].status == status]
+                values = [study.varied.rows[number][column] for number in chosen]
+                loads = [study.outcomes[number].load for number in chosen]
+                panel.plot(values, loads, ".", markersize=4, color=colour, label=f"{status} limits" if chosen else None)
+            panel.axhline(1, color="black", linestyle="--", linewidth=0.8)
+            panel.set_xlabel(name if len(name) * len(panels) < _LONGEST else f"…{name[-_LONGEST // len(panels) :]}")
+        panels[0].set_ylabel("greatest share of a limit")
+        panels[-1].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+        return _saved(figure, kind)
+
+
+def _draw_sizes(panel: Any, extents: Sequence[Extent], unit: str) -> None:
+    """Draw how many cases have each greatest absolute value, and the limit if it is near."""
+    panel.set_visible(bool(extents))  # a joint that follows another has no effort
+    sizes = [extent.size for extent in extents]
+    panel.hist(sizes, bins=min(30, max(5, len(sizes) // 5)), color=_COLOURS[0])
+    limits = {extent.upper for extent in extents if extent.upper is not None}
+    low, high = panel.get_xlim()
+    for limit in limits if len(limits) == 1 else ():
+        if limit <= high + 1.5 * (high - low):  # a far limit would flatten the bars
+            panel.axvline(limit, color=_COLOURS[1], linestyle="--", linewidth=1)
+    panel.set_xlabel(unit)
 
 
 def _draw_series(result: SimulateResult, names: Sequence[str]) -> Figure:

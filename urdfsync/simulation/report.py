@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
+from urdfsync.checks.compilers.compiler import one_line
 from urdfsync.output.console import StyledLine, findings, html, line
 from urdfsync.simulation.fmu import AGREEMENT, WrittenFmu
+from urdfsync.simulation.outcomes import Study
 from urdfsync.simulation.results import JointResult, Range, SimulateResult
+from urdfsync.spelling import counted
 
+_STUDY_HEADER = ("joint", "greatest", "min", "median", "max", "limit", "unit", "cases beyond")
+_MOST_PROBLEMS = 3
+_LONGEST_PROBLEM = 200
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
 _WORDS = {"me": "model exchange", "cs": "co-simulation"}
 _NOTHING = 5e-7
@@ -19,6 +26,13 @@ class Simulation(SimulateResult, frozen=True):
 
     def _repr_html_(self) -> str:
         return html([*result_lines(self), *findings(self.diagnostics)])
+
+
+class StudyDisplay(Study, frozen=True):
+    """A study with a display for notebooks."""
+
+    def _repr_html_(self) -> str:
+        return html([*study_lines(self), *findings(self.diagnostics)])
 
 
 def result_lines(result: SimulateResult) -> Iterator[StyledLine]:
@@ -41,6 +55,41 @@ def result_lines(result: SimulateResult) -> Iterator[StyledLine]:
                 yield line((f"  {loop.element}: {amounts} at most", ""))
     for name, file in result.files.items():
         yield line((f"  {name}: ", ""), (str(file), "bold"))
+
+
+def study_lines(study: Study) -> Iterator[StyledLine]:
+    """Yield the lines about many cases, without the study's diagnostics."""
+    total = len(study.outcomes)
+    known = f" ({study.known} remembered)" if study.known else ""
+    took = f"{study.seconds:.1f} s{known}"
+    about = f": {study.model}, {study.stop:g} s in steps of {study.step:g} s; {counted(total, 'case')}; {took}"
+    yield line((study.robot, "bold"), (about, ""))
+    rest = [f"{study.beyond} beyond"] * bool(study.beyond) + [f"{study.failed} failed"] * bool(study.failed)
+    verdict = "; ".join([f"  {study.within} of {total} cases within all limits", *rest])
+    yield line((verdict, "green" if study.within == total else "bold yellow"))
+    rows: list[tuple[tuple[str, ...], str]] = [(_STUDY_HEADER, "dim")]
+    for each in study.summaries:
+        place = "" if each.robot in ("", "robot") else f"{each.robot}."
+        name = f"{place}{each.element.partition(' ')[2] or each.element}"
+        limit = "-" if each.limit is None else _digits(each.limit)
+        sizes = (_digits(number) for number in (each.least, each.median, each.greatest))
+        cells = (name, each.quantity, *sizes, limit, each.unit, str(each.beyond or ""))
+        rows.append((cells, "bold yellow" if each.beyond else ""))
+    widths = [max(map(len, column)) for column in zip(*(cells for cells, _ in rows), strict=True)]
+    for cells, style in rows if len(rows) > 1 else ():
+        yield line((_aligned(cells, widths), style))
+    problems = Counter(outcome.problem for outcome in study.outcomes if outcome.problem)
+    for problem, count in problems.most_common(_MOST_PROBLEMS):
+        first = next(number for number, outcome in enumerate(study.outcomes, 1) if outcome.problem == problem)
+        words = one_line(problem)[:_LONGEST_PROBLEM]
+        yield line((f"  {counted(count, 'case')} failed (the first is case {first}): {words}", "bold red"))
+    if study.worst:
+        outcome = study.outcomes[study.worst - 1]
+        share = f"{outcome.heaviest}, {100 * outcome.load:.0f} % of its limit" if outcome.heaviest else "no limits"
+        yield line((f"  worst: case {study.worst}: {share}", ""))
+        yield line((f"    {study.replay}", "dim"))
+    for kind, file in study.files.items():
+        yield line((f"  {kind}: ", ""), (str(file), "bold"))
 
 
 def _aligned(cells: tuple[str, ...], widths: list[int]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Literal
 
 import msgspec
 
@@ -39,6 +40,22 @@ class SimulateOptions(RunOptions, frozen=True):
     tool: Tool = Tool()
     as_exported: bool = False
     """Simulate as the FMU does: drives keep their filters, and inputs change at each step or stay at 0."""
+
+
+class VaryOptions(SimulateOptions, frozen=True):
+    """How to simulate many cases."""
+
+    vary: tuple[str, ...] = ()
+    """`NAME=SPEC` for each varied parameter, or the name of a CSV file."""
+    cases: int | None = None
+    """Number of samples of distributions; None leaves the number to the program."""
+    seed: int = 0
+    sampling: Literal["latin", "random"] = "latin"
+    """See `cases.Sampling.kind`."""
+    jobs: int | None = None
+    """Number of cases at the same time; None for one per core."""
+    executor: str = ""
+    """Address of a Dask scheduler; empty for processes of this machine."""
 
 
 class Range(msgspec.Struct, frozen=True):

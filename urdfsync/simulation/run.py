@@ -73,7 +73,7 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
 def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tuple[SimulationResult, Simulation, bool]:
     """Return a simulation, its settings, and whether it was remembered. Raises UrdfsyncError."""
     cache, begin, package, model = UserCache.default(), time.monotonic(), prepared.package, prepared.model
-    task, plain, changed = _task(options, prepared)
+    task, plain, changed = simulation_task(options, prepared)
     (run,) = task.runs
     facts = task, *(sorted(files.items()) for files in (package.files.texts, package.around, changed))
     key = result_key(package.robot, [options.tool], prepared.needed, *facts)
@@ -108,7 +108,7 @@ def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:
     return msgspec.structs.replace(run, stop=last) if 0 < last < run.stop else None
 
 
-def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, str, Mapping[Path, bytes]]:
+def simulation_task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, str, Mapping[Path, bytes]]:
     """Return the compiler's task, its text without changed parameters, and the changed contents of files."""
     robot, model, values = prepared.package.robot, prepared.model, prepared.values
     inputs, changes, changed = model.inputs(), modifiers(values), dict[Path, bytes]()

@@ -78,9 +78,16 @@ def state(tool: Tool) -> list[str]:
 
 
 def run_job(
-    tool: Tool, job: CompileJob, cache: UserCache, limits: Limits, progress: Callable[[], None] | None = None
+    tool: Tool,
+    job: CompileJob,
+    cache: UserCache,
+    limits: Limits,
+    progress: Callable[[], None] | None = None,
+    on_result: Callable[[CompileResult], None] | None = None,
 ) -> list[CompileResult]:
-    """Do the tasks of a job in a process; returns a result for each, in order. `progress` is as in `process.run`.
+    """Do the tasks of a job in a process; returns a result for each, in order.
+
+    `progress` and `on_result` are as in `process.run`.
 
     A model that does not compile raises no error: its result has the problem. Raises CompilerError if the compiler is
     missing or breaks down, and LimitError.
@@ -92,7 +99,9 @@ def run_job(
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
         environment = compiler.environment(str(cache.compiler), folder)
         try:
-            return process.run(compiler.work, job, limits=limits, environment=environment, progress=progress)
+            return process.run(
+                compiler.work, job, limits=limits, environment=environment, progress=progress, on_result=on_result
+            )
         except ImportError as error:
             raise CompilerError(_missing(compiler, f"{compiler.TITLE} does not start: {error}")) from None
         except BrokenProcessError as error:

@@ -28,8 +28,7 @@ class Tool(msgspec.Struct, frozen=True):
 class Simulation(msgspec.Struct, frozen=True):
     """One run from 0 to `stop` s with results every `step` s.
 
-    `parameters` has new values for parameters of the text. Only tests set `parameters`, to compile a model once for
-    several runs.
+    `parameters` has new values for parameters of the compiled model, which is compiled once for several runs.
     """
 
     stop: float
@@ -65,6 +64,8 @@ class CompileTask(msgspec.Struct, frozen=True):
     """A regular expression for whole names: matching variables and parameters are returned as well."""
     parameters: tuple[str, ...] = ()
     """Parameters that the text sets. The task fails if the model lacks one of them, or if nothing depends on it."""
+    varied: tuple[str, ...] = ()
+    """Parameters to which `runs` give values. The task fails as for `parameters`, and for a structural parameter."""
     title: str = ""
     """The name of the model in messages."""
     export: Export | None = None
@@ -97,6 +98,8 @@ class CompileResult(msgspec.Struct, frozen=True):
     """All parameters of the model, if it lacks a parameter that the task sets."""
     without_effect: tuple[str, ...] = ()
     """Parameters that the task sets and on which nothing in the compiled model depends."""
+    structural: tuple[str, ...] = ()
+    """Parameters among `CompileTask.varied` that a compiled model can't change."""
     version: str = ""
     """The version that the compiler states."""
     seconds: float = 0.0
@@ -143,6 +146,8 @@ class Compiler(Protocol):
     """Methods of integration."""
     HAS_STANDARD_LIBRARY: bool
     """Whether the compiler finds the Modelica Standard Library itself."""
+    REUSES_MODELS: bool
+    """Whether tasks of a job with the same text are compiled once, and runs may change parameters."""
     STARTS_PROGRAMS: bool
     """Whether the compiler lets models start programs. If so, the user has to trust a configuration that chooses it."""
 

@@ -35,6 +35,7 @@ MODULES: tuple[str, ...] = ("scipy",)
 INSTALL = "install OpenModelica, or name its program with `omc` in the table `[check]`"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 HAS_STANDARD_LIBRARY = True
+REUSES_MODELS = False
 STARTS_PROGRAMS = True
 
 _TOLERANCE = 1e-8

@@ -35,6 +35,7 @@ MODULES: tuple[str, ...] = ("rumoca",)
 INSTALL = install_command("check")
 METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
 HAS_STANDARD_LIBRARY = False
+REUSES_MODELS = True
 STARTS_PROGRAMS = False
 
 _FILE = "Task.mo"  # always the same name, so that a new text replaces the last one in the compiler's memory
@@ -98,29 +99,54 @@ def _placed(words: str, place: re.Match[str]) -> Complaint:
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
-    """Do all tasks with one session, in order. Raises ImportError without the compiler."""
+    """Do all tasks with one session, in order. Raises ImportError without the compiler.
+
+    Consecutive tasks that differ only in their runs share the compiled model.
+    """
     import rumoca  # an optional extra
 
     session = rumoca.Session(roots=list(job.roots))
+    last, model, answer = None, None, CompileResult()
     for task in job.tasks:
         begin = time.process_time()
-        result = _compile(session, task)
-        yield msgspec.structs.replace(result, version=rumoca.version(), seconds=time.process_time() - begin)
+        text = msgspec.structs.replace(task, runs=())
+        if text != last:
+            last, (model, answer) = text, _compile(session, task)
+        runs = tuple(_simulate(model, run, task) for run in task.runs) if model else ()
+        seconds = time.process_time() - begin
+        yield msgspec.structs.replace(answer, runs=runs, version=rumoca.version(), seconds=seconds)
 
 
-def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
+def _compile(session: rumoca.Session, task: CompileTask) -> tuple[rumoca.Model | None, CompileResult]:
+    """Return a model and its number of unknowns; or no model, and the reason."""
     import rumoca
 
     try:
         model = session.loads(task.source, model=task.model, filename=_FILE)
     except rumoca.RumocaError as error:
-        return CompileResult(_words(error))
-    if not set(task.parameters).issubset(model.parameters.names):
-        return CompileResult(parameters=tuple(model.parameters.names))
-    if unused := _without_effect(model, task.parameters):
-        return CompileResult(without_effect=unused)
-    runs = tuple(_simulate(model, run, task) for run in task.runs)
-    return CompileResult(unknowns=_unknowns(model), runs=runs)
+        return None, CompileResult(_words(error))
+    names = *task.parameters, *task.varied
+    if not set(names).issubset(model.parameters.names):
+        return None, CompileResult(parameters=tuple(model.parameters.names))
+    if unused := _without_effect(model, names):
+        return None, CompileResult(without_effect=unused)
+    if fixed := _structural(model, task.varied):
+        return None, CompileResult(structural=fixed)
+    return model, CompileResult(unknowns=_unknowns(model))
+
+
+def _structural(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the parameters among `names` that are no single real number, or that the compiler has evaluated."""
+    if not names:
+        return ()
+    storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
+    types = {variable.name: storage.value_types[variable.value_type] for variable in storage.variables}
+    can_change = {
+        parameter.name
+        for parameter in model.parameters
+        if parameter.kind == "tunable" and types[parameter.name] == _Type("real", [])
+    }
+    return tuple(name for name in names if name not in can_change)
 
 
 class _Type(msgspec.Struct):
@@ -212,6 +238,7 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
         for parameter in model.parameters
         if parameter.value is not None and wanted.fullmatch(parameter.name)
     }
+    parameters |= {name: value for name, value in run.parameters.items() if wanted.fullmatch(name)}
     return SimulationResult(values, termination=result.termination or "", parameters=parameters)
 
 
