@@ -73,9 +73,11 @@ class CaseCompiler:
                 "robot.shoulderAxis.tau": (2.0, 2.0, 2.0),
             }
             limits_of_shoulder = {"lower": -2.0, "upper": 2.0, "velocity": 5.0}
-            limits = {f"robot.shoulder.parameters.limits.{name}": limit for name, limit in limits_of_shoulder.items()}
+            parameters = {
+                f"robot.shoulder.parameters.limits.{name}": limit for name, limit in limits_of_shoulder.items()
+            }
             problem = self.problems.get(value, "")
-            simulated = SimulationResult({} if problem else values, problem=problem, parameters=limits)
+            simulated = SimulationResult({} if problem else values, problem=problem, parameters=parameters)
             results.append(CompileResult(runs=(simulated,)))
             on_result(results[-1])
         return results
