@@ -27,9 +27,11 @@ from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.documents import JSON_VERSION
 from urdfsync.simulation import results as simulation
+from urdfsync.simulation.cases import Cases
 from urdfsync.simulation.export import Exported
 from urdfsync.simulation.fmu import Trial
 from urdfsync.simulation.models import Input
+from urdfsync.simulation.outcomes import Extent, JointName, JointOutcome, Outcome, Study
 from urdfsync.simulation.results import SimulateResult
 from urdfsync.watch import events
 from urdfsync.watch.report import event_values, show_json
@@ -83,7 +85,7 @@ def matches(example: Any, real: Any) -> bool:
 def keys(document: Any) -> set[str]:
     """All keys in a document, except keys of the model's values."""
     if isinstance(document, dict):
-        of_model = ("old", "new", "worst")
+        of_model = ("old", "new", "worst", "values")
         return set(document).union(*(keys(value) for key, value in document.items() if key not in of_model))
     return set().union(*map(keys, document)) if isinstance(document, list) else set()
 
@@ -315,8 +317,17 @@ def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     files = ("--csv", "arm.csv", "--plot", "arm.png")
     document = printed(execute, folder, "simulate", *files)
-    assert tell_all(document, "simulate")
+    monkeypatch.setattr("urdfsync.simulation.vary.vary", lambda *_: varied())
+    assert tell_all([document, printed(execute, folder, "simulate", "--vary", "mass=1..2")], "simulate")
     assert document["results"][0]["files"] == {"csv": "arm.csv", "plot": "arm.png"}
+
+
+def varied() -> Study:
+    """A model in two cases, of which one failed."""
+    joint = JointOutcome((None, None, Extent(0.0, 8.0, -20.0, 20.0), None), None, None, ())
+    outcome = Outcome((JointName("joint hold", "robot", ("", "", "N·m", "")),), (joint,))
+    cases, failed = Cases(("mass",), [(1.0,), (2.0,)]), Outcome(problem="the simulation stops at 1 s")
+    return Study("arm", "Arm.ArmTest", 10.0, 0.02, 1e-6, cases, [outcome, failed], 12.5, 0, "urdfsync simulate arm")
 
 
 def test_fmu(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
