@@ -6,12 +6,16 @@ import re
 from typing import Any
 
 import msgspec
+import numpy as np
 import pytest
 from lxml import etree
 
 from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
 pytest.importorskip("matplotlib")
+
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from urdfsync.diagnostics import ConfigError
 from urdfsync.simulation.plot import draw
@@ -41,6 +45,20 @@ def test_the_same_result_gives_the_same_bytes(kind: str) -> None:
     first, second = (draw(result(*map(joint, range(8))), kind) for _ in range(2))
     assert first == second
     assert first.startswith(b"\x89PNG" if kind == "png" else b"<?xml")
+
+
+@pytest.mark.slow
+def test_the_last_bits_of_the_layout_do_not_show(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The solver of the layout orders its variables by their addresses, so panels may move by a part in 10^9."""
+    first, execute = draw(result(joint(0)), "svg"), ConstrainedLayoutEngine.execute
+
+    def shifted(engine: ConstrainedLayoutEngine, figure: Figure) -> None:
+        execute(engine, figure)
+        for number, panel in enumerate(figure.axes):
+            panel.set_position((np.array(panel.get_position().bounds) + 1e-9 * (number + 1)).tolist())
+
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", shifted)
+    assert draw(result(joint(0)), "svg") == first
 
 
 def count_panels(*joints: JointResult) -> int:

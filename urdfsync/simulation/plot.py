@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from matplotlib import rc_context
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
@@ -73,15 +74,15 @@ def draw_study(study: Study, kind: str) -> bytes:
         figure = Figure(figsize=(max(2.2 * width, 6.4), 3 * _HEIGHT), layout="constrained")
         FigureCanvasAgg(figure)
         figure.suptitle(f"{study.model}: {study.within} of {len(study.outcomes)} cases within all limits")
-        rows: Any = figure.subfigures(2, 1, height_ratios=(2, 1))
-        panels = rows[0].subplots(2, max(len(names), 1), squeeze=False)
+        rows = figure.add_gridspec(2, 1, height_ratios=(2, 1))
+        panels: Any = rows[0].subgridspec(2, max(len(names), 1)).subplots(squeeze=False)
         for row, quantity in enumerate(("speed", "effort")):
             place = QUANTITIES.index(quantity)
             for panel, (column, joint) in zip(panels[row], enumerate(names), strict=False):
                 extents = [study.outcomes[number].joints[column].extents[place] for number in simulated]
                 _draw_sizes(panel, [extent for extent in extents if extent], joint.units[place])
                 panel.set_title(f"{joint.short}: {quantity}", fontsize=8)
-        panels = rows[1].subplots(1, len(study.varied.names), squeeze=False, sharey=True)[0]
+        panels = rows[1].subgridspec(1, len(study.varied.names)).subplots(squeeze=False, sharey=True)[0]
         for column, (panel, name) in enumerate(zip(panels, study.varied.names, strict=True)):
             for status, colour in (("within", _COLOURS[2]), ("beyond", _COLOURS[1])):
                 chosen = [number for number in simulated if study.outcomes[number].status == status]
@@ -121,6 +122,12 @@ def _draw_series(result: SimulateResult, names: Sequence[str]) -> Figure:
 
 
 def _saved(figure: Figure, kind: str) -> bytes:
+    figure.draw_without_rendering()  # places the panels
+    figure.set_layout_engine("none")
+    for panel in figure.findobj(Axes):
+        # the solver of the layout differs in the last bits from run to run, which SVG would show
+        left, bottom, width, height = (round(number, 4) for number in panel.get_position().bounds)
+        panel.set_position((left, bottom, width, height))
     content = io.BytesIO()
     metadata = {"Date": None} if kind == "svg" else {"Software": None}
     figure.savefig(content, format=kind, dpi=120, metadata=metadata)
