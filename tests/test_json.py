@@ -306,8 +306,11 @@ def simulated() -> SimulateResult:
     joint = simulation.JointResult("joint hold", "robot", position, speed, passed=(passed,))
     series = {"time": (0.0, 0.5, 1.0)}
     loop = simulation.LoopResult("loop pin", "robot", 1e-9, 12.0, 0.0)
+    difference = simulation.Difference("position", "rad", 0.25, 0.5, 0.0, 1.0)
+    differing = simulation.JointDifference("joint hold", "robot", "joint grip", (difference,))
+    against = simulation.Against("HEAD~1", (differing,), ("joint lift",))
     numbers = "arm", "Arm.ArmTest", 1.0, 0.5, 1e-6
-    return SimulateResult(*numbers, (joint,), series, (warning,), 8.25, is_known=False, loops=(loop,))
+    return SimulateResult(*numbers, (joint,), series, (warning,), 8.25, is_known=False, loops=(loop,), against=against)
 
 
 def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -21,7 +21,8 @@ def test_joints_are_shown_beside_their_limits(compiler: Compiler, execute: Execu
     assert first.startswith("arm: Arm.ArmTest, 10 s in steps of 0.02 s; ")
     assert rest == SHOWN.splitlines()[1:]
     assert printed.errors == [
-        "warning: joint shoulder: position passes its limit, 2 rad, at 2 s; by up to 0.5 rad, for 0 s [limit-passed]"
+        "arm: compiling Arm.ArmTest with rumoca",
+        "warning: joint shoulder: position passes its limit, 2 rad, at 2 s; by up to 0.5 rad, for 0 s [limit-passed]",
     ]
     assert max(map(len, printed.lines)) <= 80
     assert outputs() == before

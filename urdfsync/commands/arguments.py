@@ -204,7 +204,7 @@ def call(
     with Reads() as reads:
         loaded = load(args.config)
         robots = select_robots(args, loaded, console)
-    given = {**chosen(kind, args), **given, "config": loaded, "progress": console.progress}
+    given = {"progress": console.progress, **chosen(kind, args), **given, "config": loaded}
     if not robots:  # an empty share; the API takes no names for all robots
         return cast("Value", [])
     value = function(*(robot.name for robot in robots), **given)

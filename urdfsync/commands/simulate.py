@@ -12,8 +12,9 @@ from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
 from urdfsync.diagnostics import Severity
+from urdfsync.engine.options import Progress
 from urdfsync.engine.result import Exit
-from urdfsync.output.console import Console
+from urdfsync.output.console import Console, line
 from urdfsync.simulation.cases import SAMPLES
 from urdfsync.simulation.report import result_lines, study_lines
 from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions, VaryOptions
@@ -33,6 +34,7 @@ def add(commands: arguments.Commands) -> None:
         "          urdfsync simulate --model Plant.Cell --stop 5 --csv cell.csv\n"
         "          urdfsync simulate arm --set robot.elbow.parameters.dynamics.damping=4\n"
         "          urdfsync simulate arm --input motion.csv\n"
+        "          urdfsync simulate arm --against HEAD~1 --plot before_and_now.png\n"
         "          urdfsync simulate arm --vary robot.hand.parameters.inertial.mass=0..5 --cases 200 --csv cases.csv",
     )
     option = parser.add_argument
@@ -47,6 +49,8 @@ def add(commands: arguments.Commands) -> None:
     methods = "; ".join(f"{', '.join(compiler.METHODS)} ({compiler.TITLE})" for compiler in COMPILERS.values())
     option("--method", metavar="M", default="", help=f"method of the integration: {methods}")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
+    older = "simulate the model of a git revision, too, and compare the joints"
+    option("--against", metavar="REVISION", default="", help=older)
     option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs, or all cases")
     more = "another variable for the CSV file, such as 'robot.hand.*'; may be repeated"
     option("--variable", dest="variables", action="append", metavar="PATTERN", default=[], help=more)
@@ -69,8 +73,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
         return _run_cases(args, console, files)
     if args.cases or args.jobs or args.executor:
         raise arguments.UsageError(args.parser, "`--cases`, `--jobs` and `--executor` need `--vary`")
-    write_report = prepare_page(args, console, args.report, motion=args.motion) if args.report else None
-    extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
+    write_report = None
+    if args.report:
+        write_report = prepare_page(args, console, args.report, against=args.against or None, motion=args.motion)
+    extra = {"files": files, "tool": args.tool, "trusted": args.trusted, "progress": _telling(console)}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
     if write_report:
         write_report(simulation=result)
@@ -82,10 +88,24 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return console.end(Exit.ERROR if stopped else Exit.IN_STEP)
 
 
+def _telling(console: Console) -> Progress:
+    """Return a progress that also prints its first step, since a pipe shows no progress."""
+    told = list[str]()
+
+    def progress(what: str, done: int, total: int) -> None:
+        if not told:
+            told.append(what)
+            if not (console.quiet or console.is_document):
+                console.print([line((what, "dim"))], error=True)
+        console.progress(what, done, total)
+
+    return progress
+
+
 def _run_cases(args: argparse.Namespace, console: Console, files: dict[str, Path]) -> int:
     """Simulate many cases of one robot. A failed case is a difference, since the others have results."""
-    if args.report or args.variables:
-        message = "`--vary` has no page and no `--variable`: simulate one case with them"
+    if args.report or args.variables or args.against:
+        message = "`--vary` has no page, no `--variable` and no `--against`: simulate one case with them"
         raise arguments.UsageError(args.parser, message, "the worst case is shown with its command")
     study = arguments.call(vary, VaryOptions, args, console, files=files, tool=args.tool, trusted=args.trusted)
     console.add(study)

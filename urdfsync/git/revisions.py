@@ -60,11 +60,11 @@ class Revision:
             message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
             raise SourceError.of("no-repository", message, hint=_HINT)
         self.repository = repository
-        self._top = Path(named(os.path.realpath(repository.workdir)))
+        self.top = Path(named(os.path.realpath(repository.workdir)))
         try:
             self._tree = repository.revparse_single(name).peel(pygit2.Commit).tree
         except (pygit2.GitError, KeyError, ValueError):
-            message = f"{name!r} is neither a file nor a revision of the git repository {self._top}"
+            message = f"{name!r} is neither a file nor a revision of the git repository {self.top}"
             raise SourceError.of("unknown-revision", message, hint=_HINT) from None
 
     def label(self, file: Path) -> str:
@@ -83,9 +83,9 @@ class Revision:
     def holds(self, file: Path) -> bool:
         """Return whether a revision of this repository can have a file at this path; False inside of a submodule."""
         path = Path(real(file))
-        if self._top not in path.parents:
+        if self.top not in path.parents:
             return False
-        inside = itertools.takewhile(lambda folder: folder != self._top, path.parents)
+        inside = itertools.takewhile(lambda folder: folder != self.top, path.parents)
         return not any(Path(place(folder / ".git")).exists() for folder in inside)
 
     def contents(self, files: Sequence[Path]) -> Mapping[Path, bytes]:
@@ -97,7 +97,7 @@ class Revision:
 
         contents = {}
         for file in filter(self.holds, files):
-            path = Path(real(file)).relative_to(self._top).as_posix()
+            path = Path(real(file)).relative_to(self.top).as_posix()
             try:
                 entry = self._tree[path]
             except KeyError:
@@ -109,6 +109,21 @@ class Revision:
                 message, hint = f"git does not have its content: {problem}", "fetch it, or use --against ./FILE"
                 raise SourceError.of("git", message, self.label(file), hint=hint) from None
         return contents
+
+    def export(self, folder: Path) -> None:
+        """Write all files of this revision to a folder, as a checkout does, without submodules.
+
+        Raises SourceError if the clone lacks a content.
+        """
+        import pygit2
+
+        kinds = pygit2.enums.CheckoutStrategy
+        try:
+            strategy = kinds.FORCE | kinds.DONT_UPDATE_INDEX
+            self.repository.checkout_tree(self._tree, directory=str(folder), strategy=strategy)  # type: ignore[no-untyped-call]
+        except (pygit2.GitError, KeyError, OSError) as problem:
+            message, hint = f"revision {self.name!r} can't be checked out: {problem}", "fetch it, or name another one"
+            raise SourceError.of("git", message, hint=hint) from None
 
     def locate(self, dependencies: Sequence[Dependency], scratch: Path) -> Sequence[Dependency]:
         """Replace candidates by this revision's files; candidates outside of the repository stay.

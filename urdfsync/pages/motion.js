@@ -72,7 +72,9 @@ function fillCharts(place, motion, seek, select) {
       const nothing = 1e-4 * (ends[1] - ends[0]); // smaller values are 0 with an error of the integration
       const [least, greatest] = ends.map((value) => Number((Math.abs(value) < nothing ? 0 : value).toPrecision(4)));
       const words = `${name} ${least} … ${greatest} ${quantity.unit}`;
-      const [picture, move] = chart(times, [["curve", values]], [quantity.lower, quantity.upper], `${nameOf(joint.element)}: ${words}, limits ${limits}`);
+      const former = motion.former[quantity.variable];
+      const curves = [...(former ? [["reference", former]] : []), ["curve", values]];
+      const [picture, move] = chart(times, curves, [quantity.lower, quantity.upper], `${nameOf(joint.element)}: ${words}, limits ${limits}`);
       picture.addEventListener("click", (event) => {
         const box = picture.getBoundingClientRect();
         seek(begin + (end - begin) * (event.clientX - box.left) / box.width);

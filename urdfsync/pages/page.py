@@ -8,6 +8,7 @@ from __future__ import annotations
 import base64
 import gzip
 import hashlib
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -141,7 +142,10 @@ def _packed(mesh: Triangles) -> str:
 
 
 def _motion(result: SimulateResult) -> dict[str, Any]:
-    """Return the joints of one robot, and the series of their variables at the page's times."""
+    """Return the joints of one robot, and the series of their variables at the page's times.
+
+    `former` are the series of an older version; null after its end.
+    """
     robots = [joint.robot for joint in result.joints]
     robot = "robot" if "robot" in robots else next(iter(robots), "")
     joints = [joint for joint in result.joints if joint.robot == robot]
@@ -150,7 +154,12 @@ def _motion(result: SimulateResult) -> dict[str, Any]:
     for name in ("time", *(each.variable for each in ranges)):
         values = result.series[name]
         series[name] = [float(f"{value:.7g}") for value in (*values[:-1:step], values[-1])]
-    return {"joints": joints, "series": series}
+    former = {}
+    for name in result.former if result.against else ():
+        endless = itertools.chain(result.former[name], itertools.repeat(math.nan))
+        padded = list(itertools.islice(endless, result.points))
+        former[name] = [float(f"{value:.7g}") for value in (*padded[:-1:step], padded[-1])]
+    return {"joints": joints, "series": series, "former": former}
 
 
 def _compared(result: CheckResult) -> list[tuple[Deviation, float, float]]:

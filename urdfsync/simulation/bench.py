@@ -56,6 +56,8 @@ class Bench(msgspec.Struct, frozen=True):
     layouts: tuple[tuple[Axis, ...], ...]
     """For each approach, the axes under their names in its models."""
     loops: tuple[LoopSignals, ...] = ()
+    generic: str = ""
+    """The model that reads the robot from a record; empty if there is none."""
 
 
 class Benches(Protocol):

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import importlib.util
+import itertools
 import os
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.places import real
@@ -15,10 +15,6 @@ from urdfsync.extras import install_command
 from urdfsync.files import kind_of, put, shown
 from urdfsync.simulation.outcomes import Study, table
 from urdfsync.simulation.results import SimulateResult
-
-if TYPE_CHECKING:
-    from urdfsync.simulation.results import Series
-
 
 PLOTS = (".png", ".svg")
 
@@ -85,19 +81,26 @@ def write_outputs(files: Mapping[str, Path], result: SimulateResult | Study) -> 
 
 def _content(kind: str, file: Path, result: SimulateResult | Study) -> bytes:
     if kind == "csv":
-        return "".join(table(result) if isinstance(result, Study) else _csv_lines(result.series)).encode()
+        return "".join(table(result) if isinstance(result, Study) else _csv_lines(result)).encode()
     from urdfsync.simulation.plot import draw, draw_study  # their import takes 0.5 s; matplotlib is an extra
 
     form = file.suffix.lower().removeprefix(".")
     return draw_study(result, form) if isinstance(result, Study) else draw(result, form)
 
 
-def _csv_lines(series: Series) -> Iterator[str]:
-    """Yield the lines of a CSV file, with all digits of each number; names with commas are quoted."""
-    names = (f'"{name}"' if "," in name else name for name in series)
+def _csv_lines(result: SimulateResult) -> Iterator[str]:
+    """Yield the lines of a CSV file, with all digits of each number; names with commas are quoted.
+
+    The series of an older version have names such as `robot.elbow.phi@HEAD~1`, and blanks after its end.
+    """
+    columns = dict(result.series)
+    for name, values in result.former.items() if result.against else ():
+        if result.against and name != "time":
+            columns[f"{name}@{result.against.revision}"] = values
+    names = (f'"{name}"' if "," in name else name for name in columns)
     yield ",".join(names) + "\n"
-    for row in zip(*series.values(), strict=True):
-        yield ",".join(map(repr, row)) + "\n"
+    for row in itertools.islice(itertools.zip_longest(*columns.values()), result.points):
+        yield ",".join("" if value is None else repr(value) for value in row) + "\n"
 
 
 def not_writable(file: Path, message: str, hint: str) -> OutputError:

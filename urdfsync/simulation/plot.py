@@ -45,7 +45,7 @@ def draw(result: SimulateResult, kind: str) -> bytes:
         figure = Figure(figsize=(_WIDTH * len(columns), _HEIGHT * len(_ROWS)), layout="constrained")
         FigureCanvasAgg(figure)
         panels: Any = figure.subplots(len(_ROWS), len(columns), sharex=True, squeeze=False)
-        figure.suptitle(result.model)
+        figure.suptitle(f"{result.model}; dotted: {result.against.revision}" if result.against else result.model)
         for column, joints in enumerate(columns):
             last = panels[0][column]
             for row, name in enumerate(_ROWS):
@@ -152,6 +152,9 @@ def _draw_panel(panel: Any, name: str, joints: Sequence[JointResult], result: Si
         label = f"{joint.robot}: {joint.element}" if joint.robot not in ("", "robot") else joint.element
         values = result.series[quantity.variable] if quantity else [float("nan")] * len(times)
         panel.plot(times, values, color=colour, label=label, linewidth=1.3)
+        if quantity and quantity.variable in result.former:
+            former = result.former[quantity.variable]
+            panel.plot(result.former["time"], former, color=colour, linestyle=":", linewidth=1.3)
         if quantity:
             units.append(quantity.unit)
     low, high = panel.get_ylim()

@@ -9,13 +9,14 @@ from urdfsync.checks.compilers.compiler import one_line
 from urdfsync.output.console import StyledLine, findings, html, line
 from urdfsync.simulation.fmu import AGREEMENT, WrittenFmu
 from urdfsync.simulation.outcomes import Study
-from urdfsync.simulation.results import JointResult, Range, SimulateResult
+from urdfsync.simulation.results import Against, Difference, JointResult, Range, SimulateResult
 from urdfsync.spelling import counted
 
 _STUDY_HEADER = ("joint", "greatest", "min", "median", "max", "limit", "unit", "cases beyond")
 _MOST_PROBLEMS = 3
 _LONGEST_PROBLEM = 200
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
+_AGAINST_HEADER = ("joint", "position by", "speed by", "effort by", "effort before and now")
 _WORDS = {"me": "model exchange", "cs": "co-simulation"}
 _NOTHING = 5e-7
 """Smaller numbers are rounding errors and shown as 0."""
@@ -53,8 +54,41 @@ def result_lines(result: SimulateResult) -> Iterator[StyledLine]:
             if loop.robot == robot:
                 amounts = f"open by {1000 * loop.gap:.2g} mm, {loop.force:.3g} N and {_digits(loop.torque)} N·m"
                 yield line((f"  {loop.element}: {amounts} at most", ""))
+    if result.against:
+        yield from _against_lines(result, result.against)
     for name, file in result.files.items():
         yield line((f"  {name}: ", ""), (str(file), "bold"))
+
+
+def _against_lines(result: SimulateResult, against: Against) -> Iterator[StyledLine]:
+    """Yield a row for each joint that moves otherwise than in the older version."""
+    efforts = {(joint.robot, joint.element): joint.effort for joint in result.joints}
+    rows = []
+    for joint in against.joints:
+        found = {each.quantity: each for each in joint.differences if each.difference > _NOTHING}
+        if not found:
+            continue
+        place = "" if joint.robot in ("", "robot") else f"{joint.robot}."
+        name = f"{place}{joint.element.partition(' ')[2] or joint.element}"
+        name += f" (was {joint.former.partition(' ')[2]})" if joint.former != joint.element else ""
+        differences = [_worst(found.get(quantity)) for quantity in ("position", "speed", "effort")]
+        effort, before = efforts[joint.robot, joint.element], found.get("effort")
+        sizes = f"{_digits(max(abs(before.least), abs(before.greatest)))} → {_size(effort)}" if before else "-"
+        rows.append((name, *differences, sizes))
+    equal = len(against.joints) - len(rows)
+    words = "the same motion" if not rows else f"{counted(len(rows), 'joint')} differ{'s' if len(rows) == 1 else ''}"
+    same = f", {equal} equal" if rows and equal else ""
+    yield line((f"  since {against.revision}: {words}{same}", "bold" if rows else "green"))
+    widths = [max(map(len, column)) for column in zip(_AGAINST_HEADER, *rows, strict=True)]
+    for cells, style in [(_AGAINST_HEADER, "dim"), *((row, "") for row in rows)] if rows else ():
+        yield line((_aligned(cells, widths), style))
+    if against.only:
+        yield line((f"  only in one version: {', '.join(against.only)}", ""))
+
+
+def _worst(found: Difference | None) -> str:
+    """Return the greatest difference, and its time: `0.31 rad at 0.4 s`."""
+    return "-" if found is None else f"{_digits(found.difference)} {found.unit} at {found.time:.3g} s"
 
 
 def study_lines(study: Study) -> Iterator[StyledLine]:

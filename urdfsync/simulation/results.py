@@ -38,6 +38,8 @@ class SimulateOptions(RunOptions, frozen=True):
     variables: tuple[str, ...] = ()
     """Patterns of further variables for the series."""
     tool: Tool = Tool()
+    against: str = ""
+    """A git revision to compare the motion with; empty for none."""
     as_exported: bool = False
     """Simulate as the FMU does: drives keep their filters, and inputs change at each step or stay at 0."""
 
@@ -117,12 +119,51 @@ class LoopResult(msgspec.Struct, frozen=True):
     """Greatest torque, in N·m."""
 
 
+class Difference(msgspec.Struct, frozen=True):
+    """The difference of a joint's quantity between two versions of a model, over a simulation."""
+
+    quantity: str
+    """`position`, `speed` or `effort`."""
+    unit: str
+    difference: float
+    """The greatest absolute difference at the same time."""
+    time: float
+    """The time of the greatest difference, in s."""
+    least: float
+    """The least value in the older version."""
+    greatest: float
+    """The greatest value in the older version."""
+
+
+class JointDifference(msgspec.Struct, frozen=True):
+    """One joint of one robot in two versions of a model."""
+
+    element: str
+    """See `JointResult.element`."""
+    robot: str
+    """See `JointResult.robot`."""
+    former: str
+    """The element's name in the older version."""
+    differences: tuple[Difference, ...]
+    """The quantities that both versions have."""
+
+
+class Against(msgspec.Struct, frozen=True):
+    """The motion of a model, compared with that of an older version."""
+
+    revision: str
+    """The user's name of the older version."""
+    joints: tuple[JointDifference, ...]
+    only: tuple[str, ...]
+    """The joints that only one version has."""
+
+
 class SimulateResult(msgspec.Struct, frozen=True):
     """A simulation, which may have stopped before its end: then an error is among the diagnostics."""
 
     KEYS = (
         *("robot", "model", "stop", "step", "tolerance", "points", "seconds", "is_known"),
-        *("joints", "loops", "files", "diagnostics"),
+        *("joints", "loops", "against", "files", "diagnostics"),
     )
 
     robot: str
@@ -142,6 +183,9 @@ class SimulateResult(msgspec.Struct, frozen=True):
     loops: tuple[LoopResult, ...] = ()
     files: Mapping[str, Path] = {}
     """The written files, by their options."""
+    against: Against | None = None
+    former: Series = {}
+    """With `against`, the series of the older version by the names of `series`; it may end at another time."""
 
     @property
     def points(self) -> int:

@@ -12,7 +12,9 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.checks import compilers
 from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilers import rumoca
 from urdfsync.checks.compilers.compiler import CompileTask, Simulation, SimulationResult, one_line
 from urdfsync.checks.fingerprint import result_key
 from urdfsync.config import Config, RobotConfig
@@ -32,17 +34,29 @@ _LONGEST_MESSAGE = 200
 _ROUNDING = 1e-9
 """The error that a quotient of two times may have."""
 _TIME = re.compile(r"\bt(?:ime)?(?: ?= ?| )([-+.\deE]*\d)")
+_LONG = 60
+"""The processor time in s from which on it is told before."""
 _OWN = r"[^.]+"
 """Matches the variables of a model itself, its inputs and outputs among them."""
 
 
 def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progress: Progress) -> SimulateResult:
-    """Simulate a model with the package of a robot. Writes nothing but the cache.
+    """Simulate a model with the package of a robot, also as it was in the revision `against`. Writes only the cache.
 
     Raises UrdfsyncError for faults of the model, its inputs or the compiler, OSError for unreadable files.
     """
+    if options.against:
+        from urdfsync.simulation.against import simulate_against  # takes 60 ms with libgit2
+
+        return simulate_against(config, robot, options, progress)
+    return simulate_prepared(robot, prepare(config, robot, options), options, progress)
+
+
+def simulate_prepared(
+    robot: RobotConfig, prepared: Prepared, options: SimulateOptions, progress: Progress
+) -> SimulateResult:
+    """Simulate a prepared model, as `simulate` does."""
     begin = time.monotonic()
-    prepared = prepare(config, robot, options)
     layouts, model = prepared.bench.layouts, prepared.model
     simulation, run, is_known = _run(options, prepared, progress)
     results = joints.joint_results(layouts, simulation.values, simulation.parameters)
@@ -83,6 +97,8 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
     later.daemon = True
     later.start()
 
+    progress(f"{package.robot.name}: {_beginning(prepared, options)}", 0, 1)
+
     def tell() -> None:
         progress(f"{package.robot.name}: compiling and integrating, {time.monotonic() - begin:.0f} s", 0, 1)
 
@@ -97,6 +113,21 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
     if key and is_same:
         cache.save(key, None if simulation.problem else simulation)
     return simulation, run, False
+
+
+def _beginning(prepared: Prepared, options: SimulateOptions) -> str:
+    """Return what begins, in words; for a large model of a package also how long it takes, and what is quicker."""
+    bench, name, target = prepared.bench, prepared.model.name, prepared.package.robot.target.package
+    tool, axes = compilers.COMPILERS[options.tool.name], len(bench.layouts[0]) if bench.layouts else 0
+    words = f"compiling {name} with {tool.TITLE}"
+    # fitted to chains of 6, 12, 20 and 29 axes, by rumoca 0.10.2: see docs/speed.md
+    seconds, gigabytes, by_record = 8 + 0.13 * axes**2, 0.2 + 0.0045 * axes**2, 6 + 0.45 * axes
+    is_package = name in (f"{target}.{bench.test}", f"{target}.{bench.run}") and bench.test != bench.generic
+    if tool is not rumoca or not is_package or seconds < _LONG:
+        return words
+    generic = f"`--model {bench.generic}`" if bench.generic else "the generic robot (`approach`)"
+    words += f", {axes} axes: some {seconds:.0f} s of processor time and {gigabytes:.1f} GB of memory"
+    return f"{words}; {generic} takes some {by_record:.0f} s, `--tool openmodelica` less time as well"
 
 
 def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:

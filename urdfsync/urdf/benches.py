@@ -40,9 +40,10 @@ def bench(robot: Robot, target: Target, options: Options) -> Bench | None:
     assembly = Assembly(robot, options, target)
     layouts = {"package": _axes(assembly), "record": _generic_axes(assembly.tree)}
     axes = tuple(tuple(layout) for approach, layout in layouts.items() if approach in options.approach)
+    generic = f"{target.name}Generic" if "record" in options.approach and has_bench(robot.joints, options) else ""
     if "package" in options.approach:
-        return Bench(f"{target.name}Test", f"{target.name}Run", axes, tuple(_loops(assembly.tree)))
-    return Bench(f"{target.name}Generic", "", axes) if has_bench(robot.joints, options) else None
+        return Bench(f"{target.name}Test", f"{target.name}Run", axes, tuple(_loops(assembly.tree)), generic)
+    return Bench(generic, "", axes, generic=generic) if generic else None
 
 
 def freedoms(robot: Robot, options: Options) -> int | None:
