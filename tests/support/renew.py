@@ -1,0 +1,24 @@
+"""Writes all golden files anew: `python -m tests --renew`."""
+
+from __future__ import annotations
+
+from support.golden import expected, of_variants, on_disk, pieces
+from support.marks import lines_shown
+
+
+def renew() -> None:
+    """Write the golden files; a line of a template that none of them shows gets the first text that shows it."""
+    shown, content = lines_shown(pieces()), expected()
+    for piece in of_variants():
+        if more := lines_shown([piece]) - shown:
+            shown |= more
+            content[piece.file] = piece.text().encode()
+    for file in on_disk().keys() - content.keys():
+        file.unlink()
+    for file in content:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(content[file])
+
+
+if __name__ == "__main__":
+    renew()
