@@ -15,6 +15,7 @@ from support.packages import Package, generate
 from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import SENSOR_KINDS
 
 INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 BALL = '<geometry><sphere radius="0.05"/></geometry>'
@@ -196,3 +197,11 @@ def test_each_row_says_what_becomes_of_it(row: str, folder: Path, before: Packag
         assert ROWS[row] == "kept"
     else:
         assert ROWS[row] == ("used" if is_used(before.texts, after.texts) else "read")
+
+
+def test_the_table_of_sensors_has_each_name_and_each_output() -> None:
+    section = (REPOSITORY / "docs" / "urdf.md").read_text(encoding="utf-8").partition("\n## Sensors\n")[2]
+    table = [line for line in section.partition("\n- ")[0].split("\n") if line.startswith("| ")]
+    for kind, model in SENSOR_KINDS.items():
+        rows = [line for line in table if all(re.search(rf'[`"]{name}[`"]', line) for name in (kind, *model.types))]
+        assert any(all(f"_{output.name}`" in row for output in model.outputs) for row in rows), kind

@@ -48,7 +48,6 @@ def test_shipped_examples_agree(example: Any) -> None:
 
 
 def test_the_menagerie_agrees() -> None:
-    """It gets one sensor of each new kind: this fails if the second reading does not know the kind."""
     assert differences(corpus.REPOSITORY / "tests/golden/menagerie.urdf") == []
 
 
