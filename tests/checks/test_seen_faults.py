@@ -14,11 +14,11 @@ from support.cases import sampled
 from support.loops import UNIVERSAL, to_options, to_urdf
 from support.modelica import URDFSYNC
 from support.packages import generate
-from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
+from support.urdfs import dynamics, every_loss, joint, limit, link, links, mimic, robot
 
 from urdfsync.checks.experiment import Deviation, Part, Quantity
 from urdfsync.domain import Target
-from urdfsync.urdf.robot import SENSOR_KINDS
+from urdfsync.urdf.robot import LOSSES, SENSOR_KINDS
 
 pytestmark = pytest.mark.slow
 
@@ -46,7 +46,7 @@ SPEED_UP = limit(0.2, 2, 3, 90).replace("/>", ' drake:acceleration="5"/>')
 SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, dynamics(0.5, 0.4)]),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, every_loss(0.5, 0.4)]),
     joint(
         "elbow",
         "continuous",
@@ -87,8 +87,7 @@ PACKAGE: Mapping[str, Fault] = {
     ),
     "sign of an inertia off the diagonal": Fault(B, HAND, "I_21 = I[2, 1]", "I_21 = -I[2, 1]"),
     "rotor without its reduction": Fault(B, ELBOW, "rotorInertia*parameters.transmission.reduction^2", "rotorInertia"),
-    "no friction": Fault(L, "Joints/ShoulderParameters.mo", "friction = 0.4", "friction = 0"),
-    "damping of another number": Fault(L, "Joints/ShoulderParameters.mo", "damping = 0.5", "damping = 0.4"),
+    **{f"no {name}": Fault(L, "Joints/ShoulderParameters.mo", f"{name} = 0", f"{name} = 0*0") for name in LOSSES},
     "reduction": Fault(L, "Joints/ElbowParameters.mo", "reduction = 50", "reduction = 5"),
     "multiplier of a mimic": Fault(B, "Joints/GripParameters.mo", "multiplier = 0.1", "multiplier = -0.1"),
     "offset of a mimic": Fault(B, "Joints/GripParameters.mo", "offset = 0.02", "offset = 0"),

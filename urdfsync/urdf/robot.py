@@ -256,6 +256,10 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
     """Inertia that the drive adds at the joint, as in MuJoCo's `armature`."""
 
 
+LOSSES: tuple[str, ...] = ("damping", "friction")
+"""The numbers of `Dynamics` that act against the motion. A further one is None by default, which records leave out."""
+
+
 class Transmission(msgspec.Struct, frozen=True, gc=False):
     """The gear of a drive.
 
@@ -367,7 +371,7 @@ def effective(joint: Joint) -> Joint:
     if joint.type == "ball" and joint.dynamics:
         dynamics = Dynamics(joint.dynamics.damping)
     elif dynamics is not None and not kind.motion:
-        dynamics = Dynamics(dynamics.damping, dynamics.friction)
+        dynamics = Dynamics(**{name: getattr(dynamics, name) for name in LOSSES})
     return replace(
         joint,
         axis=joint.axis if kind.has_axis else (1.0, 0.0, 0.0),
