@@ -143,6 +143,14 @@ UNSEEN = {
 followers, and of a robot that begins with a shared gear, or with a loop that Test does not drive to its ends."""
 
 
+def test_faults_are_planted_in_all_kinds_of_tags() -> None:
+    names = [path.relative_to(TEMPLATES).as_posix() for path in TEMPLATES.rglob("*.jinja")]
+    planted = [str(fault) for name in names for fault in faults(name)]
+    assert len(planted) > 700
+    kinds = (" | reverse", ")[1:]", ")[0].", ": if true", ": elif false", " or false", " if true", " and false")
+    assert [kind for kind in kinds if not any(kind in fault for fault in planted)] == []
+
+
 @pytest.mark.parametrize("template", [
     pytest.param(path.relative_to(TEMPLATES).as_posix(), marks=[pytest.mark.slow] * (path.stat().st_size > _SMALL))
     for path in sorted(TEMPLATES.rglob("*.jinja"))
