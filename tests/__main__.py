@@ -1,7 +1,8 @@
-"""All checks of the project: `python -m tests [--long] [--tests] [pytest arguments]`.
+"""All checks of the project: `python -m tests [--long] [--tests] [pytest arguments]`, or `python -m tests --renew`.
 
-`--long` adds the tests that take more than a few seconds, as in CI. `--tests`, for a further Python, leaves out the
-linter, and the tests whose result does not depend on the Python.
+`--renew` only writes the golden files anew: what templates and library write (tests/support/golden.py). `--long` adds
+the tests that take more than a few seconds, as in CI. `--tests`, for a further Python, leaves out the linter, and the
+tests whose result does not depend on the Python.
 """
 
 import os
@@ -36,6 +37,11 @@ def main() -> int:
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     environment |= COMPILER
     given = [argument for argument in sys.argv[1:] if argument not in OPTIONS]
+    if "--renew" in sys.argv:
+        own = {"PYTHONPATH": str(ROOT / "tests")}
+        return subprocess.run(
+            [sys.executable, "-m", "support.renew"], cwd=ROOT, env=environment | own, check=False
+        ).returncode
     if "--tests" in sys.argv:
         checks = EXAMPLES | ONE_MORE
     else:

@@ -16,7 +16,8 @@ from urdfsync.urdf.robot import Robot
 ROOT = Path(__file__).resolve().parents[1]
 ROBOTS = ROOT / "modelica" / "UrdfSync" / "Resources" / "robots"
 SOURCES = sorted(ROBOTS.glob("*/*.urdf"))
-STATES = sorted((ROOT / ".urdfsync" / "robots").glob("*.state"))
+STATES = sorted((ROOT / "tests/golden/recorded").glob("*.state"))
+"""Written once, by builds of the golden sources: nothing renews them."""
 MESHES = sorted(ROBOTS.glob("*/meshes/*"))
 TOTAL_MASS = {
     "floating_buoy": 63.3,

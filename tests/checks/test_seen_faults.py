@@ -14,10 +14,11 @@ from support.cases import sampled
 from support.loops import UNIVERSAL, to_options, to_urdf
 from support.modelica import URDFSYNC
 from support.packages import generate
-from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
+from support.urdfs import dynamics, every_loss, joint, limit, link, links, mimic, robot
 
 from urdfsync.checks.experiment import Deviation, Part, Quantity
 from urdfsync.domain import Target
+from urdfsync.urdf.robot import LOSSES, SENSOR_KINDS
 
 pytestmark = pytest.mark.slow
 
@@ -34,11 +35,18 @@ LOAD = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gaz
     for at in ("shoulder", "grip")
     for frame in ("parent", "sensor")
 )
+PLACES = {kind: f"0.{number} -0.2 0.3 0.4 -0.5 0.{number}" for number, kind in enumerate(SENSOR_KINDS, 1)}
+EACH_SENSOR = "".join(
+    f'<gazebo reference="{"elbow" if model.at == "joint" else "hand"}"><sensor name="own{kind}" type="{kind}">'
+    f"<pose>{PLACES[kind]}</pose><force_torque><frame>sensor</frame></force_torque></sensor></gazebo>"
+    for kind, model in SENSOR_KINDS.items()
+)
+"""A sensor of each kind, each at a place of its own."""
 SPEED_UP = limit(0.2, 2, 3, 90).replace("/>", ' drake:acceleration="5"/>')
 SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, dynamics(0.5, 0.4)]),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, every_loss(0.5, 0.4)]),
     joint(
         "elbow",
         "continuous",
@@ -50,7 +58,7 @@ SOURCE = robot(
     joint(
         "grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-0.1, 0.15)]
     ),
-    *(GEAR, IMU, EYE, LOAD),
+    *(GEAR, IMU, EYE, LOAD, EACH_SENSOR),
 )
 
 
@@ -79,8 +87,7 @@ PACKAGE: Mapping[str, Fault] = {
     ),
     "sign of an inertia off the diagonal": Fault(B, HAND, "I_21 = I[2, 1]", "I_21 = -I[2, 1]"),
     "rotor without its reduction": Fault(B, ELBOW, "rotorInertia*parameters.transmission.reduction^2", "rotorInertia"),
-    "no friction": Fault(L, "Joints/ShoulderParameters.mo", "friction = 0.4", "friction = 0"),
-    "damping of another number": Fault(L, "Joints/ShoulderParameters.mo", "damping = 0.5", "damping = 0.4"),
+    **{f"no {name}": Fault(L, "Joints/ShoulderParameters.mo", f"{name} = 0", f"{name} = 0*0") for name in LOSSES},
     "reduction": Fault(L, "Joints/ElbowParameters.mo", "reduction = 50", "reduction = 5"),
     "multiplier of a mimic": Fault(B, "Joints/GripParameters.mo", "multiplier = 0.1", "multiplier = -0.1"),
     "offset of a mimic": Fault(B, "Joints/GripParameters.mo", "offset = 0.02", "offset = 0"),
@@ -108,6 +115,18 @@ PACKAGE: Mapping[str, Fault] = {
     "limit that is read wrongly": Fault(W, "Joints/ShoulderParameters.mo", "upper = 2", "upper = 2.1"),
 }
 """In the text that a template gives, as a fault of the template, of the reader or of a number of the user's would."""
+
+
+def _place(numbers: str) -> str:
+    """The place of a sensor in the record."""
+    x, y, z, *angles = numbers.split()
+    return f"xyz = {{{x}, {y}, {z}}},\n      rpy = {{{', '.join(angles)}}}"
+
+
+SENSORS: Mapping[str, Fault] = {
+    f"place of a sensor: {kind}": Fault(S, "ArmSensors.mo", _place(place), _place("0.9 0.1 -0.3 0.4 0.5 0"))
+    for kind, place in PLACES.items()
+}
 LIBRARY: Mapping[str, Fault] = {
     "sign of friction": Fault(
         L, "Friction/Rotational.mo", "+ parameters.friction*tanh(", "- parameters.friction*tanh("
@@ -230,9 +249,9 @@ def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) ->
     assert {each.part for each in (*arm, *cart)} == {*Part} - {Part.LOOPS}
 
 
-@pytest.mark.parametrize("fault_name", sampled((*PACKAGE, *LOOP), 36))
+@pytest.mark.parametrize("fault_name", sampled((*PACKAGE, *SENSORS, *LOOP), 36))
 def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
-    fault = {**PACKAGE, **LOOP}[fault_name]
+    fault = {**PACKAGE, **SENSORS, **LOOP}[fault_name]
     name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
     options |= {"drives": "motor"} if "motor" in fault.old else {}
     case = prepared(fault, name, **options).changed(fault.file, fault.old, fault.new)

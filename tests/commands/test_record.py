@@ -9,27 +9,27 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
+from support.golden import golden
 from support.screen import Screen
 
 pytestmark = pytest.mark.usefixtures("folder")
 
 REPOSITORY = Path(__file__).parents[2]
 TWIG = REPOSITORY / "tests/golden/twig.urdf"
-GOLDEN = REPOSITORY / "tests/golden/record/TwigParameters.mo"
 BUOY = REPOSITORY / "modelica/UrdfSync/Resources/robots/floating_buoy/floating_buoy.urdf"
 FAULTY = '<robot name="own">\n  <link name="base"/>\n  <link name="base"/>\n</robot>\n'
 
 
 def test_the_record_is_that_of_a_package(execute: Execute) -> None:
     said = execute("record", TWIG, "--within", "Zoo.Twig", "--class", "TwigParameters")
-    assert said.out == GOLDEN.read_text(encoding="utf-8")
+    assert said.out == golden("record").texts["TwigParameters.mo"]
     assert "mimic-of-fixed" in said.err
 
 
 def test_a_record_on_its_own_names_the_libraries_that_it_uses(execute: Execute) -> None:
     uses = '    uses(\n      Modelica(version="4.0.0"),\n      UrdfSync(version="0.1.0")),\n    '
-    golden = GOLDEN.read_text(encoding="utf-8").replace("within Zoo.Twig;", "within ;", 1)
-    assert execute("record", TWIG).out == golden.replace("  annotation (", f"  annotation (\n{uses}")
+    inside = golden("record").texts["TwigParameters.mo"].replace("within Zoo.Twig;", "within ;", 1)
+    assert execute("record", TWIG).out == inside.replace("  annotation (", f"  annotation (\n{uses}")
 
 
 def test_what_a_model_leaves_out_is_told(execute: Execute) -> None:

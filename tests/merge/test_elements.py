@@ -22,6 +22,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.cases import often
+from support.golden import distinct_models
 from support.printer import STYLES, Style, resaved
 from support.statements import KINDS, Editor, statements
 
@@ -30,9 +31,7 @@ from urdfsync.merge.texts import merge_file
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
 
-ROOT = Path(__file__).parents[2]
-GOLDEN = sorted((ROOT / "tests" / "golden").rglob("*.mo"))
-FILES = [*GOLDEN, *sorted((ROOT / "modelica" / "UrdfSync" / "Examples").rglob("*.mo"))]
+EXAMPLES = Path(__file__).parents[2] / "modelica" / "UrdfSync" / "Examples"
 CATALOGUE = Path(__file__).with_name("catalogue")
 ONE_WAY = {
     "an-annotation-that-goes-leaves-what-the-user-added",
@@ -79,7 +78,9 @@ def test_catalogue(name: str) -> None:
 @functools.cache
 def simple_files() -> list[str]:
     """Files of one class without others in it; long ones say nothing that short ones do not."""
-    texts = [text for path in FILES if len(text := path.read_text("utf-8")) < 8_000]
+    examples = [path.read_text("utf-8") for path in sorted(EXAMPLES.rglob("*.mo"))]
+    generated = [text for models in distinct_models().values() for text in models.values()]
+    texts = [text for text in (*generated, *examples) if len(text) < 8_000]
     return [text for text in texts if statements(text) and not parse(text).classes[0].classes]
 
 
@@ -206,13 +207,12 @@ def test_another_parser_finds_all_elements(random: Random) -> None:
 
 @pytest.mark.slow
 def test_a_file_that_an_editor_saved_again_takes_every_export() -> None:
-    """Golden files, and what they are in the other goldens; what has none gets other numbers and elements."""
-    random, variants = Random(0), 0
-    for path, style in zip(GOLDEN[::3], itertools.cycle(STYLES.values()), strict=False):
-        base = path.read_text("utf-8")
-        _, *inner = path.relative_to(ROOT / "tests" / "golden").parts
-        others = [one for one in GOLDEN if one != path and one.parts[-len(inner) :] == tuple(inner)]
-        exports = [other.read_text("utf-8") for other in others]
+    """Generated files, and what they are with other options; what has none gets other numbers and elements."""
+    random, variants, every = Random(0), 0, distinct_models()
+    files = [(variant, path) for variant, models in every.items() for path in models]
+    for (variant, path), style in zip(files[::3], itertools.cycle(STYLES.values()), strict=False):
+        base = every[variant][path]
+        exports = [models[path] for name, models in every.items() if name != variant and path in models]
         variants += len(exports)
         exports.append(
             edited(base, Editor("new", random), ["component", "number", "number", "type", "move", "connect"])
@@ -221,8 +221,8 @@ def test_a_file_that_an_editor_saved_again_takes_every_export() -> None:
         assert said(mine) == said(base)
         for generated in exports:
             found = merge(base, mine, generated, is_modelica=True)
-            assert found.text is not None, (path, found.contradictions, found.flaw)
-            assert said(found.text) == said(generated), path
+            assert found.text is not None, (variant, path, found.contradictions, found.flaw)
+            assert said(found.text) == said(generated), (variant, path)
     assert variants > 10
 
 

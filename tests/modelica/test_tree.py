@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.golden import distinct_models
 from support.printer import STYLES, Style, resaved
 
 from urdfsync.modelica.parser import parse
@@ -186,6 +187,6 @@ def test_what_means_something_else(one: str, other: str) -> None:
 
 @pytest.mark.parametrize("style", STYLES.values(), ids=STYLES)
 def test_what_editors_change_means_nothing(style: Style) -> None:
-    for path in sorted((ROOT / "tests" / "golden").rglob("*Parameters.mo")):
-        text = path.read_text("utf-8")
+    models = [model for models in distinct_models().values() for model in models.items()]
+    for text in [text for path, text in models if path.endswith("Parameters.mo")]:
         assert is_same(tree_of(resaved(text, style)), tree_of(text))

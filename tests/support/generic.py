@@ -14,7 +14,7 @@ import numpy as np
 
 from support.modelica import URDFSYNC, Array, Run, Task, bench
 from support.packages import Package, generate
-from support.urdfs import dynamics, joint, link, links, mimic, robot
+from support.urdfs import dynamics, every_loss, joint, link, links, mimic, robot
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -30,8 +30,8 @@ GRIPPER = robot(
     *(link(name, 1.5) for name in ("arm", "slide", "wheel", "finger", "thumb")),
     link("sensor", 0.3),
     joint("bolts", "fixed", "base", "plate"),
-    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2, armature=0.6)]),
-    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5, armature=1.1)]),
+    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[every_loss(0.4, 0.2, armature=0.6)]),
+    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[every_loss(3.0, 0.5, armature=1.1)]),
     joint("mount", "fixed", "slide", "sensor"),
     joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
     joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3)]),

@@ -1,27 +1,39 @@
-"""The golden packages: what the shipped templates write, once in each way that they can write it.
+"""The golden texts: what the shipped templates write, as the repository has it.
 
-`tests/golden/NAME` has the texts of the variant `NAME`. `python tests/urdf/test_artifacts.py` renews them.
+`python -m tests --renew` writes all of them anew; review what changed. Golden are
+
+- the library's own links and joints, which can be used without a generated package,
+- its Examples, by `urdfsync.toml`: nobody edits these packages, so their state is not committed,
+- below `tests/golden/VARIANT`, only texts that show more of a template than the texts before.
 """
 
 from __future__ import annotations
 
 import functools
-import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any, NamedTuple
 
+import msgspec
+
 from support.corpus import REPOSITORY
-from support.packages import Package, generate
-from urdfsync.domain import Artifact, Target
+from support.library import library_artifacts
+from support.packages import RENDERER, Package, generate
+from urdfsync import config
+from urdfsync.domain import Artifact, Order, Target
 from urdfsync.engine.render import Renderer
+from urdfsync.urdf.artifacts import record
+from urdfsync.urdf.options import Options
 
 GOLDEN = REPOSITORY / "tests" / "golden"
+LIBRARY = REPOSITORY / "modelica" / "UrdfSync"
 TEMPLATES = REPOSITORY / "templates" / "urdf"
 TARGETS = {
     "menagerie": Target("Zoo.Menagerie", "Menagerie"),
     "twig": Target("Zoo.Twig", "Twig"),
     "rig": Target("Rig", "Rig"),
     "mill": Target("Zoo.Mill", "Mill"),
+    "post": Target("Post", "Post"),
 }
 """Sources below `tests/golden`, and the names of their packages."""
 
@@ -31,27 +43,22 @@ class Variant(NamedTuple):
 
     source: str
     options: Mapping[str, Any] = {}
-    files: str = ""
-    """A pattern of the paths to keep; the other files show nothing new."""
 
 
 VARIANTS: Mapping[str, Variant] = {
     "fixed": Variant("menagerie"),
     "floating": Variant("menagerie", {"base": "floating"}),
-    "visualization2": Variant("menagerie", {"visualizer": "visualization2"}),
-    "no-collisions": Variant("menagerie", {"collisions": False}),
-    "whole": Variant("menagerie", {"approach": ("record",)}, "MenagerieParameters"),
+    "visualization2": Variant("menagerie", {"visualizer": "visualization2", "inputs": "vector"}),
     "record": Variant("twig", {"approach": ("record",)}),
     "laws": Variant(
         "rig",
         {
             "friction": {"waist": "lugre", "lift": "stiction", "push": "lugre", "tilt": "stiction"},
             "elastic": ("waist", "lift", "push", "tilt"),
-            "saturated": ("waist", "lift"),
-            "commands": {"lift": "velocity", "push": "effort", "tilt": "velocity"},
+            "saturated": ("waist", "lift", "push"),
+            "commands": {"waist": "velocity", "lift": "velocity", "push": "effort", "tilt": "effort"},
             "start": {"waist": 0.5},
         },
-        "Rig|Joints/(?!Caster|Fan|Flex|Rack)|package|Links/Base",
     ),
     "motors": Variant(
         "rig",
@@ -64,7 +71,6 @@ VARIANTS: Mapping[str, Variant] = {
             "start": {"lift": 0.25, "tilt": 0.5},
             "approach": ("package", "record"),
         },
-        "Rig|Joints/(?!Caster|Fan|Flex|Rack)|Links/Base",
     ),
     "loops": Variant(
         "mill",
@@ -74,37 +80,76 @@ VARIANTS: Mapping[str, Variant] = {
             "start": {"ram": 0.3, "block": 0.4, "shoe_pin": 2.2143, "crank": 1.2},
             "approach": ("package", "record"),
         },
-        "Mill|Joints/(Die|Hook)",
     ),
+    "bare": Variant("post", {"inputs": "vector", "approach": ("package", "record")}),
 }
-"""Later variants of a source have only the texts that differ from its first one."""
 
 
 @functools.cache
 def golden(variant: str) -> Package:
     """The package of a variant."""
-    source, options, _ = VARIANTS[variant]
+    source, options = VARIANTS[variant]
     return generate(GOLDEN / f"{source}.urdf", TARGETS[source], **options)
 
 
-def texts_to_keep(variant: str) -> dict[str, str]:
-    """The golden texts of a variant."""
-    source, _, files = VARIANTS[variant]
-    first = next(name for name, each in VARIANTS.items() if each.source == source)
-    common = {} if variant == first else golden(first).texts
-    texts = golden(variant).texts.items()
-    return {path: text for path, text in texts if common.get(path) != text and re.match(files, path)}
+@functools.cache
+def distinct_models() -> Mapping[str, Mapping[str, str]]:
+    """The models of each variant that no earlier variant of its source has, golden or not."""
+    found: dict[str, Mapping[str, str]] = {}
+    for name, (source, _) in VARIANTS.items():
+        earlier = [set(golden(each).texts.items()) for each in found if VARIANTS[each].source == source]
+        found[name] = dict(set(golden(name).models.items()).difference(*earlier))
+    return {name: dict(sorted(models.items())) for name, models in found.items()}
 
 
-def rendered(variant: str, renderer: Renderer) -> dict[str, str]:
-    """The golden texts of a variant, by other templates."""
-    wanted = kept(variant).keys()
-    artifacts = (each for each in golden(variant).artifacts if isinstance(each, Artifact) and each.path in wanted)
-    return {each.path: renderer.render(each.template, each.data) for each in artifacts}
+class Piece(NamedTuple):
+    """A file of the repository that a template writes."""
+
+    file: Path
+    artifact: Artifact | Order
+    is_librarys: bool = False
+    """Whether it is one of the library's own links and joints: users can replace their records."""
+
+    def text(self, renderer: Renderer = RENDERER) -> str:
+        """Return the text that the templates write."""
+        if isinstance(self.artifact, Order):
+            return "".join(f"{name}\n" for name in self.artifact.names)
+        text = renderer.render(self.artifact.template, self.artifact.data)
+        return text.replace("    redeclare ", "    redeclare replaceable ", 1) if self.is_librarys else text
 
 
-def kept(variant: str) -> dict[str, str]:
-    """The golden texts of a variant, as they are on disk."""
-    folder = GOLDEN / variant
-    files = (path for path in folder.rglob("*") if path.is_file())
-    return {path.relative_to(folder).as_posix(): path.read_bytes().decode() for path in files}
+@functools.cache
+def examples() -> Mapping[Path, Package]:
+    """The library's Examples, by the folders of their packages."""
+    robots = config.load(REPOSITORY / "urdfsync.toml").robots
+    return {each.folder: generate(each.source, each.target, **msgspec.structs.asdict(each.options)) for each in robots}
+
+
+@functools.cache
+def pieces() -> tuple[Piece, ...]:
+    """All golden texts."""
+    library = [Piece(LIBRARY / each.path, each, is_librarys=True) for each in library_artifacts()]
+    generated = [Piece(folder / each.path, each) for folder, made in examples().items() for each in made.artifacts]
+    return *library, *generated, *(piece for piece in of_variants() if piece.file.is_file())
+
+
+def of_variants() -> Iterator[Piece]:
+    """Yield all texts of the variants, and a record outside of a package; those on disk are golden."""
+    for variant in VARIANTS:
+        yield from (Piece(GOLDEN / variant / each.path, each) for each in golden(variant).artifacts)
+    alone = record(golden("bare").robot, Target("", "PostParameters"), Options(approach=("record",)))
+    yield Piece(GOLDEN / "alone" / alone.path, alone)
+
+
+def expected() -> dict[Path, bytes]:
+    """The golden files: texts, and the meshes of Examples."""
+    meshes = {folder / path: mesh for folder, made in examples().items() for path, mesh in made.imports.items()}
+    return meshes | {piece.file: piece.text().encode() for piece in pieces()}
+
+
+def on_disk() -> dict[Path, bytes]:
+    """The files at the places of golden ones."""
+    folders = [LIBRARY / "Links", LIBRARY / "Joints", *examples(), *(GOLDEN / name for name in (*VARIANTS, "alone"))]
+    files = (path for folder in folders for path in folder.rglob("*") if path.is_file())
+    by_hand = {LIBRARY / "Links/package.mo", LIBRARY / "Joints/package.mo"}
+    return {path: path.read_bytes() for path in files if path not in by_hand}

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from urdfsync.domain import Version
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.robot import Robot
+from urdfsync.urdf.robot import LOSSES, Robot
 
 
 def robot(*elements: str, name: str = "own", version: str = "1.0") -> str:
@@ -61,6 +61,12 @@ def dynamics(damping: float, friction: float, **more: float) -> str:
     numbers = {"damping": damping, "friction": friction, **more}
     words = " ".join(f'{name}="{value!r}"' for name, value in numbers.items())
     return f"<dynamics {words}/>"
+
+
+def every_loss(damping: float, friction: float, **more: float) -> str:
+    """All losses that a joint can have, each with a number of its own."""
+    others = {name: 0.125 * (k + 1) for k, name in enumerate(LOSSES[2:])}
+    return dynamics(damping, friction, **others, **more)
 
 
 def mimic(leader: str, multiplier: float | None = None, offset: float | None = None) -> str:

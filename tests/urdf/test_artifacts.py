@@ -1,24 +1,15 @@
-"""The files of a generated package: the golden texts, and what holds for every robot.
-
-`support.golden` lists the sources and options of the golden texts. `python tests/urdf/test_artifacts.py` writes them
-anew; review what changed before you commit it.
-"""
+"""The files of a generated package: the golden texts, and what holds for every robot."""
 
 from __future__ import annotations
 
 import re
-import sys
 from pathlib import Path
 from typing import Any
 
 import pymoca.parser
 import pytest
-
-if __name__ == "__main__":
-    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
 from support import urdfs
-from support.golden import GOLDEN, TARGETS, TEMPLATES, VARIANTS, golden, kept, texts_to_keep
+from support.golden import GOLDEN, TARGETS, TEMPLATES, VARIANTS, expected, golden, on_disk
 from support.loops import FOUR_BAR
 from support.modelica import compile_task, execute
 from support.packages import Package, generate
@@ -29,28 +20,25 @@ from urdfsync.urdf.artifacts import artifacts
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Dynamics, Joint, Link, Robot
 
-every_golden_folder = pytest.mark.parametrize("variant", VARIANTS)
-
 
 def package_of(*elements: str, package: str = "Own", **options: Any) -> Package:
     return generate(urdfs.robot(*elements).encode(), Target(package, package.rpartition(".")[2]), **options)
 
 
-@every_golden_folder
-def test_the_text_is_the_golden_one(variant: str) -> None:
-    found, expected = texts_to_keep(variant), kept(variant)
-    assert found.keys() == expected.keys()
-    for path, text in found.items():
-        assert text == expected[path], f"{variant}/{path}: run `python {Path(__file__).name}` and review what it wrote"
+def test_golden_files_are_what_the_templates_write() -> None:
+    """Of the library's links and joints and of its Examples, nothing else is on disk."""
+    files, generated = on_disk(), expected()
+    differing = {path for path in files.keys() | generated.keys() if files.get(path) != generated.get(path)}
+    assert differing == set(), "run `python -m tests --renew` and review what it wrote"
 
 
 @pytest.mark.slow
-@every_golden_folder
+@pytest.mark.parametrize("variant", VARIANTS)
 def test_golden_files_are_modelica(variant: str, tmp_path: Path) -> None:
     """To the compiler, to another parser, and to our own."""
     rumoca = pytest.importorskip("rumoca")
     folder = golden(variant).write(tmp_path)
-    models = [text for path, text in kept(variant).items() if path.endswith(".mo")]
+    models = [path.read_text("utf-8") for path in (GOLDEN / variant).rglob("*.mo")]
     assert None not in [pymoca.parser.parse(text, bypass_cache=True) for text in models]
     assert {path.name: found for path in folder.rglob("*.mo") if (found := rumoca.validate(str(path)))} == {}
     assert [path for path, text in golden(variant).models.items() if parse(text).faults] == []
@@ -142,17 +130,3 @@ def test_a_robot_without_any_mass_has_a_body_in_its_root_link() -> None:
     texts = {path: text for path, text in made.texts.items() if path.startswith("Links/")}
     assert "hasInertial = false" not in texts["Links/AParameters.mo"]
     assert "hasInertial = false" in texts["Links/BParameters.mo"]
-
-
-def _write_golden_files() -> None:
-    for variant in VARIANTS:
-        for path in kept(variant):
-            (GOLDEN / variant / path).unlink()
-        for path, text in texts_to_keep(variant).items():
-            file = GOLDEN / variant / path
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(text, encoding="utf-8", newline="\n")
-
-
-if __name__ == "__main__":
-    _write_golden_files()

@@ -66,13 +66,15 @@ MOTION_KINDS: Mapping[JointType, Motion] = {name: kind.motion for name, kind in 
 
 
 class Output(NamedTuple):
-    """A vector that a sensor measures."""
+    """A vector, or a single number, that a sensor measures."""
 
     name: str
+    """The name of the output in the library's class."""
     unit: str
     """The unit as Modelica writes it."""
     quantity: str
     """In words."""
+    is_vector: bool = True
 
 
 class SensorModel(msgspec.Struct, frozen=True):
@@ -87,17 +89,36 @@ class SensorModel(msgspec.Struct, frozen=True):
     """Whether the robot model has a connector at the sensor's frame. The user's model of a camera may connect there."""
     record: str = "Sensor"
     """The class in the library's `Records` with the sensor's numbers."""
+    types: tuple[str, ...] = ()
+    """Further names of the kind, as Gazebo's attribute `type` or as an element inside of a sensor of URDF."""
+    states: tuple[str, ...] = ()
+    """First words of the state interfaces that such a sensor has in ros2_control."""
 
 
 _GAIN, _TURN = Output("a", "m/s2", "acceleration minus gravity"), Output("w", "rad/s", "angular velocity")
 SENSOR_KINDS: Mapping[SensorKind, SensorModel] = {
-    "imu": SensorModel("Imu", outputs=(_GAIN, _TURN)),
+    "imu": SensorModel("Imu", outputs=(_GAIN, _TURN), states=("angular_velocity", "linear_acceleration")),
     "accelerometer": SensorModel("Imu", outputs=(_GAIN,)),
     "gyroscope": SensorModel("Imu", outputs=(_TURN,)),
-    "force_torque": SensorModel("ForceTorque", "joint", (Output("f", "N", "force"), Output("t", "N.m", "torque"))),
-    "camera": SensorModel("Camera", has_frame=True, record="Camera"),
-    "lidar": SensorModel("Lidar", has_frame=True, record="Lidar"),
+    "force_torque": SensorModel(
+        "ForceTorque",
+        "joint",
+        (Output("f", "N", "force"), Output("t", "N.m", "torque")),
+        states=("force", "torque"),
+    ),
+    "camera": SensorModel(
+        "Camera",
+        has_frame=True,
+        record="Camera",
+        types=("depth", "depth_camera", "rgbd", "rgbd_camera", "wideanglecamera"),
+    ),
+    "lidar": SensorModel("Lidar", has_frame=True, record="Lidar", types=("ray", "gpu_ray", "gpu_lidar")),
 }
+"""Each kind by its name, which is also its `type` in Gazebo and iDynTree.
+
+iDynTree puts accelerometers and gyroscopes at a link, force-torque sensors at `<parent joint="…"/>` (its page on
+extensions of URDF for sensors).
+"""
 
 
 class Origin(msgspec.Struct, frozen=True, gc=False):
@@ -235,6 +256,10 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
     """Inertia that the drive adds at the joint, as in MuJoCo's `armature`."""
 
 
+LOSSES: tuple[str, ...] = ("damping", "friction")
+"""The numbers of `Dynamics` that act against the motion. A further one is None by default, which records leave out."""
+
+
 class Transmission(msgspec.Struct, frozen=True, gc=False):
     """The gear of a drive.
 
@@ -346,7 +371,7 @@ def effective(joint: Joint) -> Joint:
     if joint.type == "ball" and joint.dynamics:
         dynamics = Dynamics(joint.dynamics.damping)
     elif dynamics is not None and not kind.motion:
-        dynamics = Dynamics(dynamics.damping, dynamics.friction)
+        dynamics = Dynamics(**{name: getattr(dynamics, name) for name in LOSSES})
     return replace(
         joint,
         axis=joint.axis if kind.has_axis else (1.0, 0.0, 0.0),

@@ -17,6 +17,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine import file_kinds
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
+    LOSSES,
     Box,
     Capsule,
     Cylinder,
@@ -40,7 +41,7 @@ _COMPARED = 500
 _ENDLESS = 1000
 _MAGNITUDES = (
     ("negative-limit", "limit", ("effort", "velocity", "acceleration", "deceleration", "jerk")),
-    ("negative-dynamics", "dynamics", ("damping", "friction")),
+    ("negative-dynamics", "dynamics", LOSSES),
     ("negative-inertia", "dynamics", ("armature",)),
     ("negative-inertia", "transmission", ("rotor_inertia",)),
 )

@@ -19,6 +19,22 @@ record MenagerieSensors "Numbers of the sensors of robot Menagerie"
     maxRange = 0)
     "Sensor \"a\"b\\ <c>\" of link \"table\"";
 
+  UrdfSync.Records.Lidar door(
+    name = "door",
+    updateRate = 0,
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    samples = 0,
+    minAngle = 0,
+    maxAngle = 0,
+    verticalSamples = 16,
+    verticalMinAngle = -0.25,
+    verticalMaxAngle = 0.5,
+    minRange = 0.25,
+    maxRange = 8)
+    "Sensor \"door\" of link \"table\"";
+
   UrdfSync.Records.Sensor imu(
     name = "imu",
     updateRate = 100,
@@ -35,6 +51,14 @@ record MenagerieSensors "Numbers of the sensors of robot Menagerie"
       rpy = {0, 0, 0}))
     "Sensor \"lift\" of joint \"lift\"";
 
+  UrdfSync.Records.Sensor strain(
+    name = "strain",
+    updateRate = 0,
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}))
+    "Sensor \"strain\" of joint \"shoulder\"";
+
   UrdfSync.Records.Camera table(
     name = "table",
     updateRate = 0,
@@ -47,6 +71,14 @@ record MenagerieSensors "Numbers of the sensors of robot Menagerie"
     near = 0.1,
     far = 10)
     "Sensor \"table\" of link \"chassis\"";
+
+  UrdfSync.Records.Sensor torque(
+    name = "torque",
+    updateRate = 0,
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}))
+    "Sensor \"torque\" of joint \"elbow\"";
 
   annotation (Documentation(info="<html>
 <p>

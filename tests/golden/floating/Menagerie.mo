@@ -33,7 +33,7 @@ model Menagerie "Robot Menagerie"
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b a_b_c_1_0_d_e_1c5357Frame
     "Frame of link \"a\"b\\ <c> & << 1/0 >> {{d}} %e\""
-    annotation (Placement(transformation(extent={{92, -466}, {112, -446}}), iconTransformation(extent={{92, 232}, {108, 248}})));
+    annotation (Placement(transformation(extent={{92, -466}, {112, -446}}), iconTransformation(extent={{92, 272}, {108, 288}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b balloonFrame
     "Frame of link \"balloon\""
@@ -42,6 +42,10 @@ model Menagerie "Robot Menagerie"
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b a_b_c_61f936Frame
     "Frame of sensor \"a\"b\\ <c>\""
     annotation (Placement(transformation(extent={{40, -1032}, {52, -1020}}), iconTransformation(extent={{92, 152}, {108, 168}})));
+
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b doorFrame
+    "Frame of sensor \"door\""
+    annotation (Placement(transformation(extent={{40, -918}, {52, -906}}), iconTransformation(extent={{92, 232}, {108, 248}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b tableFrame
     "Frame of sensor \"table\""
@@ -419,6 +423,10 @@ model Menagerie "Robot Menagerie"
     "Sensor \"a\"b\\ <c>\" of link \"table\""
     annotation (Placement(transformation(extent={{16, -1036}, {36, -1016}})));
 
+  UrdfSync.Sensors.Lidar door(parameters = sensorParameters.door)
+    "Sensor \"door\" of link \"table\""
+    annotation (Placement(transformation(extent={{16, -922}, {36, -902}})));
+
   UrdfSync.Sensors.Imu imu(parameters = sensorParameters.imu)
     "Sensor \"imu\" of link \"chassis\""
     annotation (Placement(transformation(extent={{-60, -694}, {-40, -674}})));
@@ -430,9 +438,23 @@ model Menagerie "Robot Menagerie"
     "Sensor \"lift\" of joint \"lift\""
     annotation (Placement(transformation(extent={{16, -1378}, {36, -1358}})));
 
+  UrdfSync.Sensors.ForceTorque strain(
+    parameters = sensorParameters.strain,
+    f_joint = shoulder.frame_a.R.T*(shoulder.frame_b.f*shoulder.frame_b.R.T),
+    t_joint = shoulder.frame_a.R.T*(shoulder.frame_b.t*shoulder.frame_b.R.T))
+    "Sensor \"strain\" of joint \"shoulder\""
+    annotation (Placement(transformation(extent={{16, -1150}, {36, -1130}})));
+
   UrdfSync.Sensors.Camera table(parameters = sensorParameters.table)
     "Sensor \"table\" of link \"chassis\""
     annotation (Placement(transformation(extent={{-60, -580}, {-40, -560}})));
+
+  UrdfSync.Sensors.ForceTorque torque(
+    parameters = sensorParameters.torque,
+    f_joint = -elbow.frame_b.f,
+    t_joint = -elbow.frame_b.t)
+    "Sensor \"torque\" of joint \"elbow\""
+    annotation (Placement(transformation(extent={{76, -238}, {96, -218}})));
 
 equation
   assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(liftAxis.f), lift.parameters.limits.effort)),
@@ -513,6 +535,10 @@ equation
     annotation (Line(points={{16, -482}, {-4, -482}, {-4, -1026}, {16, -1026}}, color={95, 95, 95}, thickness=0.5));
   connect(a_b_c_61f936.frame_b, a_b_c_61f936Frame)
     annotation (Line(points={{36, -1026}, {46, -1026}}, color={95, 95, 95}, thickness=0.5));
+  connect(table_link_04a94c.frame_a, door.frame_a)
+    annotation (Line(points={{16, -482}, {-4, -482}, {-4, -912}, {16, -912}}, color={95, 95, 95}, thickness=0.5));
+  connect(door.frame_b, doorFrame)
+    annotation (Line(points={{36, -912}, {46, -912}}, color={95, 95, 95}, thickness=0.5));
   connect(table_link_04a94c.frame_a, puck.frame_a)
     annotation (Line(points={{16, -482}, {12, -482}, {12, -456}, {32, -456}}, color={95, 95, 95}, thickness=0.5));
   connect(puck.frame_b, a_b_c_1_0_d_e_1c5357.frame_a)
@@ -567,9 +593,10 @@ equation
       Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="cON_436c9e"),
       Text(extent={{0, 353}, {88, 367}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="l_arm_link_ff9950"),
       Text(extent={{0, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="nut"),
-      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="a_b_c_1_0_d_e_1c5357"),
+      Text(extent={{0, 273}, {88, 287}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="a_b_c_1_0_d_e_1c5357"),
       Text(extent={{0, 313}, {88, 327}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="balloon"),
       Text(extent={{0, 153}, {88, 167}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="a\"b\\ <c>"),
+      Text(extent={{0, 233}, {88, 247}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="door"),
       Text(extent={{0, 133}, {88, 147}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="table")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -1440}, {136, 70}})),
     Documentation(info="<html>

@@ -8,22 +8,23 @@ model RigRun "Run robot Rig with commands from outside: the model to export as F
     caster1(fixedStart = true),
     caster2(fixedStart = true),
     caster3(fixedStart = true),
-    push(fixedStart = true))
+    push(fixedStart = true),
+    tilt(fixedStart = true))
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 475}})));
 
-  Modelica.Blocks.Interfaces.RealInput waist_phi(unit = "rad", start = robot.waist.phi_start)
-    "Where joint \"waist\" is to go"
+  Modelica.Blocks.Interfaces.RealInput waist_w(unit = "rad/s")
+    "How fast joint \"waist\" is to go"
     annotation (Placement(transformation(extent={{-140, 210}, {-120, 230}}), iconTransformation(extent={{-116, 167}, {-100, 183}})));
 
   Modelica.Blocks.Interfaces.RealOutput waist_tau(unit = "N.m") = robot.waistAxis.tau
     "What the drive of joint \"waist\" has to give"
     annotation (Placement(transformation(extent={{340, 210}, {360, 230}}), iconTransformation(extent={{100, 167}, {116, 183}})));
 
-  Modelica.Mechanics.Rotational.Sources.Position waistDrive(
+  Modelica.Mechanics.Rotational.Sources.Speed waistDrive(
     useSupport = true,
     exact = false,
-    w(fixed = true))
+    phi(start = robot.waist.phi_start))
     "Moves joint \"waist\", through a filter"
     annotation (Placement(transformation(extent={{-40, 210}, {-20, 230}})));
 
@@ -58,19 +59,20 @@ model RigRun "Run robot Rig with commands from outside: the model to export as F
     "Pushes joint \"push\""
     annotation (Placement(transformation(extent={{-40, 270}, {-20, 290}})));
 
-  Modelica.Blocks.Interfaces.RealInput tilt_w(unit = "rad/s")
-    "How fast joint \"tilt\" is to go"
+  Modelica.Blocks.Interfaces.RealInput tilt_tau(unit = "N.m")
+    "What the drive of joint \"tilt\" gives"
     annotation (Placement(transformation(extent={{-140, 240}, {-120, 260}}), iconTransformation(extent={{-116, 187}, {-100, 203}})));
 
-  Modelica.Blocks.Interfaces.RealOutput tilt_tau(unit = "N.m") = robot.tiltAxis.tau
-    "What the drive of joint \"tilt\" has to give"
-    annotation (Placement(transformation(extent={{340, 240}, {360, 260}}), iconTransformation(extent={{100, 187}, {116, 203}})));
+  Modelica.Blocks.Interfaces.RealOutput tilt_phi(unit = "rad") = robot.tiltAxis.phi - robot.tiltSupport.phi
+    "Where joint \"tilt\" is"
+    annotation (Placement(transformation(extent={{340, 250}, {350, 260}}), iconTransformation(extent={{100, 196}, {108, 204}})));
 
-  Modelica.Mechanics.Rotational.Sources.Speed tiltDrive(
-    useSupport = true,
-    exact = false,
-    phi(start = robot.tilt.phi_start))
-    "Moves joint \"tilt\", through a filter"
+  Modelica.Blocks.Interfaces.RealOutput tilt_w(unit = "rad/s") = der(tilt_phi)
+    "How fast joint \"tilt\" is"
+    annotation (Placement(transformation(extent={{340, 238}, {350, 248}}), iconTransformation(extent={{100, 186}, {108, 194}})));
+
+  Modelica.Mechanics.Rotational.Sources.Torque tiltDrive(useSupport = true)
+    "Pushes joint \"tilt\""
     annotation (Placement(transformation(extent={{-40, 240}, {-20, 260}})));
 
   Modelica.Blocks.Interfaces.RealInput flex_phi(unit = "rad")
@@ -114,7 +116,7 @@ model RigRun "Run robot Rig with commands from outside: the model to export as F
 equation
   connect(world.frame_b, robot.frame_a)
     annotation (Line(points={{-80, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
-  connect(waist_phi, waistDrive.phi_ref)
+  connect(waist_w, waistDrive.w_ref)
     annotation (Line(points={{-130, 220}, {-42, 220}}, color={0, 0, 127}));
   connect(waistDrive.flange, robot.waistAxis)
     annotation (Line(points={{-20, 220}, {20, 220}}, color={0, 0, 0}));
@@ -126,13 +128,16 @@ equation
     annotation (Line(points={{-20, 340}, {20, 340}}, color={0, 127, 0}));
   connect(liftDrive.support, robot.liftSupport)
     annotation (Line(points={{-30, 330}, {-30, 325}, {20, 325}}, color={0, 127, 0}));
-  connect(push_f, pushDrive.f)
-    annotation (Line(points={{-130, 280}, {-42, 280}}, color={0, 0, 127}));
+  pushDrive.f = UrdfSync.Functions.limitedEffort(
+    push_f,
+    push_v,
+    robot.push.parameters.limits.effort,
+    robot.push.parameters.limits.velocity);
   connect(pushDrive.flange, robot.pushAxis)
     annotation (Line(points={{-20, 280}, {20, 280}}, color={0, 127, 0}));
   connect(pushDrive.support, robot.pushSupport)
     annotation (Line(points={{-30, 270}, {-30, 265}, {20, 265}}, color={0, 127, 0}));
-  connect(tilt_w, tiltDrive.w_ref)
+  connect(tilt_tau, tiltDrive.tau)
     annotation (Line(points={{-130, 250}, {-42, 250}}, color={0, 0, 127}));
   connect(tiltDrive.flange, robot.tiltAxis)
     annotation (Line(points={{-20, 250}, {20, 250}}, color={0, 0, 0}));

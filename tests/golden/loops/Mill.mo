@@ -11,9 +11,9 @@ model Mill "Robot Mill"
     "Frame of link \"bar\""
     annotation (Placement(transformation(extent={{76, -244}, {96, -224}}), iconTransformation(extent={{92, 172}, {108, 188}})));
 
-  Modelica.Mechanics.MultiBody.Interfaces.Frame_b bobFrame
-    "Frame of link \"bob\""
-    annotation (Placement(transformation(extent={{16, -88}, {36, -68}}), iconTransformation(extent={{92, 192}, {108, 208}})));
+  Modelica.Mechanics.MultiBody.Interfaces.Frame_b ringFrame
+    "Frame of link \"ring\""
+    annotation (Placement(transformation(extent={{76, -88}, {96, -68}}), iconTransformation(extent={{92, 192}, {108, 208}})));
 
   Modelica.Mechanics.MultiBody.Interfaces.Frame_b rodFrame
     "Frame of link \"rod\""
@@ -77,6 +77,7 @@ model Mill "Robot Mill"
     arm.m +
     bar.m +
     bob.m +
+    ring.m +
     shoe.m +
     rod.m +
     lever.m
@@ -130,6 +131,15 @@ model Mill "Robot Mill"
       showCollisions = showCollisions)
     "Link \"bob\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{0, -114}, {20, -94}})));
+
+  replaceable Links.Ring ring(
+    animation = animation,
+    showCollisions = showCollisions)
+    constrainedby UrdfSync.Interfaces.PartialLink(
+      animation = animation,
+      showCollisions = showCollisions)
+    "Link \"ring\""
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{60, -114}, {80, -94}})));
 
   replaceable Links.Shoe shoe(
     animation = animation,
@@ -194,6 +204,10 @@ model Mill "Robot Mill"
   replaceable Joints.Hook hook constrainedby UrdfSync.Interfaces.PartialBallJoint
     "Ball joint \"hook\" from link \"ground\" to link \"bob\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-44, -88}, {-24, -68}})));
+
+  replaceable Joints.Eye eye constrainedby UrdfSync.Interfaces.PartialBallJoint
+    "Ball joint \"eye\" from link \"bob\" to link \"ring\""
+    annotation (choicesAllMatching=true, Placement(transformation(extent={{16, -88}, {36, -68}})));
 
   replaceable Joints.Ram ram(
     s_start = startPositions.ram,
@@ -267,8 +281,12 @@ equation
     annotation (Line(points={{36, -234}, {56, -234}, {56, -260}, {60, -260}}, color={95, 95, 95}, thickness=0.5));
   connect(bar.frame_a, barFrame)
     annotation (Line(points={{60, -260}, {56, -260}, {56, -234}, {86, -234}}, color={95, 95, 95}, thickness=0.5));
-  connect(bob.frame_a, bobFrame)
-    annotation (Line(points={{0, -104}, {-4, -104}, {-4, -78}, {26, -78}}, color={95, 95, 95}, thickness=0.5));
+  connect(bob.frame_a, eye.frame_a)
+    annotation (Line(points={{0, -104}, {-4, -104}, {-4, -78}, {16, -78}}, color={95, 95, 95}, thickness=0.5));
+  connect(eye.frame_b, ring.frame_a)
+    annotation (Line(points={{36, -78}, {56, -78}, {56, -104}, {60, -104}}, color={95, 95, 95}, thickness=0.5));
+  connect(ring.frame_a, ringFrame)
+    annotation (Line(points={{60, -104}, {56, -104}, {56, -78}, {86, -78}}, color={95, 95, 95}, thickness=0.5));
   connect(shoe.frame_a, shoe_pin.frame_a)
     annotation (Line(points={{0, -182}, {-4, -182}, {-4, -156}, {16, -156}}, color={95, 95, 95}, thickness=0.5));
   connect(shoe_pin.frame_b, rod.frame_a)
@@ -321,7 +339,7 @@ equation
       Text(extent={{-90, 126}, {0, 144}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Left, textString="rocker"),
       Text(extent={{0, 113}, {88, 127}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="die"),
       Text(extent={{0, 173}, {88, 187}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="bar"),
-      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="bob"),
+      Text(extent={{0, 193}, {88, 207}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="ring"),
       Text(extent={{0, 133}, {88, 147}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="rod"),
       Text(extent={{0, 153}, {88, 167}}, textColor={64, 64, 64}, horizontalAlignment=TextAlignment.Right, textString="lever")}),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -506}, {120, 34}})),

@@ -3,8 +3,8 @@ within Zoo.Mill;
 record MillParameters "Numbers of robot Mill as a whole"
   extends UrdfSync.Records.Robot(
     name = "mill",
-    connectionMatrix = [1, 2; 1, 3; 3, 4; 1, 5; 1, 6; 6, 7; 1, 8],
-    moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 5, 1; 6, 1; 7, 1]);
+    connectionMatrix = [1, 2; 1, 3; 3, 4; 1, 5; 5, 6; 1, 7; 7, 8; 1, 9],
+    moveableJoints = [1, 1; 2, 1; 3, 1; 4, 1; 5, 1; 6, 1; 7, 1; 8, 1]);
 
   UrdfSync.Records.Link ground_32f49b(
     name = "ground",
@@ -86,6 +86,22 @@ record MillParameters "Numbers of robot Mill as a whole"
         iyz = 0)))
     "Link 5: \"bob\"";
 
+  UrdfSync.Records.Link ring(
+    name = "ring",
+    inertial(
+      origin(
+        xyz = {0, 0, 0},
+        rpy = {0, 0, 0}),
+      mass = 0.25,
+      inertia(
+        ixx = 0.001,
+        iyy = 0.001,
+        izz = 0.001,
+        ixy = 0,
+        ixz = 0,
+        iyz = 0)))
+    "Link 6: \"ring\"";
+
   UrdfSync.Records.Link shoe(
     name = "shoe",
     inertial(
@@ -100,7 +116,7 @@ record MillParameters "Numbers of robot Mill as a whole"
         ixy = 0,
         ixz = 0,
         iyz = 0)))
-    "Link 6: \"shoe\"";
+    "Link 7: \"shoe\"";
 
   UrdfSync.Records.Link rod(
     name = "rod",
@@ -116,7 +132,7 @@ record MillParameters "Numbers of robot Mill as a whole"
         ixy = 0,
         ixz = 0,
         iyz = 0)))
-    "Link 7: \"rod\"";
+    "Link 8: \"rod\"";
 
   UrdfSync.Records.Link lever(
     name = "lever",
@@ -132,7 +148,7 @@ record MillParameters "Numbers of robot Mill as a whole"
         ixy = 0,
         ixz = 0,
         iyz = 0)))
-    "Link 8: \"lever\"";
+    "Link 9: \"lever\"";
 
   UrdfSync.Records.PrismaticJoint block_181fd7(
     name = "block",
@@ -181,6 +197,13 @@ record MillParameters "Numbers of robot Mill as a whole"
     damping = 0.125)
     "Joint 4: \"hook\"";
 
+  UrdfSync.Records.BallJoint eye(
+    name = "eye",
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}))
+    "Joint 5: \"eye\"";
+
   UrdfSync.Records.PrismaticJoint ram(
     name = "ram",
     origin(
@@ -192,7 +215,7 @@ record MillParameters "Numbers of robot Mill as a whole"
       upper = 1,
       velocity = 1,
       effort = 100))
-    "Joint 5: \"ram\"";
+    "Joint 6: \"ram\"";
 
   UrdfSync.Records.ContinuousJoint shoe_pin(
     name = "shoe_pin",
@@ -205,7 +228,7 @@ record MillParameters "Numbers of robot Mill as a whole"
       upper = Modelica.Constants.inf,
       velocity = Modelica.Constants.inf,
       effort = Modelica.Constants.inf))
-    "Joint 6: \"shoe_pin\"";
+    "Joint 7: \"shoe_pin\"";
 
   UrdfSync.Records.RevoluteJoint rocker(
     name = "rocker",
@@ -218,7 +241,7 @@ record MillParameters "Numbers of robot Mill as a whole"
       upper = 3,
       velocity = 5,
       effort = 10))
-    "Joint 7: \"rocker\"";
+    "Joint 8: \"rocker\"";
 
   annotation (Documentation(info="<html>
 <p>

@@ -12,9 +12,9 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
     "The robot"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{20, -200}, {320, 505}})));
 
-  Modelica.Blocks.Interfaces.RealInput lift_s(unit = "m")
-    "Where joint \"lift\" is to go"
-    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-116, 107}, {-100, 123}})));
+  Modelica.Blocks.Interfaces.RealInput positions[3](unit = {"m", "rad", "rad"})
+    "Where the joints are to go, in the order of the chain: the documentation names them"
+    annotation (Placement(transformation(extent={{-140, 120}, {-120, 140}}), iconTransformation(extent={{-140, -20}, {-100, 20}})));
 
   Modelica.Blocks.Interfaces.RealOutput lift_f(unit = "N") = robot.liftAxis.f
     "What the drive of joint \"lift\" has to give"
@@ -27,10 +27,6 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
     "Moves joint \"lift\", through a filter"
     annotation (Placement(transformation(extent={{-40, 120}, {-20, 140}})));
 
-  Modelica.Blocks.Interfaces.RealInput rotational_phi(unit = "rad")
-    "Where joint \"rotational\" is to go"
-    annotation (Placement(transformation(extent={{-140, 210}, {-120, 230}}), iconTransformation(extent={{-116, 167}, {-100, 183}})));
-
   Modelica.Blocks.Interfaces.RealOutput rotational_tau(unit = "N.m") = robot.rotationalAxis_2.tau
     "What the drive of joint \"rotational\" has to give"
     annotation (Placement(transformation(extent={{340, 210}, {360, 230}}), iconTransformation(extent={{100, 167}, {116, 183}})));
@@ -41,10 +37,6 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
     w(fixed = true))
     "Moves joint \"rotational\", through a filter"
     annotation (Placement(transformation(extent={{-40, 210}, {-20, 230}})));
-
-  Modelica.Blocks.Interfaces.RealInput shoulder_phi(unit = "rad")
-    "Where joint \"shoulder\" is to go"
-    annotation (Placement(transformation(extent={{-140, 150}, {-120, 170}}), iconTransformation(extent={{-116, 127}, {-100, 143}})));
 
   Modelica.Blocks.Interfaces.RealOutput shoulder_tau(unit = "N.m") = robot.shoulderAxis.tau
     "What the drive of joint \"shoulder\" has to give"
@@ -73,23 +65,39 @@ model MenagerieRun "Run robot Menagerie with positions from outside: the model t
     "Torque that sensor \"lift\" shows"
     annotation (Placement(transformation(extent={{340, 10}, {360, 30}}), iconTransformation(extent={{100, 56}, {108, 64}})));
 
+  Modelica.Blocks.Interfaces.RealOutput strain_f[3](each unit = "N") = robot.strain.f
+    "Force that sensor \"strain\" shows"
+    annotation (Placement(transformation(extent={{340, -10}, {360, 10}}), iconTransformation(extent={{100, 46}, {108, 54}})));
+
+  Modelica.Blocks.Interfaces.RealOutput strain_t[3](each unit = "N.m") = robot.strain.t
+    "Torque that sensor \"strain\" shows"
+    annotation (Placement(transformation(extent={{340, -30}, {360, -10}}), iconTransformation(extent={{100, 36}, {108, 44}})));
+
+  Modelica.Blocks.Interfaces.RealOutput torque_f[3](each unit = "N") = robot.torque.f
+    "Force that sensor \"torque\" shows"
+    annotation (Placement(transformation(extent={{340, -50}, {360, -30}}), iconTransformation(extent={{100, 26}, {108, 34}})));
+
+  Modelica.Blocks.Interfaces.RealOutput torque_t[3](each unit = "N.m") = robot.torque.t
+    "Torque that sensor \"torque\" shows"
+    annotation (Placement(transformation(extent={{340, -70}, {360, -50}}), iconTransformation(extent={{100, 16}, {108, 24}})));
+
 equation
   connect(world.frame_b, robot.frame_a)
     annotation (Line(points={{-80, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
-  connect(lift_s, liftDrive.s_ref)
-    annotation (Line(points={{-130, 130}, {-42, 130}}, color={0, 0, 127}));
+  connect(positions[1], liftDrive.s_ref)
+    annotation (Line(points={{-130, 130}, {-80, 130}, {-80, 130}, {-42, 130}}, color={0, 0, 127}));
   connect(liftDrive.flange, robot.liftAxis)
     annotation (Line(points={{-20, 130}, {20, 130}}, color={0, 127, 0}));
   connect(liftDrive.support, robot.liftSupport)
     annotation (Line(points={{-30, 120}, {-30, 115}, {20, 115}}, color={0, 127, 0}));
-  connect(rotational_phi, rotationalDrive.phi_ref)
-    annotation (Line(points={{-130, 220}, {-42, 220}}, color={0, 0, 127}));
+  connect(positions[2], rotationalDrive.phi_ref)
+    annotation (Line(points={{-130, 130}, {-80, 130}, {-80, 220}, {-42, 220}}, color={0, 0, 127}));
   connect(rotationalDrive.flange, robot.rotationalAxis_2)
     annotation (Line(points={{-20, 220}, {20, 220}}, color={0, 0, 0}));
   connect(rotationalDrive.support, robot.rotationalSupport_2)
     annotation (Line(points={{-30, 210}, {-30, 205}, {20, 205}}, color={0, 0, 0}));
-  connect(shoulder_phi, shoulderDrive.phi_ref)
-    annotation (Line(points={{-130, 160}, {-42, 160}}, color={0, 0, 127}));
+  connect(positions[3], shoulderDrive.phi_ref)
+    annotation (Line(points={{-130, 130}, {-80, 130}, {-80, 160}, {-42, 160}}, color={0, 0, 127}));
   connect(shoulderDrive.flange, robot.shoulderAxis)
     annotation (Line(points={{-20, 160}, {20, 160}}, color={0, 0, 0}));
   connect(shoulderDrive.support, robot.shoulderSupport)
@@ -107,5 +115,13 @@ equation
 <p>
 Robot Menagerie in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
+<p>
+The elements of <code>positions</code> belong to these joints:
+</p>
+<ol>
+<li><code>lift</code> (m)</li>
+<li><code>rotational</code> (rad)</li>
+<li><code>shoulder</code> (rad)</li>
+</ol>
 </html>"));
 end MenagerieRun;

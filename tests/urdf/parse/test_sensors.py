@@ -9,7 +9,7 @@ from support import urdfs
 from support.numbers import differences
 
 from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.robot import Camera, Lidar, Origin, Sensor
+from urdfsync.urdf.robot import SENSOR_KINDS, Camera, Lidar, Origin, Sensor
 
 BASE = (
     *map(urdfs.link, ("base", "arm", "hand")),
@@ -112,6 +112,19 @@ def test_forms(element: str, expected: list[Sensor]) -> None:
     assert not reading.diagnostics
     assert not expected or not reading.unmodelled, "a sensor that is modelled is in no note"
     assert differences(urdfs.robot(*BASE, element).encode()) == [], "the second reading"
+
+
+NAMES = [(kind, name) for kind, model in SENSOR_KINDS.items() for name in (kind, *model.types, *model.states)]
+
+
+@pytest.mark.parametrize(("kind", "name"), NAMES)
+def test_each_name_of_each_kind(kind: str, name: str) -> None:
+    """The second reading has its own list of names."""
+    model, at = SENSOR_KINDS[kind], "elbow" if SENSOR_KINDS[kind].at == "joint" else "arm"  # type: ignore[index]
+    frame = f'<param name="frame_id">{at}</param>'
+    element = control("own", f"{name}.x", frame) if name in model.states else gazebo(at, "own", name)
+    assert [(sensor.kind, sensor.at) for sensor in sensors(read(element))] == [(kind, at)]
+    assert differences(urdfs.robot(*BASE, element).encode()) == []
 
 
 @pytest.mark.parametrize(("element", "message"), [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,12 +18,13 @@ from support.cases import sampled
 from support.loops import HINGE, UNIVERSAL, WELD, to_options, to_urdf
 from support.numbers import BOT, compare, differences, of_package
 from support.packages import Package, generate, generate_robot, proposed_base, read
-from support.urdfs import dynamics, joint, limit, link, mimic
+from support.urdfs import every_loss, joint, limit, link, mimic
 from support.urdfs import robot as urdf
 
 from urdfsync import config
+from urdfsync.urdf.model.numbers import camel
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Box, Joint, Link, Loop, Origin, Robot
+from urdfsync.urdf.robot import Box, Dynamics, Joint, Link, Loop, Origin, Robot
 
 UNCOMPARED = {f"{kind}.{path}" for kind in ("visual", "collision") for path in ("lower", "upper", "color", "opacity")}
 UNCOMPARED.add("reach")
@@ -48,7 +50,6 @@ def test_shipped_examples_agree(example: Any) -> None:
 
 
 def test_the_menagerie_agrees() -> None:
-    """It gets one sensor of each new kind: this fails if the second reading does not know the kind."""
     assert differences(corpus.REPOSITORY / "tests/golden/menagerie.urdf") == []
 
 
@@ -85,7 +86,7 @@ SAFE = '<safety_controller k_velocity="5" k_position="6" soft_lower_limit="-0.5"
 URDF = urdf(
     *(link("base", 3.0), link("arm", 2.0).replace("</link>", f"{SHAPES}</link>"), link("hand", 0.7), link("tip", 0.1)),
     joint("shoulder", "revolute", "base", "arm", axis="0 1 0",
-          inside=[dynamics(0.5, 0.2, armature=0.01), limit(-1, 2, 3, 40), SAFE, '<calibration rising="0.3"/>']),
+          inside=[every_loss(0.5, 0.2, armature=0.01), limit(-1, 2, 3, 40), SAFE, '<calibration rising="0.3"/>']),
     joint("slide", "prismatic", "arm", "hand", axis="1 2 2", inside=[limit(0, 0.5, 0.6, 70)]),
     joint("twist", "revolute", "hand", "tip", axis="0 0 1", inside=[limit(-2, 3), mimic("shoulder", 0.5, 0.1)]),
     *(CONTROL, GEAR, GROUND, IMU, WRENCH),
@@ -281,6 +282,23 @@ def test_a_wrong_number_in_a_record_is_found(fault: str, sound: Package) -> None
     texts = {**sound.texts, file: sound.texts[file].replace(old, new)}
     numbers = of_package(sound, URDF.encode(), texts)
     assert (file, quantity) in {(each.file, each.quantity) for each in numbers.differences}
+
+
+NUMBER = re.compile(r"(?<=[ ={,])-?\d+(?:\.\d+)?(?:e-?\d+)?(?=[,)};\n])")
+
+
+@pytest.mark.parametrize("file", ["Joints/Shoulder", "Joints/Slide", "Joints/Twist", "Links/Hand"])
+def test_each_number_of_a_record_is_compared(file: str, sound: Package) -> None:
+    """One number after the other is another one: so a new number is compared, too."""
+    path, same = f"{file}Parameters.mo", list[str]()
+    text, content = sound.texts[path], URDF.encode()
+    for number in NUMBER.finditer(text):
+        line = text[text.rfind("\n", 0, number.start()) + 1 : text.find("\n", number.end())]
+        other = text[: number.start()] + f"{float(number[0]) + 1!r}" + text[number.end() :]
+        if not of_package(sound, content, {**sound.texts, path: other}).differences:
+            same.append(line.strip())
+    assert same == []
+    assert not path.startswith("Joints/Sh") or all(f"{camel(name)} = " in text for name in Dynamics.__struct_fields__)
 
 
 # Loops, and options

@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.modelica.literals import INFINITY, Expression, matrix
 from urdfsync.urdf.kinematics.loops import Closure
-from urdfsync.urdf.robot import Inertial, Joint, Loop, Mesh
+from urdfsync.urdf.robot import LOSSES, Inertial, Joint, Loop, Mesh
 
 _ABSENT = Expression(INFINITY)
 _NO_LIMITS = {"lower": Expression(f"-{INFINITY}"), "upper": _ABSENT, "velocity": _ABSENT, "effort": _ABSENT}
@@ -57,7 +57,7 @@ def _joint_numbers(joint: Joint) -> dict[str, Any]:
         case "ball":
             return numbers | {name: dynamics[name] for name in dynamics if name == "damping"}
         case "planar":
-            losses = {name: dynamics[name] for name in ("damping", "friction") if dynamics}
+            losses = {name: dynamics[name] for name in map(camel, LOSSES) if name in dynamics}
             return numbers | {"axis": joint.axis} | dict.fromkeys(("translation", "rotation") if losses else (), losses)
     transmission = _given(joint.transmission)
     if joint.transmission and transmission.pop("joint", None):
@@ -95,8 +95,13 @@ def _limits(joint: Joint) -> dict[str, Any]:
     return _NO_LIMITS | given
 
 
+def camel(name: str) -> str:
+    """Return the name of a field as records have it."""
+    first, *rest = name.split("_")
+    return first + "".join(map(str.capitalize, rest))
+
+
 def _given(part: msgspec.Struct | None) -> dict[str, Any]:
     """Return the values of a part that are given, by names in camel case."""
     values = msgspec.structs.asdict(part) if part else {}
-    words = ((name.split("_"), value) for name, value in values.items() if value is not None)
-    return {first + "".join(map(str.capitalize, rest)): value for (first, *rest), value in words}
+    return {camel(name): value for name, value in values.items() if value is not None}

@@ -18,10 +18,10 @@ from urdfsync.modelica.literals import INFINITY, Expression, matrix, vector
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.connectors import free_name, taken_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.numbers import joint_part, link_numbers, shape_part
+from urdfsync.urdf.model.numbers import camel, joint_part, link_numbers, shape_part
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.options import USES
-from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Motion, limits_acceleration, reflected_inertia
+from urdfsync.urdf.robot import LOSSES, MOTION_KINDS, MOTIONS, Joint, Motion, limits_acceleration, reflected_inertia
 
 _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
 _LINE = 10
@@ -175,7 +175,9 @@ def _limits(joints: Sequence[_Named], has_accelerations: bool) -> dict[str, Any]
 
 
 def _losses(joints: Sequence[_Named]) -> dict[str, Any]:
-    names = ("damping", "friction", "steepness") if joints else ()
+    """Return the columns of the losses of joints: those of the laws, and those that a source gives."""
+    given = [name for name in LOSSES if any(getattr(one.joint.dynamics, name, None) is not None for one in joints)]
+    names = dict.fromkeys(("damping", "friction", "steepness", *map(camel, given))) if joints else ()
     return {name: _column(joints, f"dynamics.{name}", 8) for name in names}
 
 

@@ -37,6 +37,7 @@ def sensor_outputs(tree: KinematicTree, names: Connectors) -> list[dict[str, Any
             "component": names.sensors[sensor.name],
             "output": output.name,
             "unit": output.unit,
+            "is_vector": output.is_vector,
             "text": f'{output.quantity} that sensor "{sensor.name}" shows',
         }
         for sensor in tree.sensors

@@ -13,26 +13,8 @@ import msgspec
 from urdfsync.urdf.parse.fields import Reader, quoted
 from urdfsync.urdf.robot import SENSOR_KINDS, Camera, Joint, Lidar, Origin, Sensor, SensorKind
 
-_TYPES: Mapping[str, SensorKind] = {
-    "imu": "imu",
-    "force_torque": "force_torque",
-    "accelerometer": "accelerometer",
-    "gyroscope": "gyroscope",
-    **dict.fromkeys(("camera", "depth", "depth_camera", "rgbd", "rgbd_camera", "wideanglecamera"), "camera"),
-    **dict.fromkeys(("ray", "gpu_ray", "lidar", "gpu_lidar"), "lidar"),
-}
-"""Kinds by the attribute `type` of Gazebo and iDynTree, and by the elements inside of URDF's own sensors.
-
-iDynTree puts accelerometers and gyroscopes at a link, force-torque sensors at `<parent joint="…"/>` (its page on
-extensions of URDF for sensors).
-"""
-_STATES: Mapping[str, SensorKind] = {
-    "angular_velocity": "imu",
-    "linear_acceleration": "imu",
-    "force": "force_torque",
-    "torque": "force_torque",
-}
-"""Kinds by the first word of ros2_control's state interfaces."""
+_TYPES = {word: kind for kind, model in SENSOR_KINDS.items() for word in (kind, *model.types)}
+_STATES = {state: kind for kind, model in SENSOR_KINDS.items() for state in model.states}
 _CAMERA = {
     "width": ("image/width", "image@width"),
     "height": ("image/height", "image@height"),

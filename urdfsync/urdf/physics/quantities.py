@@ -17,7 +17,7 @@ from urdfsync.urdf.physics.motion import COMPARED, Instant
 from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
 from urdfsync.urdf.physics.reference import Array, Solution
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, SENSOR_KINDS, Joint
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, SENSOR_KINDS, Joint, Output
 from urdfsync.urdf.second.reading import origin, pose
 
 Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
@@ -147,32 +147,32 @@ def _unit(joint: Joint) -> str:
 
 
 def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield the readings of IMUs and force-torque sensors, and the frames of cameras and laser scanners."""
-    parents, balls = {joint.name: joint.parent for joint in subject.tree.joints}, [ball.name for ball in subject.balls]
+    """Yield the outputs of sensors, and the frames of cameras and laser scanners."""
+    balls = [ball.name for ball in subject.balls]
     for sensor in subject.tree.sensors:
-        if SENSOR_KINDS[sensor.kind].name == "Imu":
-            outputs, again = SENSOR_KINDS["imu"].outputs, subject.second.sensors[sensor.name]
-            rows = [subject.reference.acceleration(subject.states[t], again) for t in COMPARED]
-        elif sensor.at in balls:
+        if sensor.is_in_joint and sensor.at in balls:
             subject.unchecked[f"sensor {sensor.name}, in a ball: the drive of the ball bypasses the sensor"] = None
             continue
-        elif sensor.is_in_joint:
-            outputs, again = SENSOR_KINDS[sensor.kind].outputs, subject.second.sensors[sensor.name]
-            rows = [subject.reference.wrench(subject.states[t], again, parents[sensor.at]) for t in COMPARED]
-        else:  # a camera or a laser scanner has only a frame
-            again, frame = subject.second.sensors[sensor.name], f"{names.sensors[sensor.name]}.frame_b"
-            place = tuple(f"{frame}.r_0[{i}]" for i in (1, 2, 3))
-            axes = tuple(f"{frame}.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
+        again, component = subject.second.sensors[sensor.name], names.sensors[sensor.name]
+        above = subject.second.joints[again.parent].parent if sensor.is_in_joint else ""
+        rows = [subject.reference.measured(subject.states[time], again, above) for time in COMPARED]
+        what, when = f"sensor {sensor.name}", (COMPARED, Part.SENSORS)
+        for output in _outputs(SENSOR_KINDS[sensor.kind].name):
+            value = f"{component}.{output.name}"
+            values = tuple(f"{value}[{i}]" for i in (1, 2, 3)) if output.is_vector else (value,)
+            unit = output.unit.replace("2", "²").replace(".", "·")
+            yield Compared(Quantity.READING, what, unit, values, *when, output.name), [row[output.name] for row in rows]
+        if SENSOR_KINDS[sensor.kind].has_frame:
+            place = tuple(f"{component}.frame_b.r_0[{i}]" for i in (1, 2, 3))
+            axes = tuple(f"{component}.frame_b.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
             at = [pose(*subject.solved[time].frame(again.parent)) @ origin(again) for time in COMPARED]
-            what, when = f"sensor {sensor.name}", (COMPARED, Part.SENSORS)
             yield Compared(Quantity.POSITION, what, "m", place, *when), [matrix[:3, 3] for matrix in at]
             yield Compared(Quantity.ORIENTATION, what, "", axes, *when), [matrix[:3, :3].T.ravel() for matrix in at]
-            continue
-        for k, (output, modelica_unit, _) in enumerate(outputs):
-            values = tuple(f"{names.sensors[sensor.name]}.{output}[{i}]" for i in (1, 2, 3))
-            unit = modelica_unit.replace("2", "²").replace(".", "·")
-            compared = Compared(Quantity.READING, f"sensor {sensor.name}", unit, values, COMPARED, Part.SENSORS, output)
-            yield compared, [row[k] for row in rows]
+
+
+def _outputs(name: str) -> Iterable[Output]:
+    """Return all outputs of a class of the library's `Sensors`; Run may have only some of them."""
+    return dict.fromkeys(output for kind in SENSOR_KINDS.values() if kind.name == name for output in kind.outputs)
 
 
 def limits(subject: Subject) -> Iterator[Pair]:

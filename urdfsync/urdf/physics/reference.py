@@ -252,6 +252,17 @@ class Reference:
             return np.zeros(len(efforts))  # no simulation accepts infinite numbers
         return np.asarray(np.linalg.lstsq(mass, efforts)[0])
 
+    def measured(self, state: Configuration, sensor: Element, above: str) -> Mapping[str, Array]:
+        """Return what a sensor shows, by the library's names; `above` is the link above the sensor's joint, if any."""
+        match sensor.type:
+            case "imu" | "accelerometer" | "gyroscope":
+                gain, turn = self.acceleration(state, sensor)
+                return {"a": gain, "w": turn}
+            case "force_torque":
+                force, torque = self.wrench(state, sensor, above)
+                return {"f": force, "t": torque}
+        return {}
+
     def acceleration(self, state: Configuration, sensor: Element) -> tuple[Array, Array]:
         """Return a sensor's acceleration minus gravity, and its angular velocity, in the sensor's axes."""
         pin, model = self.pin, self.model
