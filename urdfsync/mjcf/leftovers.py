@@ -1,0 +1,89 @@
+"""Finds what acts on a robot in MuJoCo, and what no model has, and what has no effect on the robot at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from urdfsync.mjcf.drives import Drives
+from urdfsync.mjcf.scene import Scene
+from urdfsync.mjcf.writer import Node
+
+_GRAVITY = (0.0, 0.0, -9.81)
+_FREE, _BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
+
+
+def find_left_out(scene: Scene, drives: Drives) -> None:
+    """Add to the drives' list what acts on the robot by other means than joints and motors."""
+    model = scene.model
+    for joint in drives.joints:
+        kind, dof = model.jnt_type[joint], model.jnt_dofadr[joint]
+        if model.jnt_stiffness[joint] or _any(model, "jnt_stiffnesspoly", joint):
+            drives.leave_out("spring", "joint", joint, scene.joints[joint])
+        if _any(model, "dof_dampingpoly", dof):
+            drives.leave_out("damping that is not linear", "joint", joint, scene.joints[joint])
+        if kind == _BALL and (model.jnt_limited[joint] or model.dof_armature[dof] or model.dof_frictionloss[dof]):
+            drives.leave_out("range, armature or friction of a ball", "joint", joint, scene.joints[joint])
+        if kind == _FREE and any(values[dof : dof + 6].any() for values in _losses(model)):
+            drives.leave_out("losses of a free joint", "joint", joint, scene.joints[joint])
+    for body in scene.bodies:
+        if model.body_gravcomp[body]:
+            drives.leave_out("gravity compensation", "body", body, scene.links[body])
+        if model.body_plugin[body] >= 0:
+            drives.leave_out("plugin", "body", body, scene.links[body])
+    for tendon in range(model.ntendon):
+        pulls = [joint for joint, _ in drives.pulls(tendon)]
+        acts = model.tendon_limited[tendon] or any(values[tendon] for values in _forces(model))
+        if acts and (not pulls or any(joint in drives.joints for joint in pulls)):
+            drives.leave_out("tendon", "tendon", tendon)
+    for pair in range(model.npair):
+        geoms = model.pair_geom1[pair], model.pair_geom2[pair]
+        if any(int(model.geom_bodyid[geom]) in scene.bodies[not scene.is_floating :] for geom in geoms):
+            drives.leave_out("contact pair", "pair", pair)
+    for flex in range(model.nflex):
+        drives.leave_out("flexible body", "flex", flex)
+    _find_global(model, drives)
+
+
+def _find_global(model: Any, drives: Drives) -> None:
+    """Add what acts on all bodies: another gravity, or a fluid."""
+    disabled = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
+    if disabled or not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
+        words = "none" if disabled else " ".join(f"{value:g}" for value in model.opt.gravity)
+        drives.leave_out("gravity", "body", 0, words)
+    if model.opt.density or model.opt.viscosity:
+        drives.leave_out("fluid", "body", 0)
+
+
+def _any(model: Any, field: str, number: int) -> bool:
+    """Return whether a field of newer versions of MuJoCo has a number other than zero."""
+    return bool(np.any(getattr(model, field)[number])) if hasattr(model, field) else False
+
+
+def _losses(model: Any) -> tuple[Any, Any, Any]:
+    return model.dof_damping, model.dof_frictionloss, model.dof_armature
+
+
+def _forces(model: Any) -> Iterator[Any]:
+    """Yield the properties by which a tendon acts on its joints, each for all tendons."""
+    for name in ("stiffness", "damping", "frictionloss", "armature", "actfrclimited"):
+        if hasattr(model, f"tendon_{name}"):
+            yield getattr(model, f"tendon_{name}")
+
+
+def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
+    """Add an element for each part that is left out, and for each element without an effect."""
+    for part in drives.left_out:
+        robot.add("left_out", part.line, name=part.name, what=part.what)
+    for tag, name, place in scene.document.noted:
+        robot.add(tag, place, name=name or None)
+    model = scene.model
+    for top in range(1, model.nbody):
+        if model.body_parentid[top] == 0 and top not in scene.bodies:
+            robot.add("body", scene.line("body", top), name=scene.links[top])
+    for key in range(model.nkey):
+        if scene.name("key", key) != "home":
+            robot.add("key", scene.line("key", key), name=scene.name("key", key) or None)
