@@ -188,6 +188,8 @@ class Translator(msgspec.Struct, frozen=True):
     """The usual hints, by codes of faults."""
     mark: re.Pattern[bytes] = re.compile(b"(?!)")
     """What a source in this format begins with; xacro has other marks."""
+    compares: bool = False
+    """Whether the program also compares a text with its source, by another way than it translates."""
 
 
 class Companion(msgspec.Struct, frozen=True):

@@ -31,6 +31,7 @@ _TRANSLATORS = {
             },
             # an XML whose root element is <mujoco>, or a compiled model
             re.compile(rb"(?s)(?:\xef\xbb\xbf)?\s*+(?>(?:<\?.*?\?>|<!--.*?-->)\s*+)*+<mujoco\b|1\xd4\0\0"),
+            compares=True,
         ),
     ),
 }

@@ -1,4 +1,4 @@
-"""What a build asks of the process that expands a source, and what the process answers."""
+"""What a build or a check asks of the process that expands a source, and what the process answers."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ class Request(msgspec.Struct, frozen=True):
     """The value of `$(cwd)`. The process has another working folder: PYTHONPATH may have relative entries."""
     contents: Mapping[str, bytes] = {}
     """Contents of files that override the disk, by path."""
+    text: str = ""
+    """An expanded text to compare with the source; empty to expand the source."""
 
 
 class Problem(msgspec.Struct, frozen=True):
@@ -53,6 +55,10 @@ class Answer(msgspec.Struct, frozen=True):
     """Given arguments that the source does not declare."""
     warnings: tuple[str, ...] = ()
     problem: Problem | None = None
+    compared: int = 0
+    """The count of numbers that were compared, if the request has a text."""
+    differences: tuple[str, ...] = ()
+    """A clause for each quantity of the text that differs from the source."""
 
 
 def not_unicode(code: str) -> Problem:

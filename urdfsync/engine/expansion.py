@@ -180,6 +180,21 @@ def expand(
     )
 
 
+def compare(
+    inputs: SourceFiles, arguments: Mapping[str, str], text: str, translator: Translator
+) -> tuple[int, Sequence[str]]:
+    """Let a translator compare a text with its source, in a process of its own. Raises SourceError.
+
+    Return the count of compared numbers, and a clause for each quantity that differs.
+    """
+    folders = tuple(map(str, inputs.package_paths))
+    request = Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root), text=text)
+    answer = _ask(translator, request)
+    if answer.problem:
+        raise SourceError.of(answer.problem.code, answer.problem.message, shown(inputs.source))
+    return answer.compared, answer.differences
+
+
 def _ask(translator: Translator, request: Request) -> Answer:
     """Expand a file in another process."""
     limits = Answer(problem=Problem(f"{translator.name}-limits", ""))

@@ -114,7 +114,8 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     `name` is the robot's name in the state, if it differs. The source is expanded again, unless this machine has noted
     the text and its inputs. If the translator or a file is missing, the recorded text is used. A dry run runs no
     command. Raises SourceError for an unreadable source, at the line of the configuration, and ConfigError for an
-    untrusted command. Raises SourceError for a companion beside the source that no option names: a rename would silently remove it.
+    untrusted command. Raises SourceError for a companion beside the source that no option names: a rename would
+    silently remove it.
     """
     text = _read_source(config, robot, store, options, name)
     is_plain = not (robot.command or text.expansion)
@@ -173,7 +174,7 @@ def expansion_hash(made: Expansion) -> str:
 def _expand(
     config: Config, robot: RobotConfig, inputs: SourceFiles, options: BuildOptions, translator: Translator | None
 ) -> Expansion:
-    """Make a source by its translator or its command. Raises SourceError, and ConfigError for a command without trust."""
+    """Make a source by translator or command. Raises SourceError, and ConfigError for a command without trust."""
     from urdfsync.engine import expansion
 
     if translator is not None:

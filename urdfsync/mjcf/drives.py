@@ -172,16 +172,15 @@ class Drives:
                 joint.add("limit", lower=lower, upper=upper, effort=effort)
         damping, friction, armature = model.dof_damping[dof], model.dof_frictionloss[dof], model.dof_armature[dof]
         if kind != "floating" and (damping or friction or armature):
-            values = {"friction": friction or None, "armature": armature or None}
-            joint.add("dynamics", damping=damping, **({} if kind == "ball" else values))
+            friction, armature = (None if kind == "ball" else value or None for value in (friction, armature))
+            joint.add("dynamics", damping=damping, friction=friction, armature=armature)
         if number in self.followers:
             leader, multiplier, offset = self.followers[number]
             joint.add("mimic", joint=self.scene.joints[leader], multiplier=multiplier, offset=offset)
 
     def add_control(self, robot: Node) -> None:
         """Add the motors, their gears, and the starts of joints. With any motor, a joint without one is passive."""
-        scene, model = self.scene, self.scene.model
-        starts = self._starts()
+        scene, starts = self.scene, self._starts()
         if not self.motors and not starts:
             return
         control = robot.add("ros2_control", name="MuJoCo", type="system")

@@ -47,7 +47,7 @@ class Links:
             yield anchor
 
     def _offset(self, body: int) -> Vector:
-        return ([np.zeros(3)] + list(self._anchors(body)))[-1]
+        return [np.zeros(3), *self._anchors(body)][-1]
 
     def place(self, body: int, position: Any) -> tuple[float, ...]:
         """Return a position in the frame of a body as one in the frame of its link."""

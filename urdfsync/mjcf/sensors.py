@@ -15,8 +15,8 @@ def add_sensors(robot: Node, links: Links) -> None:
     """Add the sensors of the robot; a note names the others."""
     scene, model = links.scene, links.scene.model
     for number in range(model.nsensor):
-        kind, line, name = mujoco.mjtSensor(model.sensor_type[number]), scene.line("sensor", number), scene.name("sensor", number)
-        site = int(model.sensor_objid[number])
+        line, name = scene.line("sensor", number), scene.name("sensor", number)
+        kind, site = mujoco.mjtSensor(model.sensor_type[number]), int(model.sensor_objid[number])
         if kind not in _KINDS or int(model.site_bodyid[site]) not in links.offsets:
             word = kind.name.removeprefix("mjSENS_").lower()
             robot.add(f"sensor-{word}", line, name=name or None)

@@ -59,7 +59,8 @@ def add_shapes(link: Node, scene: Scene, body: int, offset: Vector) -> None:
 def _shape(scene: Scene, number: int) -> _Shape:
     """Return the shape of a geom, with its pose in the frame of the body."""
     model = scene.model
-    kind, (x, y, z) = _KINDS.get(mujoco.mjtGeom(model.geom_type[number]), "unknown"), map(float, model.geom_size[number])
+    kind = _KINDS.get(mujoco.mjtGeom(model.geom_type[number]), "unknown")
+    attributes, (x, y, z) = dict[str, Any](), map(float, model.geom_size[number])
     position, quaternion = model.geom_pos[number], model.geom_quat[number]
     match kind:
         case "sphere":
@@ -70,8 +71,6 @@ def _shape(scene: Scene, number: int) -> _Shape:
             attributes = {"size": (2 * x, 2 * y, 2 * z)}
         case "mesh":
             return _mesh(scene, model.geom_dataid[number], position, quaternion)
-        case _:
-            attributes = {}
     return _Shape(kind, attributes, position, quaternion)
 
 

@@ -21,29 +21,37 @@ _ARGUMENTS = ("body",)
 
 
 def translate(request: Request) -> Answer:
-    """Translate a file."""
+    """Translate a file, or compare its translation."""
     try:
-        from urdfsync.mjcf import urdf
+        from urdfsync.mjcf import comparison, urdf
     except ImportError as error:
         return Answer(problem=Problem("not-installed", f"MuJoCo can't be loaded: {error}", request.source))
     files = Files(request.contents, (request.folder, os.path.dirname(request.source)))  # noqa: PTH120
     unknown = tuple(name for name in request.arguments if name not in _ARGUMENTS)
-    text, places, problem = "", (), None
+    answer, problem, body = Answer(), None, request.arguments.get("body", "")
     try:
         with limits(request.seconds, request.memory):
-            text, places = urdf.translated(_read(request.source, files), request.arguments.get("body", ""))
+            document = _read(request.source, files)
+            if request.text:
+                compared, differences = comparison.compare(document, request.text, body)
+                answer = Answer(compared=compared, differences=differences)
+            else:
+                text, places = urdf.translated(document, body)
+                answer = Answer(text, places)
     except TranslationError as error:
         problem = error.problem
     except MemoryError:
         problem = Problem("mjcf-limits", "")
     except RecursionError:
         problem = Problem("mjcf", "its elements are nested too deep", request.source)
-    return Answer(text, places, files.hashes, unknown=unknown, problem=problem)
+    return msgspec.structs.replace(answer, files=files.hashes, unknown=unknown, problem=problem)
 
 
 def _read(source: str, files: Files) -> Document:
     if files.read(source).startswith(_COMPILED):
-        raise TranslationError("this is a compiled model of MuJoCo (MJB)", (source, 0), "name the XML file of the model")
+        raise TranslationError(
+            "this is a compiled model of MuJoCo (MJB)", (source, 0), "name the XML file of the model"
+        )
     return read_document(source, files)
 
 

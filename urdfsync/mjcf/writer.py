@@ -56,5 +56,5 @@ def rounded(numbers: Iterable[float]) -> tuple[float, ...]:
 def _text(value: str | float | Sequence[float]) -> str:
     if isinstance(value, str):
         return value
-    # adding 0.0 makes 0.0 of -0.0
-    return " ".join(repr(float(number) + 0.0) for number in (value if hasattr(value, "__len__") else (value,)))
+    numbers = (value,) if isinstance(value, float | int) else value
+    return " ".join(repr(float(number) + 0.0) for number in numbers)  # adding 0.0 makes 0.0 of -0.0

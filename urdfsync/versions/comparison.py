@@ -36,12 +36,12 @@ from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import Exit, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
+from urdfsync.engine.translators import find_translator, is_xacro
 from urdfsync.engine.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
 from urdfsync.modelica.names import class_name
 from urdfsync.output.phrases import change_counts, generator_change
-from urdfsync.engine.translators import find_translator, is_xacro
 from urdfsync.state import expansion
 from urdfsync.state.store import Store
 
