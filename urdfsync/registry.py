@@ -29,8 +29,8 @@ _TRANSLATORS = {
                 "mjcf": "correct it, then build again",
                 "mjcf-limits": "use coarser meshes, or a model with fewer bodies",
             },
-            # an XML whose root element is <mujoco>, or a compiled model
-            re.compile(rb"(?s)(?:\xef\xbb\xbf)?\s*+(?>(?:<\?.*?\?>|<!--.*?-->)\s*+)*+<mujoco\b|1\xd4\0\0"),
+            # an XML whose root element is <mujoco>, a part of one, or a compiled model
+            re.compile(rb"(?s)(?:\xef\xbb\xbf)?\s*+(?>(?:<\?.*?\?>|<!--.*?-->)\s*+)*+<mujoco(?:include)?\b|1\xd4\0\0"),
             compares=True,
         ),
     ),

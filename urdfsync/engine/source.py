@@ -30,7 +30,7 @@ from urdfsync.dependencies.reads import (
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Companion, CompanionKind, Domain, Reading, Snapshot, Translator
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.translators import find_translator
+from urdfsync.engine.translators import XACRO, find_translator
 from urdfsync.files import Templates, digest, kind_of, shown, templates_digest
 from urdfsync.state.expansion import Expansion, dumps
 from urdfsync.state.store import Store
@@ -257,7 +257,10 @@ def read_file_source(
         return Source(content, shown(file), companions=read_beside(domain, file, options))
     from urdfsync.engine import expansion
 
-    inputs = expansion.SourceFiles(file.absolute().parent, file.absolute(), package_paths)
+    folder, here = file.absolute().parent, Path.cwd()
+    # a project may begin in the working folder; in xacro, this folder is the value of `$(cwd)`
+    root = here if translator is not XACRO and folder.is_relative_to(here) else folder
+    inputs = expansion.SourceFiles(root, file.absolute(), package_paths)
     made = expansion.expand(inputs, arguments, translator=translator)
     told = _warnings(made, file, (shown(file), 0))
     return Source(made.text.encode(), shown(file), inputs.places(made), told, made)

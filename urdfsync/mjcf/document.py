@@ -10,7 +10,6 @@ As in MuJoCo, the name of an included file counts from the folder of the includi
 
 from __future__ import annotations
 
-import itertools
 import os
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path, PurePosixPath
@@ -30,8 +29,8 @@ _NOTED = frozenset({*_LEFT_OUT, "light", "camera", "exclude", "numeric", "text",
 _OF_TEXTURES = ("texture", "texrepeat", "texuniform")
 """Attributes of a material that refer to textures."""
 _FOLDERS = ("meshdir", "texturedir", "assetdir", "strippath")
-_MOST_ELEMENTS = 200_000
-"""The most elements of a text: MuJoCo and our own reading take 5 s for so many."""
+_MOST_ELEMENTS = 20_000
+"""The most elements of a model with its copies. The largest robots have 3,000; for 30,000 copies MuJoCo takes 20 s."""
 
 Place = tuple[str, int]
 """A file, and a line in it."""
@@ -64,6 +63,13 @@ class Files:
             raise TranslationError(f"{path} can't be read: {reason}", place, hint) from None
         self.hashes[path] = text_digest(content)
         return content
+
+    def is_there(self, path: str) -> bool:
+        """Return whether a file exists; a missing one is recorded, since it would count if it came."""
+        is_there = path in self._contents or os.path.lexists(path)
+        if not is_there:
+            self.hashes[path] = None
+        return is_there
 
     def check_inside(self, path: str, place: Place) -> None:
         """Refuse a file outside of the folders. Raises TranslationError."""
@@ -111,9 +117,10 @@ def _read_model(source: str, files: Files, shared: Document, place: Place, aroun
         raise TranslationError(message, places[root], "name the file that includes this one")
     _include(root, source, os.path.dirname(source), files, places, (source,))  # noqa: PTH120
     _name_files(root, source, files, places, shared, (*around, source))
-    lines = list(itertools.islice(_lines(root, places), _MOST_ELEMENTS + 1))
-    if len(lines) > _MOST_ELEMENTS:
-        raise TranslationError(f"the model has more than {_MOST_ELEMENTS:,} elements", places[root])
+    if (count := _count(root)) > _MOST_ELEMENTS:
+        message = f"the model has {count:,} elements, and urdfsync reads up to {_MOST_ELEMENTS:,}"
+        raise TranslationError(message, places[root], "take copies out of <replicate>")
+    lines = list(_lines(root, places))
     text = "\n" * len(shared.places) + "\n".join(line for line, _ in lines)
     shared.places.extend(place for _, place in lines)
     return shared._replace(text=text)
@@ -146,7 +153,7 @@ def _include(
             raise TranslationError("<include> has elements of its own", place, "take them out")
         folders = (os.path.dirname(file), main)  # noqa: PTH120
         paths = [os.path.normpath(os.path.join(folder, name)) for folder in folders]  # noqa: PTH118
-        path = next(filter(os.path.lexists, paths), paths[0])
+        path = next(filter(files.is_there, paths), paths[0])
         files.check_inside(path, place)
         if path in around:
             raise TranslationError(f"{path} includes itself", place, "take one <include> out")
@@ -198,6 +205,12 @@ def _name_files(
         else:
             message = f"<{element.tag}> reads a file, which urdfsync does not support"
             raise TranslationError(message, place, "take the element out")
+
+
+def _count(element: Element) -> int:
+    """Return the count of elements in an element, with the copies of each `<replicate>`."""
+    text = element.get("count", "").strip() if element.tag == "replicate" else ""
+    return 1 + sum(map(_count, element)) * (int(text) if text.isdecimal() and len(text) < 10 else 1)
 
 
 def _lines(element: Element, places: Mapping[Element, Place]) -> Iterator[tuple[str, Place]]:

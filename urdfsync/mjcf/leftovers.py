@@ -8,11 +8,13 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from urdfsync.mjcf.drives import Drives
+from urdfsync.mjcf.drives import Drives, Part
 from urdfsync.mjcf.scene import Scene
 from urdfsync.mjcf.writer import Node
 
 _GRAVITY = (0.0, 0.0, -9.81)
+_SOLREF, _SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
+"""MuJoCo's usual softness of a constraint."""
 _FREE, _BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
 
 
@@ -53,9 +55,23 @@ def _find_global(model: Any, drives: Drives) -> None:
     disabled = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
     if disabled or not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
         words = "none" if disabled else " ".join(f"{value:g}" for value in model.opt.gravity)
-        drives.leave_out("gravity", "body", 0, words)
+        drives.left_out.append(Part("gravity", words, 0))
     if model.opt.density or model.opt.viscosity:
-        drives.leave_out("fluid", "body", 0)
+        drives.left_out.append(Part("fluid", "", 0))
+
+
+def _add_soft(robot: Node, scene: Scene, drives: Drives) -> None:
+    """Add an element for each constraint that gives way more or less than usual in MuJoCo: no model's does."""
+    model = scene.model
+    for joint in drives.joints:
+        numbers = *model.jnt_solref[joint], *model.jnt_solimp[joint]
+        if model.jnt_limited[joint] and not np.allclose(numbers, (*_SOLREF, *_SOLIMP)):
+            robot.add("solreflimit", scene.line("joint", joint), name=scene.joints[joint])
+    for number in range(model.neq):
+        if not model.eq_active0[number]:
+            robot.add("inactive", scene.line("equality", number), name=scene.name("equality", number) or None)
+        elif not np.allclose((*model.eq_solref[number], *model.eq_solimp[number]), (*_SOLREF, *_SOLIMP)):
+            robot.add("solref", scene.line("equality", number), name=scene.name("equality", number) or None)
 
 
 def _any(model: Any, field: str, number: int) -> bool:
@@ -84,6 +100,7 @@ def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
     for top in range(1, model.nbody):
         if model.body_parentid[top] == 0 and top not in scene.bodies:
             robot.add("body", scene.line("body", top), name=scene.links[top])
+    _add_soft(robot, scene, drives)
     for key in range(model.nkey):
         if scene.name("key", key) != "home":
             robot.add("key", scene.line("key", key), name=scene.name("key", key) or None)

@@ -25,7 +25,7 @@ _KINDS = {
     "actuator": (mujoco.mjtObj.mjOBJ_ACTUATOR, "actuators"),
     "sensor": (mujoco.mjtObj.mjOBJ_SENSOR, "sensors"),
     "key": (mujoco.mjtObj.mjOBJ_KEY, "keys"),
-    "pair": (None, "pairs"),
+    "pair": (mujoco.mjtObj.mjOBJ_PAIR, "pairs"),
     "plugin": (mujoco.mjtObj.mjOBJ_PLUGIN, "plugins"),
     "flex": (mujoco.mjtObj.mjOBJ_FLEX, "flexes"),
 }
@@ -90,7 +90,8 @@ class Scene:
             raise TranslationError(message, place, "name the file that has the robot")
         if len(candidates) > 1:
             message = f"the model has {len(candidates)} robots: {_listed(list(candidates))}"
-            hint = f'choose one by `arguments = {{ body = "{next(iter(candidates))}" }}`, or all by "{WORLD}"'
+            first = next(iter(candidates))
+            hint = f'choose one by `arguments = {{ body = "{first}" }}` (`init FILE body:={first}`), or all by "{WORLD}"'
             raise TranslationError(message, place, hint)
         return next(iter(candidates.values()))
 
@@ -152,7 +153,8 @@ def read_scene(document: Document, body: str = "") -> Scene:
 def _in_words(document: Document, text: str) -> TranslationError:
     """Return MuJoCo's error with the user's file and line."""
     found = _LINE.search(text)
-    words = " ".join(_LINE.sub("", text).split()).removeprefix("XML Error: ").removeprefix("Error: ").rstrip(" ,")
+    words = " ".join(_LINE.sub("", text).split()).removeprefix("XML Error: ").removeprefix("Error: ")
+    words = words.replace(" Element ", ", element ").rstrip(" ,")
     for name, path in document.meshes.items():
         words = words.replace(f"'{name}'", path)
     hint = f"correct it, or install a newer MuJoCo than {mujoco.__version__}" if "Schema violation" in text else ""
