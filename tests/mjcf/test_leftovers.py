@@ -16,8 +16,13 @@ SITES = '<site name="s" pos="0 0 1"/><site name="t"/>'
         ('<joint name="j" type="ball" armature="1"/>', "", "range, armature or friction of a ball j"),
         ('<joint name="j" type="free" damping="1"/>', "", "losses of a free joint j"),
         ("<joint/>", '<option gravity="0 0 0"/>', "gravity 0 0 0"),
-        ("<joint/>", '<option><flag gravity="disable"/></option>', "gravity none"),
+        ("<joint/>", '<option><flag gravity="disable"/></option>', "disabled flag gravity"),
         ("<joint/>", '<option density="1.2"/>', "fluid"),
+        (
+            '<joint name="j"/>',
+            '<actuator><motor name="m" joint="j" armature="1"/></actuator>',
+            "armature or damping of actuator m",
+        ),
         (
             f"<joint/>{SITES}",
             '<tendon><spatial name="p" limited="true" range="0 1"><site site="s"/><site site="t"/></spatial></tendon>',

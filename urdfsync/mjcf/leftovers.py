@@ -13,6 +13,8 @@ from urdfsync.mjcf.scene import Scene
 from urdfsync.mjcf.writer import Node
 
 _GRAVITY = (0.0, 0.0, -9.81)
+_SWITCHES = ("GRAVITY", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION")
+"""What the flags of an option may switch off for all joints, as MuJoCo names it."""
 _SOLREF, _SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
 """MuJoCo's usual softness of a constraint."""
 _FREE, _BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
@@ -31,6 +33,9 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
             drives.leave_out("range, armature or friction of a ball", "joint", joint, scene.joints[joint])
         if kind == _FREE and any(values[dof : dof + 6].any() for values in _losses(model)):
             drives.leave_out("losses of a free joint", "joint", joint, scene.joints[joint])
+    for motor in (motor for motors in drives.motors.values() for motor in motors):
+        if any(_any(model, f"actuator_{name}", motor.actuator) for name in ("armature", "damping", "dampingpoly")):
+            drives.leave_out("armature or damping of actuator", "actuator", motor.actuator)
     for body in scene.bodies:
         if model.body_gravcomp[body]:
             drives.leave_out("gravity compensation", "body", body, scene.links[body])
@@ -51,10 +56,12 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
 
 
 def _find_global(model: Any, drives: Drives) -> None:
-    """Add what acts on all bodies: another gravity, or a fluid."""
-    disabled = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
-    if disabled or not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
-        words = "none" if disabled else " ".join(f"{value:g}" for value in model.opt.gravity)
+    """Add what acts on all bodies: switches, another gravity, or a fluid."""
+    for name in _SWITCHES:
+        if model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}"):
+            drives.left_out.append(Part("disabled flag", name.lower(), 0))
+    if not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
+        words = " ".join(f"{value:g}" for value in model.opt.gravity)
         drives.left_out.append(Part("gravity", words, 0))
     if model.opt.density or model.opt.viscosity:
         drives.left_out.append(Part("fluid", "", 0))

@@ -91,7 +91,9 @@ class Scene:
         if len(candidates) > 1:
             message = f"the model has {len(candidates)} robots: {_listed(list(candidates))}"
             first = next(iter(candidates))
-            hint = f'choose one by `arguments = {{ body = "{first}" }}` (`init FILE body:={first}`), or all by "{WORLD}"'
+            hint = (
+                f'choose one by `arguments = {{ body = "{first}" }}` (`init FILE body:={first}`), or all by "{WORLD}"'
+            )
             raise TranslationError(message, place, hint)
         return next(iter(candidates.values()))
 
