@@ -14,6 +14,12 @@ ROBOTS = {
     ),
     "ball": body('<joint type="ball" pos="0.1 0 0.2"/><body pos="1 0 0"><joint pos="0 1 0"/><geom size="0.1"/></body>'),
     "floating": body('<freejoint/><body name="leg" euler="10 20 30"><joint damping="1"/><geom size="0.1"/></body>'),
+    "left out": body(
+        '<joint name="f" type="free" armature="1"/><body><joint name="j"/><geom size="0.1"/></body>'
+    ).replace(
+        "</mujoco>",
+        '<actuator><motor joint="j" armature="2"/></actuator><option><flag gravity="disable"/></option></mujoco>',
+    ),
     "massless": body('<joint/><body name="hand" pos="0 0 1" quat="1 1 0 0"/><site name="tip" pos="1 0 0"/>'),
 }
 

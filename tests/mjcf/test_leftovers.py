@@ -57,11 +57,21 @@ def test_a_tendon_without_effect_is_only_drawn() -> None:
 
 
 def test_what_only_draws_is_noted() -> None:
-    assets = '<asset><texture name="t" type="2d" file="absent.png"/><material name="m" texture="t"/></asset>'
+    assets = (
+        '<asset><texture name="t" file="absent.png"/><skin file="absent.skn"/><material name="m" texture="t"/></asset>'
+    )
     keys = '<keyframe><key name="other" qpos="1"/></keyframe>'
     text = body('<joint/><light pos="0 0 1"/><camera name="eye"/><geom size="0.1" material="m"/>', assets)
     text = text.replace("</mujoco>", f"{keys}</mujoco>")
-    assert noted(text) == "not modelled: 1 <texture>, 1 <light>, 1 <camera>, 1 <key>"
+    assert noted(text) == "not modelled: 1 <texture>, 1 <skin>, 1 <light>, 1 <camera>, 1 <key>"
+
+
+def test_terrain_is_noted() -> None:
+    asset = '<asset><hfield name="hills" file="absent.png" size="1 1 1 1"/></asset>'
+    ground = '<worldbody><geom name="floor" type="hfield" hfield="hills"/>'
+    text = body('<joint/><geom name="foot" size="0.1"/>', asset).replace("<worldbody>", ground)
+    touch = '<contact><exclude body1="world" body2="part"/></contact></mujoco>'
+    assert noted(text.replace("</mujoco>", touch)) == "not modelled: 1 <hfield>, 1 <exclude>"
 
 
 def test_a_body_beside_the_robot_is_noted() -> None:

@@ -2,8 +2,8 @@
 
 Each element has a line of its own, and each line a place in a file: so MuJoCo's messages can name the user's lines.
 The text of an attached model begins below all earlier lines, so that no two texts share a line number. MuJoCo gets the
-bytes of each mesh under a name of ours, and opens no file itself. Textures, skins and height fields only draw: they are
-left out, and so is their reading.
+bytes of each mesh under a name of ours, and opens no file itself. Textures and skins only draw, and height fields are
+terrain: they are left out, and so is their reading; a geom of a height field becomes a plane.
 
 As in MuJoCo, the name of an included file counts from the folder of the including file, then from that of the source.
 """
@@ -22,8 +22,8 @@ from urdfsync.engine.exchange import Problem
 from urdfsync.files import text_digest
 from urdfsync.urdf.parse.xml import ParseError, parse
 
-_LEFT_OUT = {"texture": "asset", "hfield": "asset", "skin": "deformable"}
-"""Elements that only draw, or are terrain, with the elements around them."""
+_LEFT_OUT = ("texture", "hfield", "skin")
+"""Elements that only draw, or are terrain."""
 _NOTED = frozenset({*_LEFT_OUT, "light", "camera", "exclude", "numeric", "text", "tuple"})
 """Elements without an effect on the robot."""
 _OF_TEXTURES = ("texture", "texrepeat", "texuniform")
@@ -175,10 +175,11 @@ def _name_files(
     for holder in [*root.iter()]:
         for element in [child for child in holder if child.tag in _NOTED and holder.tag != "default"]:
             shared.noted.append((element.tag, element.get("name", ""), places[element]))
-            if _LEFT_OUT.get(element.tag) == holder.tag:
+            if element.tag in _LEFT_OUT:
                 holder.remove(element)
-        for element in [child for child in holder if child.tag == "geom" and "hfield" in child.attrib]:
-            holder.remove(element)
+        if "hfield" in holder.attrib:  # other elements may name the geom
+            del holder.attrib["hfield"]
+            holder.attrib |= {"type": "plane", "size": "1 1 1"}
         if holder.tag == "material":
             for name in _OF_TEXTURES:
                 holder.attrib.pop(name, None)
