@@ -11,6 +11,10 @@ from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.mjcfs import ARM, body, stl, world
 
+from urdfsync import config
+from urdfsync.checks import robot as checks
+from urdfsync.checks.results import CheckOptions, CheckResult
+
 RECORD = Path("modelica/Arm/Links/UpperParameters.mo")
 EXPANDED = Path(".urdfsync/robots/arm.expanded")
 
@@ -146,3 +150,22 @@ def test_an_edited_number_goes_back_as_a_hint(project: Path, execute: Execute) -
     printed = execute("diff", "--edits", "--patch", code=None)
     assert '-      <inertial pos="0 0 0.2" mass="1.5" diaginertia="0.02 0.02 0.01"/>' in printed.out
     assert '+      <inertial pos="0 0 0.2" mass="1.75" diaginertia="0.02 0.02 0.01"/>' in printed.out
+
+
+@pytest.mark.slow
+def test_a_check_compares_the_urdf_with_mujoco(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "run_compilations", lambda *_: None)  # other tests compile
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: project / "cache")
+    result = check()
+    assert result.numbers is not None
+    assert result.numbers.right == result.numbers.total > 150  # 76 of them in the records
+    assert not result.diagnostics
+    monkeypatch.setattr(checks, "compare", lambda *_: (9, ("mass of link upper differs by 1.0e-03",)))
+    edit('mass="1.5"', 'mass="1.75"')  # a right result is remembered
+    (found,) = [each for each in check().diagnostics if each.code == "translation-differs"]
+    assert str(found).startswith("mjcf/arm.xml: error: mass of link upper differs by 1.0e-03")
+
+
+def check() -> CheckResult:
+    (robot,) = (loaded := config.load(Path("urdfsync.toml"))).robots
+    return checks.check_robot(loaded, robot, CheckOptions())
