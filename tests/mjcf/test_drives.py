@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from support.mjcfs import joint, left_out, read, world
+from support.mjcfs import joint, left_out, noted, read, world
 
 from urdfsync.urdf.drives import passive_joints
 from urdfsync.urdf.robot import Mimic, Transmission
@@ -52,6 +52,14 @@ def test_a_joint_limits_the_effort_of_its_motors() -> None:
     limit = joint(read(text), "a").limit
     assert limit is not None
     assert limit.effort == 4
+
+
+def test_the_first_motor_of_a_joint_commands_it_and_all_limit_its_effort() -> None:
+    text = with_motor('<position joint="a" forcerange="-3 3"/><velocity name="v" joint="a" forcerange="-4 4"/>')
+    found = joint(read(text), "a")
+    assert found.limit is not None
+    assert (found.command, found.limit.effort) == (None, 7)
+    assert noted(text) == "not modelled: 1 <motor>"
 
 
 def test_a_gear_is_a_reduction() -> None:

@@ -43,7 +43,7 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
             drives.leave_out("plugin", "body", body, scene.links[body])
     for tendon in range(model.ntendon):
         pulls = [joint for joint, _ in drives.pulls(tendon)]
-        acts = model.tendon_limited[tendon] or any(values[tendon] for values in _forces(model))
+        acts = model.tendon_limited[tendon] or any(np.any(values[tendon]) for values in _forces(model))
         if acts and (not pulls or any(joint in drives.joints for joint in pulls)):
             drives.leave_out("tendon", "tendon", tendon)
     for pair in range(model.npair):
@@ -92,7 +92,7 @@ def _losses(model: Any) -> tuple[Any, Any, Any]:
 
 def _forces(model: Any) -> Iterator[Any]:
     """Yield the properties by which a tendon acts on its joints, each for all tendons."""
-    for name in ("stiffness", "damping", "frictionloss", "armature", "actfrclimited"):
+    for name in ("stiffness", "stiffnesspoly", "damping", "dampingpoly", "frictionloss", "armature", "actfrclimited"):
         if hasattr(model, f"tendon_{name}"):
             yield getattr(model, f"tendon_{name}")
 
@@ -107,6 +107,10 @@ def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
     for top in range(1, model.nbody):
         if model.body_parentid[top] == 0 and top not in scene.bodies:
             robot.add("body", scene.line("body", top), name=scene.links[top])
+    for motors in drives.motors.values():
+        for motor in motors[1:]:  # the first one commands the joint, and all of them limit its effort
+            line, name = scene.line("actuator", motor.actuator), scene.name("actuator", motor.actuator)
+            robot.add("motor", line, name=name or None)
     _add_soft(robot, scene, drives)
     for key in range(model.nkey):
         if scene.name("key", key) != "home":
