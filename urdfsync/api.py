@@ -239,7 +239,13 @@ def simulate(
     robot = loaded.select_one(robots, "simulate", given.get("model", ""))
     check_outputs(files, input_files(loaded, robot, given.get("motion")))
     chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
-    result = run.simulate(loaded, robot, SimulateOptions(tool=chosen, **given), progress)
+    options = SimulateOptions(tool=chosen, **given)
+    if options.against:
+        from urdfsync.simulation.against import simulate_against  # takes 60 ms with libgit2
+
+        result = simulate_against(loaded, robot, options, progress)
+    else:
+        result = run.simulate(loaded, robot, options, progress)
     write_outputs(files, result)
     return Simulation(**msgspec.structs.asdict(result) | {"files": files})
 

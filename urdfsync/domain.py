@@ -177,6 +177,21 @@ class CompanionKind(msgspec.Struct, frozen=True):
     """The option without which the file that `option` names is not read; empty if it is always read."""
 
 
+class Translator(msgspec.Struct, frozen=True):
+    """A program that turns sources in another format into text that a domain reads; see `engine.expansion`."""
+
+    name: str
+    """The format in lower case, which is also the code of its faults; `NAME-limits` is that of a passed limit."""
+    module: str
+    """The module to run: it reads an `engine.exchange.Request`, and writes an `Answer`."""
+    hints: Mapping[str, str]
+    """The usual hints, by codes of faults."""
+    mark: re.Pattern[bytes] = re.compile(b"(?!)")
+    """What a source in this format begins with; xacro has other marks."""
+    compares: bool = False
+    """Whether the program also compares a text with its source, by another way than it translates."""
+
+
 class Companion(msgspec.Struct, frozen=True):
     """A file that a source is read with, on disk or in a revision."""
 

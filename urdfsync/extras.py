@@ -5,6 +5,7 @@ PACKAGES = {
     "cluster": "distributed",
     "epanet": "wntr",
     "fmu": "fmpy",
+    "mjcf": "mujoco",
     "physics": "pin",
     "plot": "matplotlib",
     "remote": "fsspec",

@@ -5,17 +5,37 @@ from __future__ import annotations
 import contextlib
 import importlib
 import os
+import re
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import cast
 
 from urdfsync.dependencies.program import code_files, contents_hash, identity
 from urdfsync.diagnostics import ConfigError
-from urdfsync.domain import Domain
+from urdfsync.domain import Domain, Translator
+from urdfsync.extras import install_command
 from urdfsync.spelling import nearest
 
 _OWN = {"table": "urdfsync.table.domain:DOMAIN", "urdf": "urdfsync.urdf.domain:DOMAIN"}
 """Our own domains, which are entry points, too: searching entry points would cost every build 20 ms of imports."""
+_TRANSLATORS = {
+    "urdf": (
+        Translator(
+            "mjcf",
+            "urdfsync.mjcf.worker",
+            {
+                "not-installed": install_command("mjcf"),
+                "mjcf": "correct it, then build again",
+                "mjcf-limits": "use coarser meshes, or a model with fewer bodies",
+            },
+            # an XML whose root element is <mujoco>, a part of one, or a compiled model
+            re.compile(rb"(?s)(?:\xef\xbb\xbf)?\s*+(?>(?:<\?.*?\?>|<!--.*?-->)\s*+)*+<mujoco(?:include)?\b|1\xd4\0\0"),
+            compares=True,
+        ),
+    ),
+}
+"""Translators of other formats, by the domain that reads what they write."""
 _places: dict[tuple[str, ...], str] = {}
 """Found domains by name and Python's path. A process keeps its loaded code, so these stay valid. A build asks three
 times, and each search takes 5 of its 50 ms.
@@ -45,6 +65,11 @@ def top_level(name: str) -> str:
 def names() -> list[str]:
     """Return the names of all installed domains, sorted."""
     return sorted(_OWN.keys() | _installed().keys())
+
+
+def translators(name: str) -> Sequence[Translator]:
+    """Return the translators of other formats into the format of a domain."""
+    return _TRANSLATORS.get(name, ())
 
 
 def _place(name: str) -> str:

@@ -229,10 +229,10 @@ def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pyte
     for command in ("build", "status", "build --check"):
         printed = execute(*command.split())
         assert printed.lines == ["arm: in step, 15 files"]
-    assert "recorded source is used, unchecked: xacro is not installed" in execute("build", "--check", "--verbose").err
+    assert "recorded source is used, unchecked: xacro can't be loaded" in execute("build", "--check", "--verbose").err
     (built / "urdf/masses.yaml").write_text("upper: 2\n")
-    assert "pip install xacro [no-xacro]" in execute("status", code=2).err
-    assert "pip install xacro [no-xacro]" in execute("build", code=2).err
+    assert "pip install xacro [not-installed]" in execute("status", code=2).err
+    assert "pip install xacro [not-installed]" in execute("build", code=2).err
     assert "1.5" in Path(RECORD).read_text()
 
 

@@ -9,13 +9,20 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
-from support.simulation import Compiler, refused, run
+from support.simulation import Compiler, run
 
-from urdfsync import cli
+from urdfsync import api, cli
 from urdfsync.checks.compilers.compiler import CompileResult, SimulationResult
+from urdfsync.diagnostics import UrdfsyncError
 
 pytestmark = NEEDS_GIT
 TIMES = (0.0, 1.0, 2.0)
+
+
+def refused(against: str) -> str:
+    with pytest.raises(UrdfsyncError) as caught:
+        api.simulate(against=against)
+    return str(caught.value)
 
 
 @pytest.fixture
@@ -57,7 +64,7 @@ def test_equal_motions_are_told_in_one_line(repository: Repository, compiler: Co
 
 
 def test_both_versions_are_simulated_with_the_same_settings(repository: Repository, compiler: Compiler) -> None:
-    run(against="HEAD", stop=2.0, step=0.5, values=("robot.elbow.parameters.dynamics.damping=4",))
+    api.simulate(against="HEAD", stop=2.0, step=0.5, values=("robot.elbow.parameters.dynamics.damping=4",))
     now, former = (job.tasks[0] for job in compiler.jobs)
     assert now.runs == former.runs
     assert now.source == former.source
@@ -69,7 +76,7 @@ def test_the_revision_has_its_own_package_and_models(repository: Repository, com
     package = arm / "modelica/Arm/ArmTest.mo"
     package.write_text(package.read_text().replace("StopTime", "// mine\n      StopTime"))
     (arm / "Own.mo").write_text("model Own // new\n  extends Arm.ArmTest;\nend Own;\n")
-    run(against="HEAD", model="Own")
+    api.simulate(against="HEAD", model="Own")
     texts = [["// mine" in str(job), "// new" in str(job)] for job in compiler.jobs]
     assert len(texts) == 2
     assert not any(texts[1])
@@ -121,7 +128,7 @@ def test_the_repository_stays_as_it_is(repository: Repository, compiler: Compile
     repository.git("add", "staged.txt")
     (arm / "arm.urdf").write_text((arm / "arm.urdf").read_text() + "\n")
     before = repository.git("status", "--porcelain"), repository.git("ls-files", "--stage")
-    run(against="HEAD")
+    api.simulate(against="HEAD")
     assert (repository.git("status", "--porcelain"), repository.git("ls-files", "--stage")) == before
 
 
@@ -142,7 +149,7 @@ def test_a_revision_without_the_package_is_an_error(
 ) -> None:
     (arm / ".gitignore").write_text("modelica\n.urdfsync\n")
     Repository(arm, monkeypatch).commit()
-    message = refused(against="HEAD")
+    message = refused("HEAD")
     assert (
         "HEAD:modelica/Arm: error: the package of robot `arm` is not built; name a revision with a built package"
         in message
@@ -156,11 +163,11 @@ def test_a_revision_without_the_package_is_an_error(
 def test_an_unknown_revision_is_an_error(
     repository: Repository, compiler: Compiler, against: str, message: str
 ) -> None:
-    assert message in refused(against=against)
+    assert message in refused(against)
 
 
 def test_a_folder_without_git_is_an_error(arm: Path, compiler: Compiler) -> None:
-    assert "no git repository" in refused(against="HEAD")
+    assert "no git repository" in refused("HEAD")
 
 
 def test_many_cases_have_no_other_version(arm: Path, compiler: Compiler, execute: Execute) -> None:
@@ -176,7 +183,7 @@ def test_each_series_equals_that_of_a_plain_simulation(
     then = run(stop=2.0)
     (arm / "arm.urdf").write_text((arm / "arm.urdf").read_text().replace('<mass value="1.0"', '<mass value="1.7"'))
     assert cli.main(["build", "-q"]) == 0
-    both = run(against="HEAD", stop=2.0)
+    both = api.simulate(against="HEAD", stop=2.0)
     assert both.series == run(stop=2.0).series
     assert both.former == {name: then.series[name] for name in both.former}
     assert both.against is not None

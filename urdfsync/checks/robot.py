@@ -13,7 +13,7 @@ from urdfsync import registry
 from urdfsync.checks import compilers, process, texts
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilation import Compilation, compare_all
-from urdfsync.checks.experiment import Checks, Difference, Experiment, Sample
+from urdfsync.checks.experiment import Checks, Difference, Experiment, Numbers, Sample
 from urdfsync.checks.fingerprint import PHYSICS, fingerprint
 from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
@@ -22,9 +22,12 @@ from urdfsync.checks.process import Limits, limits_of
 from urdfsync.checks.remote import RemoteCache
 from urdfsync.checks.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.reads import read_file
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.engine.expansion import SourceFiles, compare
 from urdfsync.engine.judgements import judge
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.translators import find_translator
 from urdfsync.files import shown
 from urdfsync.processes.workers import tell
 
@@ -110,6 +113,7 @@ def _check(
         return
     if checks:
         _compare_numbers(checks, package, result)
+    _compare_translation(config, package, result)
     contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
     uses = [name for name, _ in inputs.domain.uses(robot.options)]
     needed = find_libraries(config, robot, contents, uses)
@@ -159,6 +163,28 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
     result.unchecked += present.uncompared
     if package.robot.templates is not None:
         result.unchecked += ("the models of your own `templates`, except their motion with `--physics`",)
+
+
+def _compare_translation(config: Config, package: RobotPackage, result: CheckResult) -> None:
+    """Compare a translated source with the reference of its own format; other sources have none."""
+    robot, made = package.robot, package.inputs.source.expansion
+    if made is None or robot.command:
+        return
+    try:
+        translator = find_translator(robot.domain, robot.source, read_file(robot.source))
+        if translator is None or not translator.compares:
+            return
+        inputs = SourceFiles(config.root, robot.source, robot.package_paths)
+        compared, differences = compare(inputs, robot.arguments or {}, made.text, translator)
+    except (OSError, UrdfsyncError) as error:
+        result.gaps += (f"the translation was not compared with its source: {error}",)
+        return
+    for difference in differences:
+        hint = "please report this, with the source: the translation is wrong"
+        diagnostic = Diagnostic(Severity.ERROR, "translation-differs", difference, shown(robot.source), hint=hint)
+        result.add([diagnostic])
+    numbers, right = result.numbers or Numbers(), 0 if differences else compared
+    result.numbers = msgspec.structs.replace(numbers, right=numbers.right + right, total=numbers.total + compared)
 
 
 def _sample(package: RobotPackage) -> Sample:

@@ -237,17 +237,17 @@ def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> list
     if values and not sources:
         raise UsageError(parser, f"`{next(iter(values))}:=` is an argument of xacro, and no source is named")
     for source, given in sources:
-        if given and not _may_be_xacro(source):
+        if given and not _takes_arguments(source):
             raise UsageError(parser, f"`{next(iter(given))}:=` is an argument of xacro, and {source} is no xacro")
     return sources
 
 
-def _may_be_xacro(source: Path) -> bool:
-    """Return whether a source looks like xacro; its reader reports an unreadable source."""
-    from urdfsync.engine.source import is_xacro
+def _takes_arguments(source: Path) -> bool:
+    """Return whether a source looks like xacro or another format with arguments; its reader reports a faulty one."""
+    from urdfsync.engine.translators import find_translator
 
     try:
-        return is_xacro(source, read_unrecorded(source))
+        return find_translator("urdf", source, read_unrecorded(source)) is not None
     except OSError:
         return True
 

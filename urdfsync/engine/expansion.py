@@ -1,4 +1,4 @@
-"""Makes sources by xacro, or by a command of the user's, before a build reads them.
+"""Makes sources by xacro, by another translator, or by a command of the user's, before a build reads them.
 
 The state records the inputs of a source with hashes (see `state.expansion`). If an input changed, the source is made
 again.
@@ -18,9 +18,11 @@ import msgspec
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.reads import is_file, read_file, read_variable
 from urdfsync.diagnostics import SourceError
+from urdfsync.domain import Translator
 from urdfsync.engine import ros_packages
-from urdfsync.engine.xacro_worker import NOT_UNICODE, Answer, Problem, Request, find_matches
-from urdfsync.extras import install_command
+from urdfsync.engine.exchange import Answer, Problem, Request, not_unicode
+from urdfsync.engine.translators import XACRO
+from urdfsync.engine.xacro_worker import find_matches
 from urdfsync.files import digest, shown, text_digest
 from urdfsync.processes import exit_cause, importable, python_module
 from urdfsync.state.expansion import Expansion
@@ -34,13 +36,6 @@ WALL_SECONDS = 120.0
 _COMMAND_SECONDS = 600.0
 """Time for a command, which may wait for a server."""
 _PACKAGE = "package://"
-_HINTS = {
-    "no-xacro": install_command("xacro"),
-    "no-argument": "set it in `arguments`, or give it a default in the file, above its first use",
-    "no-package": "add the folder around it to `package_paths`, ROS_PACKAGE_PATH or AMENT_PREFIX_PATH",
-    "xacro": "correct it, then build again",
-    "xacro-limits": "look for a macro or an expression that never ends",
-}
 
 
 class SourceFiles:
@@ -102,8 +97,8 @@ class SourceFiles:
 
     def why_not_expandable(self, made: Expansion, error: SourceError) -> str:
         """Return what this machine lacks to expand a source again, as a clause; empty for a faulty source."""
-        if error.diagnostics[0].code == "no-xacro":
-            return "xacro is not installed"
+        if error.diagnostics[0].code == "not-installed":
+            return error.diagnostics[0].message
         missing = [name for name, sha256 in made.files.items() if sha256 and not _is_there(self.path(name))]
         return f"{missing[0]} is not on this machine" if missing else ""
 
@@ -144,20 +139,26 @@ def _variable_hash(name: str) -> str | None:
     return None if value is None else digest(value.encode(errors="surrogateescape"))
 
 
-def expand(inputs: SourceFiles, arguments: Mapping[str, str], contents: Mapping[str, bytes] | None = None) -> Expansion:
-    """Expand a source by xacro, in a process of its own. Raises SourceError.
+def expand(
+    inputs: SourceFiles,
+    arguments: Mapping[str, str],
+    contents: Mapping[str, bytes] | None = None,
+    translator: Translator = XACRO,
+) -> Expansion:
+    """Expand a source by its translator, in a process of its own. Raises SourceError.
 
     `contents` override files on disk, by absolute path.
     """
     folders = tuple(map(str, inputs.package_paths))
     limits = CPU_SECONDS, MEMORY
-    answer = _ask(Request(str(inputs.source), arguments, folders, *limits, str(inputs.root), contents or {}))
+    request = Request(str(inputs.source), arguments, folders, *limits, str(inputs.root), contents or {})
+    answer = _ask(translator, request)
     if (problem := answer.problem) is not None:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         for path in answer.files:
             message = message.replace(path, shown(Path(path)))
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
-        place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
+        place, hint = (file, problem.line), problem.hint or translator.hints.get(problem.code, "")
         for path in answer.files:  # record the inputs as dependencies, as `find_changes` does after a success
             _file_hash(Path(path))
         for pattern in answer.patterns:
@@ -179,16 +180,31 @@ def expand(inputs: SourceFiles, arguments: Mapping[str, str], contents: Mapping[
     )
 
 
-def _ask(request: Request) -> Answer:
+def compare(
+    inputs: SourceFiles, arguments: Mapping[str, str], text: str, translator: Translator
+) -> tuple[int, Sequence[str]]:
+    """Let a translator compare a text with its source, in a process of its own. Raises SourceError.
+
+    Return the count of compared numbers, and a clause for each quantity that differs.
+    """
+    folders = tuple(map(str, inputs.package_paths))
+    request = Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root), text=text)
+    answer = _ask(translator, request)
+    if answer.problem:
+        raise SourceError.of(answer.problem.code, answer.problem.message, shown(inputs.source))
+    return answer.compared, answer.differences
+
+
+def _ask(translator: Translator, request: Request) -> Answer:
     """Expand a file in another process."""
-    limits = Answer(problem=Problem("xacro-limits", ""))
+    limits = Answer(problem=Problem(f"{translator.name}-limits", ""))
     try:
         question = msgspec.json.encode(request)
     except UnicodeEncodeError:
-        return Answer(problem=NOT_UNICODE)
+        return Answer(problem=not_unicode(translator.name))
     try:
         done = subprocess.run(  # noqa: S603 - a command of ours
-            python_module("urdfsync.engine.xacro_worker"),
+            python_module(translator.module),
             input=question,
             capture_output=True,
             timeout=WALL_SECONDS,
@@ -203,7 +219,7 @@ def _ask(request: Request) -> Answer:
         if done.returncode < 0:
             return limits
         words = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
-        return Answer(problem=Problem("xacro", ": ".join([exit_cause(done.returncode), *words])))
+        return Answer(problem=Problem(translator.name, ": ".join([exit_cause(done.returncode), *words])))
 
 
 def run_command(config: Config, robot: RobotConfig) -> None:

@@ -28,8 +28,9 @@ from urdfsync.dependencies.reads import (
     read_file,
 )
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
-from urdfsync.domain import Companion, CompanionKind, Domain, Reading, Snapshot
+from urdfsync.domain import Companion, CompanionKind, Domain, Reading, Snapshot, Translator
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.translators import XACRO, find_translator
 from urdfsync.files import Templates, digest, kind_of, shown, templates_digest
 from urdfsync.state.expansion import Expansion, dumps
 from urdfsync.state.store import Store
@@ -41,23 +42,10 @@ if TYPE_CHECKING:
 MAX_TEMPLATE = 10_000_000
 """The greatest number of bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
 
-_COMMENT = re.compile(rb"<!--.*?(?:-->|\Z)", re.DOTALL)
-_XACRO = re.compile(rb"<xacro:(?:macro|if|unless|insert_block|call|element|attribute)\b|\$\{")
 _LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
 """The references to lines in a message."""
 NEVER: tuple[str, ...] = ("no expansion is recorded",)
 """The only entry of `Source.stale` if no expansion is recorded."""
-
-
-def is_xacro(file: Path, content: bytes) -> bool:
-    """Return whether a file is xacro, by its name or by its elements.
-
-    An expanded URDF may still have elements of xacro, unused or in comments; but it has links, and no `${…}`.
-    """
-    if file.suffix == ".xacro" or b"xmlns:xacro" not in content:
-        return file.suffix == ".xacro"
-    text = _COMMENT.sub(b"", content)
-    return b"<xacro:" in text and (b"<link" not in text or _XACRO.search(text) is not None)
 
 
 class Source(msgspec.Struct, frozen=True):
@@ -124,9 +112,10 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     """Read the robot's source with its companions; xacro or a command may make the source first.
 
     `name` is the robot's name in the state, if it differs. The source is expanded again, unless this machine has noted
-    the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command. Raises
-    SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
-    Raises SourceError for a companion beside the source that no option names: a rename would silently remove it.
+    the text and its inputs. If the translator or a file is missing, the recorded text is used. A dry run runs no
+    command. Raises SourceError for an unreadable source, at the line of the configuration, and ConfigError for an
+    untrusted command. Raises SourceError for a companion beside the source that no option names: a rename would
+    silently remove it.
     """
     text = _read_source(config, robot, store, options, name)
     is_plain = not (robot.command or text.expansion)
@@ -138,9 +127,12 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
 
 
 def _read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str) -> Source:
+    translator = None
     if not robot.command:
         content = _read(config, robot)  # reports a file that xacro can't read
-        if robot.arguments is None and not is_xacro(robot.source, content):
+        has_arguments = robot.arguments is not None
+        translator = find_translator(robot.domain, robot.source, content, has_arguments=has_arguments)
+        if translator is None:
             return Source(content, shown(robot.source))
     from urdfsync.engine import expansion  # takes 5 ms, and few robots need it
 
@@ -152,14 +144,14 @@ def _read_source(config: Config, robot: RobotConfig, store: Store, options: Buil
         is_there = is_file(robot.source)
         changed = changed or (() if is_there else (robot.source.name,))
         if (changed or options.full) and not options.dry:
-            made, changed, is_noted = _expand(config, robot, inputs, options), (), True
+            made, changed, is_noted = _expand(config, robot, inputs, options, translator), (), True
         content = _read(config, robot) if is_there or not options.dry else b""
         reason = "" if is_noted else "its command did not run on this machine"
     else:
         reason = ""
         if made is None or changed or options.full or not is_noted:
             try:
-                made, changed = _expand(config, robot, inputs, options), ()
+                made, changed = _expand(config, robot, inputs, options, translator), ()
             except SourceError as error:
                 if made is None or changed or not (reason := inputs.why_not_expandable(made, error)):
                     raise
@@ -179,12 +171,15 @@ def expansion_hash(made: Expansion) -> str:
     return digest(dumps(made))
 
 
-def _expand(config: Config, robot: RobotConfig, inputs: SourceFiles, options: BuildOptions) -> Expansion:
-    """Make a source by xacro or by its command. Raises SourceError, and ConfigError for a command without trust."""
+def _expand(
+    config: Config, robot: RobotConfig, inputs: SourceFiles, options: BuildOptions, translator: Translator | None
+) -> Expansion:
+    """Make a source by translator or command. Raises SourceError, and ConfigError for a command without trust."""
     from urdfsync.engine import expansion
 
-    if not robot.command:
-        made = msgspec.structs.replace(expansion.expand(inputs, robot.arguments or {}), source=robot.source_text)
+    if translator is not None:
+        made = expansion.expand(inputs, robot.arguments or {}, translator=translator)
+        made = msgspec.structs.replace(made, source=robot.source_text)
     elif options.trusted or (untrusted := find_untrusted_command(config, robot)) is None:
         made = inputs.look(robot, Expansion())
         expansion.run_command(config, robot)
@@ -248,7 +243,7 @@ def _read_named(config: Config, robot: RobotConfig, option: str, path: Path, rev
 def read_file_source(
     domain: Domain, file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path], options: Any = None
 ) -> Source:
-    """Read a source that no configuration names, with these arguments if it is xacro. Raises SourceError.
+    """Read a source that no configuration names, with these arguments if a translator reads it. Raises SourceError.
 
     A companion that `options` name is left out: see `with_named_companions`.
     """
@@ -257,12 +252,16 @@ def read_file_source(
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name an existing, readable file"
         raise SourceError.of("no-source", message, shown(file), hint=hint) from None
-    if not is_xacro(file, content):
+    translator = find_translator(domain.name, file, content)
+    if translator is None:
         return Source(content, shown(file), companions=read_beside(domain, file, options))
     from urdfsync.engine import expansion
 
-    inputs = expansion.SourceFiles(file.absolute().parent, file.absolute(), package_paths)
-    made = expansion.expand(inputs, arguments)
+    folder, here = file.absolute().parent, Path.cwd()
+    # a project may begin in the working folder; in xacro, this folder is the value of `$(cwd)`
+    root = here if translator is not XACRO and folder.is_relative_to(here) else folder
+    inputs = expansion.SourceFiles(root, file.absolute(), package_paths)
+    made = expansion.expand(inputs, arguments, translator=translator)
     told = _warnings(made, file, (shown(file), 0))
     return Source(made.text.encode(), shown(file), inputs.places(made), told, made)
 

@@ -30,6 +30,7 @@ import msgspec
 from urdfsync.dependencies.facts import MAX_FILE, read_unrecorded
 from urdfsync.dependencies.reads import list_folder
 from urdfsync.engine import ros_packages
+from urdfsync.engine.exchange import Answer, Problem, Request, encode, too_large
 from urdfsync.engine.file_kinds import FileKind, find_conflict, find_kind
 from urdfsync.files import text_digest
 from urdfsync.processes import limits, reserve_stdout
@@ -46,66 +47,12 @@ _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:",
 """Beginnings of lines in which xacro states its place."""
 
 
-class Request(msgspec.Struct, frozen=True):
-    """A file to expand; paths are absolute."""
-
-    source: str
-    arguments: Mapping[str, str]
-    package_paths: tuple[str, ...]
-    seconds: float
-    """The CPU time that the expansion may take, in s."""
-    memory: int
-    """The bytes that the expansion may allocate."""
-    folder: str = "."
-    """The value of `$(cwd)`. The process has another working folder: PYTHONPATH may have relative entries."""
-    contents: Mapping[str, bytes] = {}
-    """Contents of files that override the disk, by path."""
-
-
-class Problem(msgspec.Struct, frozen=True):
-    """Why a file can't be expanded."""
-
-    code: str
-    message: str
-    file: str = ""
-    line: int = 0
-    hint: str = ""
-    """A better hint than the usual one for the code."""
-
-
-_TOO_LARGE = Problem("xacro", f"it expands to more than {MAX_FILE:,} bytes")
-NOT_UNICODE = Problem(
-    "xacro",
-    "a text or a path that it works with is not UTF-8",
-    hint="rename its folders and files, or correct the text, then build again",
-)
-
-
 class TimeLimitError(Exception):
     """The expansion has used all its CPU time."""
 
 
 class TooLargeError(Exception):
     """The expanded text is larger than a source may be."""
-
-
-class Answer(msgspec.Struct, frozen=True):
-    """The expanded text, and all inputs, even after a failure; files are absolute."""
-
-    text: str = ""
-    places: tuple[tuple[int, str, int], ...] = ()
-    """Line of each element in the text, and the element's original file and line."""
-    files: Mapping[str, str | None] = {}
-    """Hash of each file that was read; None for a missing one."""
-    patterns: tuple[str, ...] = ()
-    variables: tuple[str, ...] = ()
-    """The environment variables that the source has asked for."""
-    packages: Mapping[str, str] = {}
-    """Folders of the ROS packages that the source has asked for."""
-    unknown: tuple[str, ...] = ()
-    """Given arguments that the source does not declare."""
-    warnings: tuple[str, ...] = ()
-    problem: Problem | None = None
 
 
 class PackageNotFoundError(Exception):
@@ -265,7 +212,7 @@ def expand(request: Request) -> Answer:
 
         from urdfsync.engine import xacro_expressions
     except ImportError as error:
-        return Answer(problem=Problem("no-xacro", f"xacro can't be loaded: {error}"))
+        return Answer(problem=Problem("not-installed", f"xacro can't be loaded: {error}"))
     packages = ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source))
     files = _Files(packages, request.contents)
     said = io.StringIO()
@@ -372,7 +319,7 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str], un
         case MemoryError() | TimeLimitError():
             return Problem("xacro-limits", "", file, line)
         case TooLargeError():
-            return _TOO_LARGE
+            return too_large("xacro")
         case expat.ExpatError() if (kind := _kind(read_unrecorded(current))) is not None:
             return Problem(kind.code, kind.message, current, kind.line, kind.hint)
         case NotTextError():
@@ -403,22 +350,11 @@ def _kind(content: bytes) -> FileKind | None:
     return find_kind(content) or find_conflict(content.decode(errors="replace").replace("\r", ""))
 
 
-def _encode(answer: Answer) -> bytes:
-    """Return an answer as JSON; if that is impossible or too large, return an answer with this problem."""
-    try:
-        content = msgspec.json.encode(answer)
-    except UnicodeEncodeError:
-        return msgspec.json.encode(Answer(problem=NOT_UNICODE))
-    if len(content) > MAX_FILE:
-        return msgspec.json.encode(Answer(problem=_TOO_LARGE))
-    return content
-
-
 def main() -> None:
     """Expand the file that stdin names."""
     request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
     with reserve_stdout() as answers:
-        answers.write(_encode(expand(request)))
+        answers.write(encode(expand(request), "xacro"))
 
 
 if __name__ == "__main__":

@@ -20,6 +20,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.source import Source
+from urdfsync.engine.translators import XACRO, find_translator
 from urdfsync.files import shown
 from urdfsync.modelica.values import literals, read_values
 from urdfsync.state.store import Store
@@ -51,6 +52,8 @@ class SourceReader:
         self._text = source.read_source(config, robot, Store(config.root), options)
         paths = (config.root, robot.source, (*robot.package_paths, *options.package_paths))
         self._inputs = expansion.SourceFiles(*paths)
+        content = read_unrecorded(robot.source) if self._text.expansion and not robot.command else b""
+        self._translator = find_translator(robot.domain, robot.source, content) or XACRO
         names = self._text.expansion.files if self._text.expansion else ()
         found = [path for name in names if (path := self._inputs.path(name)) and path.is_file()]
         others = [robot.source, *(path for _, path in self._companions(robot)), config.file, *robot.command_inputs]
@@ -90,7 +93,7 @@ class SourceReader:
             robot = next((each for each in robots if each.name == robot.name), robot)
         if text.expansion and not robot.command:
             given = {str(path): content for path, content in contents.items()}
-            made = expansion.expand(self._inputs, robot.arguments or {}, given)
+            made = expansion.expand(self._inputs, robot.arguments or {}, given, self._translator)
             text = Source(
                 made.text.encode(), text.name, self._inputs.places(made), (), made, companions=text.companions
             )

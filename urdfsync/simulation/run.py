@@ -41,14 +41,10 @@ _OWN = r"[^.]+"
 
 
 def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progress: Progress) -> SimulateResult:
-    """Simulate a model with the package of a robot, also as it was in the revision `against`. Writes only the cache.
+    """Simulate a model with the package of a robot. Writes nothing but the cache.
 
     Raises UrdfsyncError for faults of the model, its inputs or the compiler, OSError for unreadable files.
     """
-    if options.against:
-        from urdfsync.simulation.against import simulate_against  # takes 60 ms with libgit2
-
-        return simulate_against(config, robot, options, progress)
     return simulate_prepared(robot, prepare(config, robot, options), options, progress)
 
 

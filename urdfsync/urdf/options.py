@@ -20,7 +20,7 @@ FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
 MotorNumber: TypeAlias = Literal["effort", "velocity", "damping", "friction", "armature", "reduction", "rotor_inertia"]
 _MOTOR_NUMBERS = msgspec.Meta(extra_json_schema={"propertyNames": {"enum": [*get_args(MotorNumber)]}})
 """msgspec leaves the keys of a mapping out of schemas."""
-LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
+LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial", "part-left-out"]
 """Codes of errors that the user may allow: a part that the model can't have is left out."""
 
 

@@ -91,6 +91,7 @@ _ERRORS = {
     "two-parents": "remove one of the joints: a link has one parent",
     "cycle": "remove a joint of the cycle: a URDF is a tree",
     "loop-joint": 'write a ball, revolute, universal or fixed joint, or leave the loop out by `allow = ["loop-joint"]`',
+    "part-left-out": 'leave the part out by `allow = ["part-left-out"]`, or remove it from the source',
     "stray-inertial": 'move the element into a link, or leave the element out by `allow = ["stray-inertial"]`',
     # numbers and relations
     "negative-mass": "correct the mass; a massless link has no mass, or 0",
@@ -145,6 +146,7 @@ _WARNINGS = {
     "bad-start": "correct the position, or set another one by `start` in the configuration",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
     "gravity-off": "replace the link in a model of your own, or accept that the joints carry its weight",
+    "free-root": 'set `base = "floating"` in the configuration',
     "force-left-out": "add the force in a model of your own, or expect another motion",
     "inertia-not-positive": "export the inertia again; until then, a simulation may not be physical",
     "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",

@@ -36,6 +36,7 @@ from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import Exit, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
+from urdfsync.engine.translators import find_translator, is_xacro
 from urdfsync.engine.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
@@ -301,12 +302,12 @@ def _configured_in(revision: Revision, robot: RobotConfig, config: Config | None
 
 
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
-    """Return a source in a revision; for xacro, the expansion of that revision. Raises SourceError."""
+    """Return a source in a revision; if it is expanded, the expansion of that revision. Raises SourceError."""
     label = revision.label(robot.source)
     # the source may have another name now; the expansion has the robot's name
-    if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
+    if config is None or not (robot.arguments is not None or is_xacro(robot.source, b"")):
         content = revision.read(robot.source)
-        if config is None or not source_files.is_xacro(robot.source, content):
+        if config is None or find_translator(robot.domain, robot.source, content) is None:
             domain = registry.domain(robot.domain)
             companions = source_files.read_beside(domain, robot.source, robot.options, revision)
             return Source(content, label, companions=companions)

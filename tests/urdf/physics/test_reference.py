@@ -105,3 +105,9 @@ def test_a_sensor_at_rest_shows_the_weight_behind_it_in_its_frame(kind: str, fra
     gain, spin = reference.acceleration(state, sensors["imu"])
     assert gain == pytest.approx(axes["sensor"].T @ [0, 0, GRAVITY])
     assert spin == pytest.approx([0, 0, 0])
+
+
+def test_pinocchio_reads_a_sliding_joint_without_limits() -> None:
+    """Its own reader refuses the joint."""
+    content = robot(*links(a=1, b=1), joint("slide", "prismatic", "a", "b")).encode()
+    assert read(content, "arm.urdf").model.existJointName("slide")

@@ -28,6 +28,7 @@ from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
 from urdfsync.urdf.parse.loops import TAGS, read_loops, tell_foreign_loops
 from urdfsync.urdf.parse.sensors import read_sensors
+from urdfsync.urdf.parse.translated import TRANSLATED, read_translated
 from urdfsync.urdf.robot import Contact, Joint, Link, Material, Robot
 
 _MODELLED = ("link", "joint", "material")
@@ -162,6 +163,7 @@ def _read(
     contacts = read_contacts(reader, root)
     warn_of_left_out(reader, root)
     tell_foreign_loops(reader, root, options)
+    read_translated(reader, root, options)
     parts = _read_parts(reader, root, contacts, closures, rows)
     links, joints = split(reader, parts.links, parts.joints, axes)
     drives = [*configured_drives(options), *parts.drives]
@@ -204,7 +206,7 @@ def _classify(reader: Reader, root: Element) -> None:
             reader.extensions.append(("", child))
             message = f"<{child.tag}> has no effect in URDF: the elements that it stands for are missing"
             reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or move its links out")
-        elif child.tag not in (*_MODELLED, *TAGS):
+        elif child.tag not in (*_MODELLED, *TAGS, *TRANSLATED):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # other code reads or reports each of its parts

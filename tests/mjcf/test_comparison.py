@@ -1,0 +1,58 @@
+"""The comparison of a URDF with its MJCF sees each wrong number."""
+
+from __future__ import annotations
+
+import pytest
+from support.mjcfs import ARM, body, document, urdf
+
+from urdfsync.mjcf.comparison import compare
+
+ROBOTS = {
+    "arm": ARM,
+    "several joints": body(
+        '<joint type="slide" pos="1 1 1" ref="0.1"/><joint pos="0.1 0.2 0.3" axis="1 1 0" ref="9"/>'
+    ),
+    "ball": body('<joint type="ball" pos="0.1 0 0.2"/><body pos="1 0 0"><joint pos="0 1 0"/><geom size="0.1"/></body>'),
+    "floating": body('<freejoint/><body name="leg" euler="10 20 30"><joint damping="1"/><geom size="0.1"/></body>'),
+    "left out": body(
+        '<joint name="f" type="free" armature="1"/><body><joint name="j"/><geom size="0.1"/></body>'
+    ).replace(
+        "</mujoco>",
+        '<actuator><motor joint="j" armature="2"/></actuator><option><flag gravity="disable"/></option></mujoco>',
+    ),
+    "massless": body('<joint/><body name="hand" pos="0 0 1" quat="1 1 0 0"/><site name="tip" pos="1 0 0"/>'),
+}
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_translation_agrees_with_its_source(name: str) -> None:
+    compared, differences = compare(document(ROBOTS[name]), urdf(ROBOTS[name]))
+    assert compared > 50
+    assert differences == ()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "quantities"),
+    [
+        ('mass value="1.5"', 'mass value="1.50001"', {"mass", "bias", "mass matrix"}),
+        ('xyz="0.0 0.0 0.4"', 'xyz="0.0 0.0 0.40001"', {"centre of mass", "bias", "mass matrix"}),
+        ('iyy="0.02"', 'iyy="0.020001"', {"mass matrix"}),
+        ('damping="2.0"', 'damping="2.1"', {"damping"}),
+        ('armature="0.1"', 'armature="0.11"', {"mass matrix"}),
+        (
+            'axis xyz="0.0 1.0 0.0"',
+            'axis xyz="0.0 -1.0 0.0"',
+            {"axis", "orientation", "centre of mass", "bias", "mass matrix"},
+        ),
+        ('upper="1.5707963267948966"', 'upper="1.57"', {"range"}),
+        ("0.523598775598299", "0.5236", {"axis", "orientation", "centre of mass", "bias", "mass matrix"}),
+    ],
+)
+def test_a_wrong_number_is_told(old: str, new: str, quantities: set[str]) -> None:
+    text = urdf(ARM)
+    assert old in text
+    _, differences = compare(document(ARM), text.replace(old, new, 1))
+    assert {
+        each.partition(" of ")[0] if "centre" not in each else "centre of mass" for each in differences
+    } <= quantities
+    assert differences

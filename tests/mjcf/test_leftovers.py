@@ -1,0 +1,83 @@
+"""Nothing of an MJCF is left out silently: what acts on the robot is an error, what has no effect is noted."""
+
+from __future__ import annotations
+
+import pytest
+from support.mjcfs import body, left_out, noted, read, world
+
+SITES = '<site name="s" pos="0 0 1"/><site name="t"/>'
+
+
+@pytest.mark.parametrize(
+    ("inside", "outside", "what"),
+    [
+        ('<joint name="j" stiffness="3"/>', "", "spring j"),
+        ('<joint name="j" type="ball" range="0 1"/>', "", "range, armature or friction of a ball j"),
+        ('<joint name="j" type="ball" armature="1"/>', "", "range, armature or friction of a ball j"),
+        ('<joint name="j" type="free" damping="1"/>', "", "losses of a free joint j"),
+        ("<joint/>", '<option gravity="0 0 0"/>', "gravity 0 0 0"),
+        ("<joint/>", '<option><flag gravity="disable"/></option>', "disabled flag gravity"),
+        ("<joint/>", '<option density="1.2"/>', "fluid"),
+        (
+            '<joint name="j"/>',
+            '<actuator><motor name="m" joint="j" armature="1"/></actuator>',
+            "armature or damping of actuator m",
+        ),
+        (
+            f"<joint/>{SITES}",
+            '<tendon><spatial name="p" limited="true" range="0 1"><site site="s"/><site site="t"/></spatial></tendon>',
+            "tendon p",
+        ),
+        (
+            '<joint name="j"/>',
+            '<tendon><fixed name="p" damping="1"><joint joint="j" coef="1"/></fixed></tendon>',
+            "tendon p",
+        ),
+        (
+            '<joint/><geom name="g" size="0.1"/><geom name="h" size="0.1"/>',
+            '<contact><pair name="p" geom1="g" geom2="h"/></contact>',
+            "contact pair p",
+        ),
+    ],
+)
+def test_what_acts_on_the_robot_otherwise_is_left_out_with_an_error(inside: str, outside: str, what: str) -> None:
+    text = body(inside).replace("</mujoco>", f"{outside}</mujoco>")
+    assert left_out(text) == [what]
+    read(text)  # with `allow`, it is a warning
+
+
+def test_gravity_compensation_is_left_out_with_an_error() -> None:
+    inertial = '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>'
+    assert left_out(world(f'<body name="a" gravcomp="1"><joint/>{inertial}</body>')) == ["gravity compensation a"]
+
+
+def test_a_tendon_without_effect_is_only_drawn() -> None:
+    spatial = '<tendon><spatial name="p"><site site="s"/><site site="t"/></spatial></tendon>'
+    assert left_out(body(f"<joint/>{SITES}").replace("</mujoco>", f"{spatial}</mujoco>")) == []
+
+
+def test_what_only_draws_is_noted() -> None:
+    assets = (
+        '<asset><texture name="t" file="absent.png"/><skin file="absent.skn"/><material name="m" texture="t"/></asset>'
+    )
+    keys = '<keyframe><key name="other" qpos="1"/></keyframe>'
+    text = body('<joint/><light pos="0 0 1"/><camera name="eye"/><geom size="0.1" material="m"/>', assets)
+    text = text.replace("</mujoco>", f"{keys}</mujoco>")
+    assert noted(text) == "not modelled: 1 <texture>, 1 <skin>, 1 <light>, 1 <camera>, 1 <key>"
+
+
+def test_terrain_is_noted() -> None:
+    asset = '<asset><hfield name="hills" file="absent.png" size="1 1 1 1"/></asset>'
+    ground = '<worldbody><geom name="floor" type="hfield" hfield="hills"/>'
+    text = body('<joint/><geom name="foot" size="0.1"/>', asset).replace("<worldbody>", ground)
+    touch = '<contact><exclude body1="world" body2="part"/></contact></mujoco>'
+    assert noted(text.replace("</mujoco>", touch)) == "not modelled: 1 <hfield>, 1 <exclude>"
+
+
+def test_a_body_beside_the_robot_is_noted() -> None:
+    table = '<body name="table"><geom size="1"/></body><body name="cube"><freejoint/><geom size="0.1"/></body>'
+    assert noted(body("<joint/>").replace("<worldbody>", f"<worldbody>{table}")) == "not modelled: 2 <body>"
+
+
+def test_a_constraint_that_gives_way_is_noted() -> None:
+    assert noted(body('<joint range="-1 1" solreflimit="0.1 1"/>')) == "not modelled: 1 <solreflimit>"

@@ -1,0 +1,83 @@
+"""What a build or a check asks of the process that expands a source, and what the process answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+
+from urdfsync.dependencies.facts import MAX_FILE
+
+
+class Request(msgspec.Struct, frozen=True):
+    """A file to expand; paths are absolute."""
+
+    source: str
+    arguments: Mapping[str, str]
+    package_paths: tuple[str, ...]
+    seconds: float
+    """The CPU time that the expansion may take, in s."""
+    memory: int
+    """The bytes that the expansion may allocate."""
+    folder: str = "."
+    """The value of `$(cwd)`. The process has another working folder: PYTHONPATH may have relative entries."""
+    contents: Mapping[str, bytes] = {}
+    """Contents of files that override the disk, by path."""
+    text: str = ""
+    """An expanded text to compare with the source; empty to expand the source."""
+
+
+class Problem(msgspec.Struct, frozen=True):
+    """Why a file can't be expanded."""
+
+    code: str
+    message: str
+    file: str = ""
+    line: int = 0
+    hint: str = ""
+    """A better hint than the usual one for the code."""
+
+
+class Answer(msgspec.Struct, frozen=True):
+    """The expanded text, and all inputs, even after a failure; files are absolute."""
+
+    text: str = ""
+    places: tuple[tuple[int, str, int], ...] = ()
+    """Line of each element in the text, and the element's original file and line."""
+    files: Mapping[str, str | None] = {}
+    """Hash of each file that was read; None for a missing one."""
+    patterns: tuple[str, ...] = ()
+    variables: tuple[str, ...] = ()
+    """The environment variables that the source has asked for."""
+    packages: Mapping[str, str] = {}
+    """Folders of the ROS packages that the source has asked for."""
+    unknown: tuple[str, ...] = ()
+    """Given arguments that the source does not declare."""
+    warnings: tuple[str, ...] = ()
+    problem: Problem | None = None
+    compared: int = 0
+    """The count of numbers that were compared, if the request has a text."""
+    differences: tuple[str, ...] = ()
+    """A clause for each quantity of the text that differs from the source."""
+
+
+def not_unicode(code: str) -> Problem:
+    """Return the problem of a text or a path that is not UTF-8."""
+    hint = "rename its folders and files, or correct the text, then build again"
+    return Problem(code, "a text or a path that it works with is not UTF-8", hint=hint)
+
+
+def too_large(code: str) -> Problem:
+    """Return the problem of a text that is larger than a source may be."""
+    return Problem(code, f"it expands to more than {MAX_FILE:,} bytes")
+
+
+def encode(answer: Answer, code: str) -> bytes:
+    """Return an answer as JSON; if that is impossible or too large, return an answer with this problem of `code`."""
+    try:
+        content = msgspec.json.encode(answer)
+    except UnicodeEncodeError:
+        return msgspec.json.encode(Answer(problem=not_unicode(code)))
+    if len(content) > MAX_FILE:
+        return msgspec.json.encode(Answer(problem=too_large(code)))
+    return content

@@ -1,0 +1,187 @@
+"""Compares the URDF of a robot with its MJCF: MuJoCo reads both, and says how they move at random states.
+
+MuJoCo's own reader of URDF shares no code with the translation. It knows no armature, so the attribute is added to its
+model; it merges links, and reads shapes from files, unless it is told otherwise. Constraints, motors, springs and
+tendons are in neither mass matrix nor bias: the couplings and loops of the URDF are not compared.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+from xml.etree.ElementTree import Element, SubElement, tostring
+
+import mujoco
+import numpy as np
+
+from urdfsync.mjcf.document import Document
+from urdfsync.mjcf.scene import WORLD, Scene, read_scene
+from urdfsync.urdf.parse.xml import parse
+
+_STATES = 5
+_TOLERANCE = 1e-9
+"""The greatest difference that counts as agreement, relative to the greatest number of the kind."""
+_LEAST = "1e-14"
+"""In kg and kg·m²: MuJoCo refuses links without mass that move."""
+_FREE = " free"
+"""The joint that moves a floating robot; no name in an MJCF begins so by chance."""
+_LENGTHS = {"free": (7, 6), "ball": (4, 3), "slide": (1, 1), "hinge": (1, 1)}
+"""Coordinates of position and of velocity, by kinds of joints."""
+
+
+class _Numbers(NamedTuple):
+    """The same numbers of both models."""
+
+    quantity: str
+    element: str
+    source: Any
+    urdf: Any
+    least: float = 1e-9
+    """The least size to which a difference is relative."""
+
+
+class _Joint(NamedTuple):
+    """A joint in both models: its places in position and velocity."""
+
+    name: str
+    source: tuple[slice, slice]
+    urdf: tuple[slice, slice]
+
+
+def compare(document: Document, text: str, body: str = "") -> tuple[int, tuple[str, ...]]:
+    """Return how many numbers were compared, and a line for each quantity that differs. Raises TranslationError."""
+    scene = read_scene(document, body)
+    _leave_out(scene)
+    root = parse(text.encode()).root
+    model = _read_urdf(root, scene.links[scene.root] if scene.is_floating else "")
+    joints = list(_joints(scene, model))
+    states = np.random.default_rng(0)
+    total, worst = 0, dict[str, tuple[float, str]]()
+    motion = (each for _ in range(_STATES) for each in _motion(scene, model, joints, states))
+    for numbers in (*_constants(scene, model, joints, root), *motion):
+        total += numbers.source.size
+        size = max(numbers.least, float(np.abs(numbers.source).max(initial=0)))
+        error = float(np.abs(numbers.source - numbers.urdf).max(initial=0)) / size
+        if not error <= _TOLERANCE:  # not a number is an error, too
+            worst[numbers.quantity] = max(worst.get(numbers.quantity, (0.0, "")), (error, numbers.element))
+    differences = (f"{quantity} of {element} differs by {error:.1e}" for quantity, (error, element) in worst.items())
+    return total, tuple(differences)
+
+
+def _leave_out(scene: Scene) -> None:
+    """Remove from MuJoCo's mass matrix what no URDF has: the translation has told it."""
+    model = scene.model
+    for joint in range(model.njnt):
+        _, velocity = _places(model, joint)
+        if velocity.stop - velocity.start > 1:  # a free joint or a ball
+            model.dof_armature[velocity] = 0.0
+    for name in ("actuator_armature", "tendon_armature"):
+        if hasattr(model, name):  # newer versions have it
+            getattr(model, name)[:] = 0.0
+    # a random state may have more contacts than MuJoCo has memory for
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+
+
+def _read_urdf(root: Element, floating: str) -> Any:
+    """Return MuJoCo's model of a URDF without shapes; a joint moves its link `floating`, if there is one."""
+    robot = copy.deepcopy(root)
+    for part in [part for part in robot if part.tag not in ("link", "joint")]:
+        robot.remove(part)
+    for link in robot.findall("link"):
+        for shape in [part for part in link if part.tag in ("visual", "collision")]:
+            link.remove(shape)
+    for joint in robot.findall("joint"):
+        if joint.get("type") == "ball":
+            joint.set("type", "spherical")
+    if floating:
+        SubElement(robot, "link", name=WORLD)
+        joint = SubElement(robot, "joint", name=_FREE, type="floating")
+        SubElement(joint, "parent", link=WORLD)
+        SubElement(joint, "child", link=floating)
+    settings = {"fusestatic": "false", "balanceinertia": "false", "boundmass": _LEAST, "boundinertia": _LEAST}
+    SubElement(SubElement(robot, "mujoco"), "compiler", settings)
+    return mujoco.MjSpec.from_string(tostring(robot, "unicode")).compile()
+
+
+def _joints(scene: Scene, urdf: Any) -> Iterator[_Joint]:
+    """Yield the joints of the robot."""
+    bodies = {*scene.bodies}
+    for number in range(scene.model.njnt):
+        if int(scene.model.jnt_bodyid[number]) in bodies:
+            is_root = scene.is_floating and int(scene.model.jnt_bodyid[number]) == scene.root
+            name = _FREE if is_root else scene.joints[number]
+            yield _Joint(name, _places(scene.model, number), _places(urdf, urdf.joint(name).id))
+
+
+def _places(model: Any, joint: int) -> tuple[slice, slice]:
+    kind = mujoco.mjtJoint(model.jnt_type[joint]).name.removeprefix("mjJNT_").lower()
+    places = zip((model.jnt_qposadr[joint], model.jnt_dofadr[joint]), _LENGTHS[kind], strict=True)
+    position, velocity = (slice(int(first), int(first) + length) for first, length in places)
+    return position, velocity
+
+
+def _constants(scene: Scene, urdf: Any, joints: list[_Joint], root: Element) -> Iterator[_Numbers]:
+    """Yield masses, losses and ranges; add the armature of the URDF to its model."""
+    model = scene.model
+    for body in scene.bodies:
+        if body and (body != scene.bodies[0] or scene.is_floating):
+            mass = max(float(model.body_mass[body]), float(_LEAST))
+            yield _Numbers("mass", f"link {scene.links[body]}", np.array([mass]), urdf.body(scene.links[body]).mass)
+    written = {joint.get("name", ""): joint.find("dynamics") for joint in root.findall("joint")}
+    for name, (_, at), (_, to) in joints:
+        dynamics = written.get(name)
+        urdf.dof_armature[to] = 0.0 if dynamics is None else float(dynamics.get("armature", "0"))
+        if name == _FREE:
+            continue
+        yield _Numbers("damping", f"joint {name}", model.dof_damping[at], urdf.dof_damping[to])
+        yield _Numbers("friction", f"joint {name}", model.dof_frictionloss[at], urdf.dof_frictionloss[to])
+        first, second = int(model.dof_jntid[at.start]), int(urdf.dof_jntid[to.start])
+        if model.jnt_limited[first] and at.stop == at.start + 1:
+            expected = model.jnt_range[first] - model.qpos0[model.jnt_qposadr[first]]
+            yield _Numbers("range", f"joint {name}", expected, urdf.jnt_range[second])
+    mujoco.mj_setConst(urdf, mujoco.MjData(urdf))  # the mass matrix of a body that only slides is a constant
+
+
+def _motion(scene: Scene, urdf: Any, joints: list[_Joint], random: np.random.Generator) -> Iterator[_Numbers]:
+    """Yield the numbers of both models at a random state."""
+    model = scene.model
+    source, other = mujoco.MjData(model), mujoco.MjData(urdf)
+    urdf.opt.gravity[:], urdf.opt.disableflags = model.opt.gravity, model.opt.disableflags
+    for _, (position, velocity), (to, to_velocity) in joints:
+        moved = random.uniform(-1, 1, position.stop - position.start)
+        source.qvel[velocity] = other.qvel[to_velocity] = random.uniform(-1, 1, velocity.stop - velocity.start)
+        if len(moved) > 1:  # the last four are a quaternion
+            moved[-4:] /= np.linalg.norm(moved[-4:])
+            source.qpos[position] = other.qpos[to] = moved
+        else:
+            source.qpos[position], other.qpos[to] = model.qpos0[position] + moved, moved
+    mujoco.mj_forward(model, source)
+    mujoco.mj_forward(urdf, other)
+    for body in scene.bodies:
+        if body and (body != scene.bodies[0] or scene.is_floating):
+            name, same = scene.links[body], urdf.body(scene.links[body]).id
+            yield _Numbers("orientation", f"link {name}", source.xmat[body], other.xmat[same])
+            if model.body_mass[body]:
+                yield _Numbers("centre of mass", f"link {name}", source.xipos[body], other.xipos[same])
+    for name, (_, at), (_, to) in joints:
+        first, second = int(model.dof_jntid[at.start]), int(urdf.dof_jntid[to.start])
+        if name != _FREE and at.stop == at.start + 1:
+            yield _Numbers("axis", f"joint {name}", source.xaxis[first], other.xaxis[second])
+    rows, columns = _dofs([joint.source[1] for joint in joints]), _dofs([joint.urdf[1] for joint in joints])
+    weight = float(np.linalg.norm(model.opt.gravity) * sum(model.body_mass[body] for body in scene.bodies))
+    yield _Numbers("bias", "the robot", source.qfrc_bias[rows], other.qfrc_bias[columns], max(weight, 1e-9))
+    yield _Numbers("mass matrix", "the robot", _mass(model, source, rows), _mass(urdf, other, columns))
+
+
+def _dofs(places: list[slice]) -> Any:
+    return np.concatenate([np.arange(place.start, place.stop) for place in places])
+
+
+def _mass(model: Any, data: Any, dofs: Any) -> Any:
+    """Return the mass matrix: its columns are the efforts for unit accelerations."""
+    result, columns = np.zeros((model.nv, model.nv)), np.eye(model.nv)
+    for column in range(model.nv):
+        mujoco.mj_mulM(model, data, result[column], columns[column])
+    return result[np.ix_(dofs, dofs)]

@@ -1,0 +1,225 @@
+"""Makes one text of an MJCF and the files that it includes, for MuJoCo to read from memory.
+
+Each element has a line of its own, and each line a place in a file: so MuJoCo's messages can name the user's lines.
+The text of an attached model begins below all earlier lines, so that no two texts share a line number. MuJoCo gets the
+bytes of each mesh under a name of ours, and opens no file itself. Textures and skins only draw, and height fields are
+terrain: they are left out, and so is their reading; a geom of a height field becomes a plane.
+
+As in MuJoCo, the name of an included file counts from the folder of the including file, then from that of the source.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path, PurePosixPath
+from typing import NamedTuple
+from xml.etree.ElementTree import Element
+from xml.sax.saxutils import quoteattr
+
+from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.engine.exchange import Problem
+from urdfsync.files import text_digest
+from urdfsync.urdf.parse.xml import ParseError, parse
+
+_LEFT_OUT = ("texture", "hfield", "skin")
+"""Elements that only draw, or are terrain."""
+_NOTED = frozenset({*_LEFT_OUT, "light", "camera", "exclude", "numeric", "text", "tuple"})
+"""Elements without an effect on the robot."""
+_OF_TEXTURES = ("texture", "texrepeat", "texuniform")
+"""Attributes of a material that refer to textures."""
+_FOLDERS = ("meshdir", "texturedir", "assetdir", "strippath")
+_MOST_ELEMENTS = 20_000
+"""The most elements of a model with its copies. The largest robots have 3,000; for 30,000 copies MuJoCo takes 20 s."""
+
+Place = tuple[str, int]
+"""A file, and a line in it."""
+
+
+class TranslationError(Exception):
+    """A fault for which there is no robot."""
+
+    def __init__(self, message: str, place: Place = ("", 0), hint: str = "", code: str = "mjcf") -> None:
+        super().__init__(message)
+        self.problem = Problem(code, message, *place, hint)
+
+
+class Files:
+    """Reads the files of a source, and records all of them."""
+
+    def __init__(self, contents: Mapping[str, bytes], folders: Collection[str]) -> None:
+        """`contents` of files override the disk. Included files are in one of the `folders`, or below it."""
+        self._contents, self._folders = contents, [os.path.realpath(folder) for folder in folders]
+        self.hashes: dict[str, str | None] = {}
+
+    def read(self, path: str, place: Place = ("", 0)) -> bytes:
+        """Return the content of a file that is named at `place`. Raises TranslationError."""
+        self.hashes[path] = None
+        try:
+            content = self._contents[path] if path in self._contents else read_unrecorded(path)
+        except (OSError, ValueError) as error:  # ValueError for a zero in the name
+            reason = getattr(error, "strerror", None) or str(error)
+            hint = "put the file there, or correct the name" if place[0] else ""
+            raise TranslationError(f"{path} can't be read: {reason}", place, hint) from None
+        self.hashes[path] = text_digest(content)
+        return content
+
+    def is_there(self, path: str) -> bool:
+        """Return whether a file exists; a missing one is recorded, since it would count if it came."""
+        is_there = path in self._contents or os.path.lexists(path)
+        if not is_there:
+            self.hashes[path] = None
+        return is_there
+
+    def check_inside(self, path: str, place: Place) -> None:
+        """Refuse a file outside of the folders. Raises TranslationError."""
+        real = Path(os.path.realpath(path))
+        if not any(real.is_relative_to(folder) for folder in self._folders):
+            hint = "move the file into the folder of the source, or of the configuration"
+            raise TranslationError(f"the included file {path} is outside of the project", place, hint)
+
+
+class Document(NamedTuple):
+    """The text of an MJCF, and what MuJoCo needs to read it."""
+
+    source: str
+    """Path of the source."""
+    text: str
+    places: list[Place]
+    """Place of each line of the text and of the `models`."""
+    meshes: dict[str, str]
+    """Paths of the files of meshes, by their names in the text."""
+    contents: dict[str, bytes]
+    """Contents of these files by the same names."""
+    models: dict[str, str]
+    """Texts of the models that the text attaches, by their names in it."""
+    noted: list[tuple[str, str, Place]]
+    """Tag, name and place of each element without an effect on the robot."""
+
+    def place(self, line: int) -> Place:
+        """Return the place of a line; the first place for an unknown line."""
+        return self.places[line - 1 if 0 < line <= len(self.places) else 0]
+
+
+def read_document(source: str, files: Files) -> Document:
+    """Read an MJCF with all files that it names. Raises TranslationError."""
+    document = Document(source, "", [], {}, {}, {}, [])
+    return _read_model(source, files, document, ("", 0), ())
+
+
+def _read_model(source: str, files: Files, shared: Document, place: Place, around: tuple[str, ...]) -> Document:
+    """Return the document of a model; its meshes and models are added to those of `shared`."""
+    if source in around:
+        raise TranslationError("the model attaches itself", place)
+    root, places = _parse(source, files, place)
+    if root.tag != "mujoco":
+        message = f"the root element is <{root.tag}> and not <mujoco>"
+        raise TranslationError(message, places[root], "name the file that includes this one")
+    _include(root, source, os.path.dirname(source), files, places, (source,))  # noqa: PTH120
+    _name_files(root, source, files, places, shared, (*around, source))
+    if (count := _count(root)) > _MOST_ELEMENTS:
+        message = f"the model has {count:,} elements, and urdfsync reads up to {_MOST_ELEMENTS:,}"
+        raise TranslationError(message, places[root], "take copies out of <replicate>")
+    lines = list(_lines(root, places))
+    text = "\n" * len(shared.places) + "\n".join(line for line, _ in lines)
+    shared.places.extend(place for _, place in lines)
+    return shared._replace(text=text)
+
+
+def _parse(path: str, files: Files, place: Place) -> tuple[Element, dict[Element, Place]]:
+    """Return the root element of a file, and the place of each element. Raises TranslationError."""
+    try:
+        document = parse(files.read(path, place))
+    except ParseError as error:
+        fault = error.diagnostic
+        raise TranslationError(fault.message, (path, fault.line), fault.hint, fault.code) from None
+    return document.root, {element: (path, line) for element, line in document.lines.items()}
+
+
+def _include(
+    element: Element, file: str, main: str, files: Files, places: dict[Element, Place], around: tuple[str, ...]
+) -> None:
+    """Replace each `<include>` below an element by the elements of its file; `main` is the folder of the source."""
+    children = list[Element]()
+    for child in element:
+        if child.tag != "include":
+            _include(child, file, main, files, places, around)
+            children.append(child)
+            continue
+        place, name = places[child], child.get("file", "").replace("\\", "/")
+        if not name:
+            raise TranslationError("<include> names no file", place, 'write file="…"')
+        if len(child):
+            raise TranslationError("<include> has elements of its own", place, "take them out")
+        folders = (os.path.dirname(file), main)  # noqa: PTH120
+        paths = [os.path.normpath(os.path.join(folder, name)) for folder in folders]  # noqa: PTH118
+        path = next(filter(files.is_there, paths), paths[0])
+        files.check_inside(path, place)
+        if path in around:
+            raise TranslationError(f"{path} includes itself", place, "take one <include> out")
+        root, inner = _parse(path, files, place)
+        places |= inner
+        _include(root, path, main, files, places, (*around, path))
+        children += root
+    element[:] = children
+
+
+def _name_files(
+    root: Element, source: str, files: Files, places: Mapping[Element, Place], shared: Document, around: tuple[str, ...]
+) -> None:
+    """Give each file of a mesh or of an attached model a name of ours; leave out what only draws."""
+    folder, settings = os.path.dirname(source), dict[str, str]()  # noqa: PTH120
+    for compiler in root.iter("compiler"):
+        settings |= {key: compiler.attrib.pop(key) for key in _FOLDERS if key in compiler.attrib}
+    meshes = settings.get("meshdir", settings.get("assetdir", "")).replace("\\", "/")
+    for holder in [*root.iter()]:
+        for element in [child for child in holder if child.tag in _NOTED and holder.tag != "default"]:
+            shared.noted.append((element.tag, element.get("name", ""), places[element]))
+            if element.tag in _LEFT_OUT:
+                holder.remove(element)
+        if "hfield" in holder.attrib:  # other elements may name the geom
+            del holder.attrib["hfield"]
+            holder.attrib |= {"type": "plane", "size": "1 1 1"}
+        if holder.tag == "material":
+            for name in _OF_TEXTURES:
+                holder.attrib.pop(name, None)
+            holder[:] = []
+    for element in root.iter():
+        if "file" not in element.attrib:
+            continue
+        place, name = places[element], element.get("file", "").replace("\\", "/")
+        if element.tag == "mesh":
+            name = PurePosixPath(name).name if settings.get("strippath") == "true" else os.path.join(meshes, name)  # noqa: PTH118
+            path = os.path.normpath(os.path.join(folder, name))  # noqa: PTH118
+            element.attrib.setdefault("name", PurePosixPath(name).stem)  # MuJoCo's own rule
+            own = f"{len(shared.meshes)}{PurePosixPath(name).suffix}"
+            shared.meshes[own], shared.contents[own] = path, files.read(path, place)
+            element.set("file", own)
+        elif element.tag == "model" and root.find("asset") is not None:
+            path = os.path.normpath(os.path.join(folder, name))  # noqa: PTH118
+            files.check_inside(path, place)
+            inner = _read_model(path, files, shared, place, around)
+            element.attrib.setdefault("name", PurePosixPath(name).stem)
+            own = f"{len(shared.models)}.xml"
+            shared.models[own] = inner.text
+            element.set("file", own)
+        else:
+            message = f"<{element.tag}> reads a file, which urdfsync does not support"
+            raise TranslationError(message, place, "take the element out")
+
+
+def _count(element: Element) -> int:
+    """Return the count of elements in an element, with the copies of each `<replicate>`."""
+    text = element.get("count", "").strip() if element.tag == "replicate" else ""
+    return 1 + sum(map(_count, element)) * (int(text) if text.isdecimal() and len(text) < 10 else 1)
+
+
+def _lines(element: Element, places: Mapping[Element, Place]) -> Iterator[tuple[str, Place]]:
+    """Yield the lines of an element, each with its place."""
+    attributes = "".join(f" {name}={quoteattr(value)}" for name, value in element.attrib.items())
+    place = places[element]
+    yield f"<{element.tag}{attributes}{'' if len(element) else '/'}>", place
+    for child in element:
+        yield from _lines(child, places)
+    if len(element):
+        yield f"</{element.tag}>", place

@@ -1,0 +1,217 @@
+"""Reads the numbers of joints, their couplings and their motors from a compiled model.
+
+MuJoCo counts the position of a joint from `ref`, URDF from the pose in which the model is written: so `ref` is
+subtracted from limits and starts. A motor's gear is a reduction: the joint has `gear` times the motor's effort.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import mujoco
+
+from urdfsync.mjcf.scene import Scene
+from urdfsync.mjcf.writer import Node, rounded
+from urdfsync.urdf.robot import Command
+
+_HOME = "home"
+"""The key with the start positions."""
+_AXES = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
+_OF_JOINT = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
+
+
+class Follower(NamedTuple):
+    """Position = `multiplier` · position of `leader` + `offset`."""
+
+    leader: int
+    multiplier: float
+    offset: float
+
+
+class Motor(NamedTuple):
+    """An actuator that moves one joint."""
+
+    actuator: int
+    command: Command
+    gear: float
+    effort: float | None
+    """The greatest effort at the joint, in N·m or N; None without a limit."""
+
+
+class Part(NamedTuple):
+    """A part that acts on the robot, and that no model has."""
+
+    what: str
+    name: str
+    line: int
+
+
+class Drives:
+    """The couplings and motors of a robot's joints."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        bodies = {*scene.bodies}
+        self.joints = [n for n in range(scene.model.njnt) if int(scene.model.jnt_bodyid[n]) in bodies]
+        self.left_out = list[Part]()
+        self.followers = dict[int, Follower]()
+        self._read_couplings()
+        self.motors = defaultdict[int, list[Motor]](list)
+        for number in range(scene.model.nu):
+            self._read_motor(number)
+
+    def leave_out(self, what: str, kind: str, number: int, name: str = "") -> None:
+        """Note an element that acts on the robot, and that no model has."""
+        self.left_out.append(Part(what, name or self.scene.name(kind, number), self.scene.line(kind, number)))
+
+    def _has_axis(self, joint: int) -> bool:
+        return joint in self.joints and int(self.scene.model.jnt_type[joint]) in _AXES  # numpy's are never `in`
+
+    def _read_couplings(self) -> None:
+        """Read the equalities of joints; a linear one of two joints becomes a coupling."""
+        model = self.scene.model
+        for number in range(model.neq):
+            if model.eq_type[number] != mujoco.mjtEq.mjEQ_JOINT or not model.eq_active0[number]:
+                continue
+            first, second = int(model.eq_obj1id[number]), int(model.eq_obj2id[number])
+            if first not in self.joints and second not in self.joints:
+                continue
+            offset, multiplier, *higher = map(float, model.eq_data[number][:5])
+            is_linear = self._has_axis(first) and self._has_axis(second) and multiplier and not any(higher)
+            if is_linear and first not in self.followers and self._leader(second)[0] != first:
+                self.followers[first] = Follower(second, multiplier, offset)
+            else:
+                self.leave_out("equality of joints", "equality", number, self._pair(first, second))
+
+    def _pair(self, *joints: int) -> str:
+        return " and ".join(self.scene.joints[joint] for joint in joints if joint >= 0)
+
+    def _leader(self, joint: int) -> tuple[int, float]:
+        """Return the joint that moves a joint by couplings, perhaps itself, and the multiplier."""
+        multiplier = 1.0
+        while joint in self.followers:
+            multiplier *= self.followers[joint].multiplier
+            joint = self.followers[joint].leader
+        return joint, multiplier
+
+    def _read_motor(self, number: int) -> None:
+        """Read an actuator: a motor of one joint, or of joints that move together; anything else is left out."""
+        model, target = self.scene.model, int(self.scene.model.actuator_trnid[number][0])
+        moved = dict[int, float]()  # leaders with the factor from the actuator's effort to that of the joint
+        kind = int(model.actuator_trntype[number])
+        if kind in _OF_JOINT:
+            if target not in self.joints:
+                return
+            pulls = [(target, 1.0)]
+        elif kind == mujoco.mjtTrn.mjTRN_TENDON:
+            pulls = list(self.pulls(target))
+            if pulls and not any(joint in self.joints for joint, _ in pulls):
+                return
+        else:
+            pulls = []
+        for joint, factor in pulls:
+            leader, multiplier = self._leader(joint)
+            moved[leader] = moved.get(leader, 0.0) + factor * multiplier
+        command = self._command(number)
+        if command is None or len(moved) != 1 or not self._has_axis(joint := next(iter(moved))):
+            self.leave_out("actuator", "actuator", number)
+            return
+        gear = float(model.actuator_gear[number][0]) * moved[joint]
+        if not gear:
+            self.leave_out("actuator without gear", "actuator", number)
+            return
+        self.motors[joint].append(Motor(number, command, gear, self._effort(number, command, abs(gear))))
+
+    def pulls(self, tendon: int) -> Iterator[tuple[int, float]]:
+        """Yield the joints of a fixed tendon with their factors; nothing for a spatial tendon."""
+        model, first = self.scene.model, self.scene.model.tendon_adr[tendon]
+        for number in range(first, first + model.tendon_num[tendon]):
+            if model.wrap_type[number] == mujoco.mjtWrap.mjWRAP_JOINT:
+                yield int(model.wrap_objid[number]), float(model.wrap_prm[number])
+
+    def _command(self, number: int) -> Command | None:
+        """Return the quantity that an actuator commands; None for an actuator that is no motor, such as a muscle."""
+        model = self.scene.model
+        _, stiffness, damping = model.actuator_biasprm[number][:3]
+        if model.actuator_gaintype[number] != mujoco.mjtGain.mjGAIN_FIXED or model.actuator_plugin[number] >= 0:
+            return None
+        if model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR:
+            return "velocity"
+        if model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_NONE:
+            return "effort"
+        if model.actuator_biastype[number] != mujoco.mjtBias.mjBIAS_AFFINE:
+            return None
+        return "position" if stiffness else "velocity" if damping else "effort"
+
+    def _effort(self, number: int, command: Command, gear: float) -> float | None:
+        """Return the greatest effort at the joint."""
+        model, limits = self.scene.model, list[float]()
+        if model.actuator_forcelimited[number]:
+            limits.append(_greatest(model.actuator_forcerange[number]))
+        if command == "effort" and model.actuator_ctrllimited[number]:
+            limits.append(_greatest(model.actuator_ctrlrange[number]) * abs(float(model.actuator_gainprm[number][0])))
+        return min(limits) * gear if limits else None
+
+    def add_numbers(self, joint: Node, number: int, kind: str) -> None:
+        """Add limits, losses and coupling of a joint to its element."""
+        model, motors = self.scene.model, self.motors.get(number, [])
+        dof, efforts = model.jnt_dofadr[number], [motor.effort for motor in motors]
+        effort = sum(filter(None, efforts)) if efforts and None not in efforts else None
+        if model.jnt_actfrclimited[number]:
+            own = _greatest(model.jnt_actfrcrange[number])
+            effort = own if effort is None else min(own, effort)
+        if kind in ("revolute", "continuous", "prismatic"):
+            lower, upper = None, None
+            if model.jnt_limited[number]:
+                lower, upper = map(float, model.jnt_range[number])
+                if reference := float(model.qpos0[model.jnt_qposadr[number]]):
+                    lower, upper = rounded((lower - reference, upper - reference))
+            if effort is not None or lower is not None:
+                joint.add("limit", lower=lower, upper=upper, effort=effort)
+        damping, friction, armature = model.dof_damping[dof], model.dof_frictionloss[dof], model.dof_armature[dof]
+        if kind != "floating" and (damping or friction or armature):
+            friction, armature = (None if kind == "ball" else value or None for value in (friction, armature))
+            joint.add("dynamics", damping=damping, friction=friction, armature=armature)
+        if number in self.followers:
+            leader, multiplier, offset = self.followers[number]
+            joint.add("mimic", joint=self.scene.joints[leader], multiplier=multiplier, offset=offset)
+
+    def add_control(self, robot: Node) -> None:
+        """Add the motors, their gears, and the starts of joints. With any motor, a joint without one is passive."""
+        scene, starts = self.scene, self._starts()
+        if not self.motors and not starts:
+            return
+        control = robot.add("ros2_control", name="MuJoCo", type="system")
+        for number in filter(self._has_axis, self.joints):
+            motors = self.motors.get(number, [])
+            if number in self.followers or not (motors or starts or self.motors):
+                continue
+            line = scene.line("actuator", motors[0].actuator) if motors else scene.line("joint", number)
+            joint = control.add("joint", line, name=scene.joints[number])
+            if motors or not self.motors:
+                joint.add("command_interface", name=motors[0].command if motors else "position")
+            state = joint.add("state_interface", name="position")
+            if starts:
+                state.add("param", text=repr(starts[number]), name="initial_value")
+        for number, motors in self.motors.items():
+            if motors[0].gear != 1:
+                line, name = scene.line("actuator", motors[0].actuator), scene.name("actuator", motors[0].actuator)
+                gear = control.add("transmission", line, name=name or scene.joints[number])
+                gear.add("plugin", text="transmission_interface/SimpleTransmission")
+                joint = gear.add("joint", name=scene.joints[number])
+                joint.add("mechanical_reduction", text=repr(motors[0].gear))
+
+    def _starts(self) -> dict[int, float]:
+        """Return the positions of the joints at the key `home`."""
+        model = self.scene.model
+        home = next((key for key in range(model.nkey) if self.scene.name("key", key) == _HOME), None)
+        if home is None:
+            return {}
+        places = {joint: model.jnt_qposadr[joint] for joint in self.joints if self._has_axis(joint)}
+        return {joint: rounded([model.key_qpos[home][at] - model.qpos0[at]])[0] for joint, at in places.items()}
+
+
+def _greatest(limits: Any) -> float:
+    return float(max(abs(limits[0]), abs(limits[1])))

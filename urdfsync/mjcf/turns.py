@@ -1,0 +1,39 @@
+"""Orientations as MuJoCo has them: quaternions w, x, y, z."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfsync.mjcf.writer import rounded
+from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
+
+Vector: TypeAlias = NDArray[np.float64]
+
+
+def rpy(quaternion: Any) -> tuple[float, ...]:
+    """Return the angles of a quaternion as URDF writes them."""
+    w, x, y, z = map(float, quaternion)
+    return rounded(roll_pitch_yaw((x, y, z, w)))
+
+
+def turned(quaternion: Any, vector: Any) -> Vector:
+    """Return a vector turned by a quaternion."""
+    result = np.zeros(3)
+    mujoco.mju_rotVecQuat(result, np.asarray(vector, float), np.asarray(quaternion, float))
+    return result
+
+
+def product(first: Any, second: Any) -> Vector:
+    """Return the product of two quaternions: the turn by `second`, then by `first`."""
+    result = np.zeros(4)
+    mujoco.mju_mulQuat(result, np.asarray(first, float), np.asarray(second, float))
+    return result
+
+
+def inverse(quaternion: Any) -> Vector:
+    """Return the quaternion of the opposite turn."""
+    return np.asarray(quaternion, float) * [1.0, -1.0, -1.0, -1.0]

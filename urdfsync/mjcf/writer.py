@@ -1,0 +1,60 @@
+"""Writes the URDF of a robot; each element has a line of its own, and the line of the MJCF that it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+from xml.sax.saxutils import quoteattr
+
+from urdfsync.mjcf.document import Document, Place
+
+_DECIMALS = 15
+"""Decimals of computed numbers: later digits are rounding errors."""
+
+
+class Node:
+    """An element of the URDF."""
+
+    def __init__(self, tag: str, line: int | Place, /, text: str = "", **attributes: Any) -> None:
+        """`line` is the line in the text of the MJCF, or its place, or 0 for that of the element around this one."""
+        self.tag, self.line, self.text, self.attributes = tag, line, text, attributes
+        self.children: list[Node] = []
+
+    def add(self, tag: str, line: int | Place = 0, /, text: str = "", **attributes: Any) -> Node:
+        """Add an element, and return it. Numbers are written with all their digits; None is left out."""
+        self.children.append(child := Node(tag, line, text, **attributes))
+        return child
+
+    def lines(self, line: int | Place = 1, depth: int = 0) -> Iterator[tuple[str, int | Place]]:
+        """Yield the lines of the text, each with its line or place in the MJCF."""
+        line, indent = self.line or line, "  " * depth
+        written = {name: _text(value) for name, value in self.attributes.items() if value is not None}
+        head = f"{indent}<{self.tag}" + "".join(f" {name}={quoteattr(value)}" for name, value in written.items())
+        if not self.children:
+            yield f"{head}>{self.text}</{self.tag}>" if self.text else f"{head}/>", line
+            return
+        yield f"{head}>", line
+        for child in self.children:
+            yield from child.lines(line, depth + 1)
+        yield f"{indent}</{self.tag}>", line
+
+
+def write(robot: Node, document: Document) -> tuple[str, tuple[tuple[int, str, int], ...]]:
+    """Return the text of a URDF, and each of its lines that begins another place in the files of the MJCF."""
+    lines = list(robot.lines())
+    places = [line if isinstance(line, tuple) else document.place(line) for _, line in lines]
+    # a place holds until the next one
+    changes = [number for number, place in enumerate(places) if not number or place != places[number - 1]]
+    return "\n".join([*(text for text, _ in lines), ""]), tuple((number + 1, *places[number]) for number in changes)
+
+
+def rounded(numbers: Iterable[float]) -> tuple[float, ...]:
+    """Return computed numbers without the digits that are rounding errors."""
+    return tuple(round(float(number), _DECIMALS) for number in numbers)
+
+
+def _text(value: str | float | Sequence[float]) -> str:
+    if isinstance(value, str):
+        return value
+    numbers = (value,) if isinstance(value, float | int) else value
+    return " ".join(repr(float(number) + 0.0) for number in numbers)  # adding 0.0 makes 0.0 of -0.0
