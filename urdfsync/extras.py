@@ -5,6 +5,7 @@ PACKAGES = {
     "cluster": "distributed",
     "epanet": "wntr",
     "fmu": "fmpy",
+    "log": "pyarrow",
     "physics": "pin",
     "plot": "matplotlib",
     "remote": "fsspec",
