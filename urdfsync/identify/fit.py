@@ -29,7 +29,9 @@ _EXCITED = 3.0
 """So many standard errors has a number's natural size, at least, if the motion determines the number."""
 _EDGE = 3.0
 """The distance, as a logarithm, at which a link is no more like its source: a part of its inertia fell to a 20th."""
-_ROUNDS = 3
+_MOST_STEPS = 60
+"""Towards the edge, where a link becomes no real body, a fit takes endless small steps."""
+_ROUNDS = 2
 """Each round of the fit weighs the joints by the residuals of the round before."""
 
 
@@ -52,6 +54,23 @@ class Evidence:
         self.factors[axis] = triangle(stacked)
         self.counts[axis] += len(rows)
 
+    def stacked(self, scales: Array) -> Array:
+        """Return all samples as one triangular matrix, with the residuals of each axis in units of its scale."""
+        parts = [factor / scale for factor, scale in zip(self.factors, scales, strict=True) if factor is not None]
+        return triangle(np.vstack(parts))
+
+    def linear_fit(self, count: int) -> Array:
+        """Return the combinations of the first `count` columns that leave least of each of the others."""
+        others = self.stacked(self.roots(np.concatenate([np.zeros(count), target_at(0.0)])))
+        units = np.linalg.norm(others[:, :count], axis=0) + 1e-300
+        solution = np.linalg.lstsq(others[:, :count] / units, others[:, count:], rcond=1e-9)[0]
+        return np.asarray(solution / units[:, None])
+
+    def roots(self, combination: Array, used: float = 0.0) -> Array:
+        """Return the root mean square of a combination of the columns for each axis, without `used` samples."""
+        squares = [self.squares(j, combination) for j in range(len(self.counts))]
+        return np.sqrt(np.array(squares) / np.maximum(self.counts - used, 1)) + 1e-12
+
     def squares(self, axis: int, combination: Array) -> float:
         """Return the sum of squares of a combination of the columns, over all samples."""
         factor = self.factors[axis]
@@ -71,22 +90,22 @@ class Fit(NamedTuple):
     """The change of the linear parameters, without the delay."""
 
 
+def pseudo_inertia(numbers: Array, rotation: Array) -> Array:
+    """Return the second moments of a body with its first moments and its mass: positive definite for a real body."""
+    mass, centre = numbers[0], numbers[1:4]
+    tensor = rotation @ numbers[[[4, 7, 8], [7, 5, 9], [8, 9, 6]]] @ rotation.T
+    matrix = np.empty((4, 4))
+    matrix[:3, :3] = 0.5 * np.trace(tensor) * np.eye(3) - tensor + mass * np.outer(centre, centre)
+    matrix[3, :3] = matrix[:3, 3] = mass * centre
+    matrix[3, 3] = mass
+    return matrix
+
+
 def inertial_parameters(numbers: Array, rotation: Array) -> Array:
     """Return Pinocchio's ten parameters of a body: mass, first moments, and the inertia about the link's origin."""
-    mass, centre = numbers[0], numbers[1:4]
-    xx, yy, zz, xy, xz, yz = numbers[4:]
-    central = rotation @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ rotation.T
-    tensor = central + mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
-    moved = tensor[[0, 0, 1, 0, 1, 2], [0, 1, 1, 2, 2, 2]]
-    return np.array([mass, *(mass * centre), *moved])
-
-
-def pseudo_inertia(numbers: Array, rotation: Array) -> Array:
-    """Return the 4x4 matrix of a body that is positive definite for every real body."""
-    mass, *moments = inertial_parameters(numbers, rotation)[:4]
-    xx, xy, yy, xz, yz, zz = inertial_parameters(numbers, rotation)[4:]
-    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return np.block([[0.5 * np.trace(tensor) * np.eye(3) - tensor, np.c_[moments]], [np.r_[moments], mass]])
+    matrix = pseudo_inertia(numbers, rotation)
+    tensor = np.trace(matrix[:3, :3]) * np.eye(3) - matrix[:3, :3]
+    return np.array([matrix[3, 3], *matrix[3, :3], *tensor[[0, 0, 1, 0, 1, 2], [0, 1, 1, 2, 2, 2]]])
 
 
 def is_body(body: Body) -> bool:
@@ -137,17 +156,19 @@ class Problem:
         numbers = x[: 10 * len(self.bodies)].reshape(-1, 10)
         return np.concatenate([np.zeros(0), *(self.distance(k, each) for k, each in enumerate(numbers))])
 
-    def distance_slopes(self, x: Array) -> Array:
-        """Return their derivatives by all numbers."""
+    def distance_slopes(self, x: Array, places: Collection[int]) -> Array:
+        """Return their derivatives by the numbers at `places`; other columns of other bodies are 0."""
         slopes = np.zeros((16 * len(self.bodies), len(x)))
-        for k in range(len(self.bodies)):
+        for k in {place // 10 for place in places if place < 10 * len(self.bodies)}:
             part = slice(10 * k, 10 * k + 10)
             slopes[16 * k : 16 * k + 16, part] = _differences(partial(self.distance, k), x[part])
         return slopes
 
     def sizes(self, others: Array) -> Array:
         """Return the natural size of each number: one unit of the prior; `others` are those after the bodies."""
-        slopes = np.linalg.norm(self.distance_slopes(self.start), axis=0)[: 10 * len(self.bodies)]
+        slopes = np.linalg.norm(self.distance_slopes(self.start, range(len(self.start))), axis=0)[
+            : 10 * len(self.bodies)
+        ]
         return np.concatenate([1 / np.maximum(slopes, 1e-12), others])
 
 
@@ -159,7 +180,8 @@ def _differences(function: Callable[[Array], Array], x: Array) -> Array:
         while True:
             moved = np.zeros(len(x))
             moved[n] = step
-            column = (function(x + moved) - function(x - moved)) / (2 * step)
+            with np.errstate(invalid="ignore"):
+                column = (function(x + moved) - function(x - moved)) / (2 * step)
             if np.isfinite(column).all() or step < 1e-14:
                 break
             step /= 10
@@ -172,22 +194,16 @@ def fit(problem: Problem, evidence: Evidence, delay: float, fitted: Collection[i
 
     `alike` is the number of neighbouring samples of each axis that tell one thing.
     """
-    count, axes = len(problem.start) - 1, range(len(evidence.counts))
-    target, slope = target_at(delay), np.array([*shift_slopes(delay), 0.0])
-    scales = np.array([evidence.squares(j, np.concatenate([np.zeros(count), target])) for j in axes])
-    scales = np.sqrt(scales / np.maximum(evidence.counts, 1)) + 1e-12
+    count, target = len(problem.start) - 1, target_at(delay)
+    slope, x = np.array([*shift_slopes(delay), 0.0]), problem.start
+    roots = evidence.roots(np.concatenate([evidence.linear_fit(count) @ target, -target]))
     for _ in range(_ROUNDS):
-        weighed = [
-            factor / (scale * np.sqrt(n))
-            for factor, scale, n in zip(evidence.factors, scales, alike, strict=True)
-            if factor is not None
-        ]
-        rows = triangle(np.vstack(weighed))
+        rows = evidence.stacked(roots * np.sqrt(alike))
         matrix, goal = np.column_stack([rows[:, :count], -rows[:, count:] @ slope]), rows[:, count:] @ target
         chosen = _determined(matrix @ problem.slopes(problem.start) * sizes, _order(problem, fitted))
         freed = list[str]()
         while True:
-            x, jacobian = solve(problem, matrix, goal, sizes, chosen, delay)
+            x, jacobian = solve(problem, matrix, goal, sizes, chosen, x, delay)
             logarithms = problem.distances(x).reshape(-1, 4, 4)
             far = np.abs(np.linalg.eigvalsh(logarithms)).max(axis=1) if len(logarithms) else []
             pushed = [k for k, each in enumerate(far) if each > _EDGE]
@@ -199,9 +215,7 @@ def fit(problem: Problem, evidence: Evidence, delay: float, fitted: Collection[i
         errors = np.zeros(count + 1)
         errors[chosen] = np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian))) * sizes[chosen]
         unexplained = np.concatenate([problem.delta(x)[:-1], -target_at(delay + x[-1])])
-        used = len(chosen) / max(1, int(np.count_nonzero(evidence.counts)))
-        squares = np.array([evidence.squares(j, unexplained) for j in axes])
-        scales = np.sqrt(squares / np.maximum(evidence.counts - used, 1)) + 1e-12
+        roots = evidence.roots(unexplained, len(chosen) / max(1, int(np.count_nonzero(evidence.counts))))
     is_fitted = np.isin(np.arange(count + 1), chosen)
     return Fit(problem.start, x, errors, is_fitted, tuple(freed), problem.delta(x)[:-1])
 
@@ -228,7 +242,7 @@ def _determined(columns: Array, order: Sequence[int]) -> list[int]:
 
 
 def solve(
-    problem: Problem, matrix: Array, goal: Array, sizes: Array, chosen: Sequence[int], delay: float = 0.0
+    problem: Problem, matrix: Array, goal: Array, sizes: Array, chosen: Sequence[int], guess: Array, delay: float = 0.0
 ) -> tuple[Array, Array]:
     """Return the numbers of the best fit, and the derivatives of all residuals there, in units of `sizes`.
 
@@ -247,9 +261,12 @@ def solve(
 
     def slopes(z: Array) -> Array:
         x = start + unit @ z
-        return np.vstack([matrix @ problem.slopes(x) @ unit, problem.distance_slopes(x) @ unit, prior])
+        return np.vstack([matrix @ problem.slopes(x) @ unit, problem.distance_slopes(x, chosen) @ unit, prior])
 
     # friction and the inertia of a drive are never negative
     lower = [-start[k] / sizes[k] - 1e-9 if first <= k < problem.count else -np.inf for k in chosen]
-    best = least_squares(residuals, np.zeros(len(chosen)), slopes, bounds=(lower, np.inf))
+    first_guess = np.maximum((guess - start)[chosen] / sizes[chosen], lower)
+    if not np.isfinite(residuals(first_guess)).all():  # rounded over the edge
+        first_guess = np.zeros(len(chosen))
+    best = least_squares(residuals, first_guess, slopes, bounds=(lower, np.inf), max_nfev=_MOST_STEPS)
     return start + unit @ best.x, slopes(best.x)

@@ -14,7 +14,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.identify import signals
-from urdfsync.identify.fit import Evidence, Fit, Problem, fit, is_body, triangle
+from urdfsync.identify.fit import Evidence, Fit, Problem, fit, is_body
 from urdfsync.identify.log import Log
 from urdfsync.identify.records import Records, read_records
 from urdfsync.identify.results import (
@@ -94,21 +94,12 @@ class Measured:
         """Return the delay of the efforts in s for which the linear model explains most."""
         from scipy.optimize import minimize_scalar
 
-        count = self.parameters + len(self.axes)
-        parts = []
-        for j, factor in enumerate(self.evidence.factors):
-            if factor is not None:
-                parts.append(factor / (np.sqrt(self.evidence.squares(j, self._at(signals.target_at(0.0)))) + 1e-12))
-        rows = triangle(np.vstack(parts))
-        unit = np.linalg.norm(rows[:, :count], axis=0) + 1e-300
-        best = np.linalg.lstsq(rows[:, :count] / unit, rows[:, count:], rcond=1e-9)[0]
-        left = rows[:, count:] - rows[:, :count] / unit @ best
-
-        some = self.evidence.counts.sum() / _ALIKE
+        solution = self.evidence.linear_fit(self.parameters + len(self.axes))
 
         def cost(delay: float) -> float:
-            squares = float(np.sum((left @ signals.target_at(delay)) ** 2))
-            return float(some * np.log(squares + 1e-300) + (delay / _USUAL_DELAY) ** 2)
+            target = signals.target_at(delay)
+            roots = self.evidence.roots(np.concatenate([solution @ target, -target]))
+            return float(2 * self.evidence.counts @ np.log(roots) / _ALIKE + (delay / _USUAL_DELAY) ** 2)
 
         coarse = min(signals.SHIFTS[1:-1], key=cost)
         step = signals.SHIFTS[1] - signals.SHIFTS[0]

@@ -26,7 +26,7 @@ _OF_MOTION = 10
 """The cut-off frequency, in frequencies below which the positions have 99 % of their power."""
 _SLOW = 0.03
 """In rad/s or m/s · 10: below, dry friction holds a joint, and its effort has any value."""
-_HELD = 0.005
+_HELD = 0.001
 """The greatest part that efforts without a meaning may have in a filtered sample."""
 _FLAT = 5
 """So many equal greatest efforts in a row are a saturation."""
