@@ -185,12 +185,13 @@ def _model(mujoco: Any, root: ET.Element) -> tuple[Any, dict[str, tuple[str, flo
     spec.compiler.fusestatic, spec.compiler.balanceinertia, spec.compiler.boundmass = False, False, 0
     for name, (leader, factor) in mimics.items():
         equality = spec.add_equality(type=mujoco.mjtEq.mjEQ_JOINT, name1=name, name2=leader)
-        equality.data[:2], equality.solref[:] = (0.0, factor), (0.002, 1)
+        equality.data[:2], equality.solref[:], equality.solimp[:2] = (0.0, factor), (0.001, 1), (0.9999, 0.9999)
     for joint in spec.joints:
         losses = _numbers(root.find(f"joint[@name='{joint.name}']/dynamics"))
         joint.armature, joint.frictionloss = losses.get("armature", 0.0), losses.get("friction", 0.0)
         joint.damping = [losses.get("damping", 0.0), 0, 0]
-        joint.solref_friction[:], joint.limited = (0.002, 1), mujoco.mjtLimited.mjLIMITED_FALSE
+        joint.solref_friction[:], joint.solimp_friction[:2] = (0.001, 1), (0.9999, 0.9999)
+        joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
     return spec.compile(), mimics
 
 

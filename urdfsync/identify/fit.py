@@ -31,7 +31,7 @@ _EDGE = 3.0
 """The distance, as a logarithm, at which a link is no more like its source: a part of its inertia fell to a 20th."""
 _MOST_STEPS = 60
 """Towards the edge, where a link becomes no real body, a fit takes endless small steps."""
-_ROUNDS = 2
+_ROUNDS = 3
 """Each round of the fit weighs the joints by the residuals of the round before."""
 
 
@@ -189,21 +189,21 @@ def _differences(function: Callable[[Array], Array], x: Array) -> Array:
     return np.column_stack(columns)
 
 
-def fit(problem: Problem, evidence: Evidence, delay: float, fitted: Collection[int], sizes: Array, alike: Array) -> Fit:
-    """Fit the numbers at the places `fitted`, beginning at a `delay`.
+def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Array, alike: Array) -> Fit:
+    """Fit the numbers at the places `fitted`.
 
     `alike` is the number of neighbouring samples of each axis that tell one thing.
     """
-    count, target = len(problem.start) - 1, target_at(delay)
-    slope, x = np.array([*shift_slopes(delay), 0.0]), problem.start
-    roots = evidence.roots(np.concatenate([evidence.linear_fit(count) @ target, -target]))
+    count, x = len(problem.start) - 1, problem.start
+    roots = evidence.roots(np.concatenate([evidence.linear_fit(count) @ target_at(0.0), -target_at(0.0)]))
     for _ in range(_ROUNDS):
-        rows = evidence.stacked(roots * np.sqrt(alike))
-        matrix, goal = np.column_stack([rows[:, :count], -rows[:, count:] @ slope]), rows[:, count:] @ target
+        rows, late = evidence.stacked(roots * np.sqrt(alike)), float(x[-1])
+        slope = rows[:, count:] @ [*shift_slopes(late), 0.0]
+        matrix, goal = np.column_stack([rows[:, :count], -slope]), rows[:, count:] @ target_at(late) - late * slope
         chosen = _determined(matrix @ problem.slopes(problem.start) * sizes, _order(problem, fitted))
         freed = list[str]()
         while True:
-            x, jacobian = solve(problem, matrix, goal, sizes, chosen, x, delay)
+            x, jacobian = solve(problem, matrix, goal, sizes, chosen, x)
             logarithms = problem.distances(x).reshape(-1, 4, 4)
             far = np.abs(np.linalg.eigvalsh(logarithms)).max(axis=1) if len(logarithms) else []
             pushed = [k for k, each in enumerate(far) if each > _EDGE]
@@ -214,7 +214,7 @@ def fit(problem: Problem, evidence: Evidence, delay: float, fitted: Collection[i
             chosen = sorted({*chosen, *places})
         errors = np.zeros(count + 1)
         errors[chosen] = np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian))) * sizes[chosen]
-        unexplained = np.concatenate([problem.delta(x)[:-1], -target_at(delay + x[-1])])
+        unexplained = np.concatenate([problem.delta(x)[:-1], -target_at(x[-1])])
         roots = evidence.roots(unexplained, len(chosen) / max(1, int(np.count_nonzero(evidence.counts))))
     is_fitted = np.isin(np.arange(count + 1), chosen)
     return Fit(problem.start, x, errors, is_fitted, tuple(freed), problem.delta(x)[:-1])
@@ -242,22 +242,18 @@ def _determined(columns: Array, order: Sequence[int]) -> list[int]:
 
 
 def solve(
-    problem: Problem, matrix: Array, goal: Array, sizes: Array, chosen: Sequence[int], guess: Array, delay: float = 0.0
+    problem: Problem, matrix: Array, goal: Array, sizes: Array, chosen: Sequence[int], guess: Array
 ) -> tuple[Array, Array]:
-    """Return the numbers of the best fit, and the derivatives of all residuals there, in units of `sizes`.
-
-    `delay` is the delay at which the fit begins, in s: the prior is for no delay.
-    """
+    """Return the numbers of the best fit, and the derivatives of all residuals there, in units of `sizes`."""
     from scipy.optimize import least_squares  # takes 0.3 s
 
     start, first, unit = problem.start, 10 * len(problem.bodies), np.diag(sizes)[:, chosen]
     others = [place for place in chosen if place >= first]
     prior = (np.eye(len(start))[others] / sizes[others, None]) @ unit
-    begin = np.array([delay / sizes[-1] if place == len(start) - 1 else 0.0 for place in others])
 
     def residuals(z: Array) -> Array:
         x = start + unit @ z
-        return np.concatenate([matrix @ problem.delta(x) - goal, problem.distances(x), prior @ z + begin])
+        return np.concatenate([matrix @ problem.delta(x) - goal, problem.distances(x), prior @ z])
 
     def slopes(z: Array) -> Array:
         x = start + unit @ z

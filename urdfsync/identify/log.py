@@ -193,7 +193,8 @@ class Log:
 
     def told(self) -> tuple[str, ...]:
         """Return what was left out, in words."""
-        rows = tuple(counted(number, what) for what, number in self.dropped.items() if number)
+        parts = [(number, *what.partition(" ")) for what, number in self.dropped.items() if number]
+        rows = tuple(f"{counted(number, noun)}{space}{rest}" for number, noun, space, rest in parts)
         others = [axis.name for k, axis in enumerate(self._axes) if (k, "position") not in self.columns]
         resting = (f"not in the log, taken to rest at the start: {', '.join(others)}",) if others else ()
         unused = (f"columns without a use: {', '.join(self.unused)[:300]}",) if self.unused else ()

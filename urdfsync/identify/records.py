@@ -20,6 +20,7 @@ from urdfsync.identify.results import FittedNumber
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.values import Value, literals, read_values
 
+_COMMENT = re.compile(r"/[*/]")
 _ITEM = re.compile(r"\[(\d)\]$")
 _ELEMENT = re.compile(r"(\w+) (.*)", re.DOTALL)
 
@@ -28,8 +29,9 @@ class Place:
     """One value in one record."""
 
     def __init__(self, path: str, value: Value) -> None:
-        self.path, self.value = path, value
-        self.numbers = literals(value.text)
+        self.path, self.start, self.line = path, value.start, value.line
+        self.text = _COMMENT.split(value.text)[0].rstrip()
+        self.numbers = literals(self.text)
 
 
 class Records:
@@ -57,8 +59,8 @@ class Records:
                     continue
                 if not isinstance(places[0].numbers, tuple):
                     file = shown(self.package.robot.folder / places[0].path)
-                    message = f"{element}: {path} is edited to `{places[0].value.text}`, which is no number"
-                    raise ConfigError.of("identify", message, file, places[0].value.line, hint="write a number")
+                    message = f"{element}: {path} is edited to `{places[0].text}`, which is no number"
+                    raise ConfigError.of("identify", message, file, places[0].line, hint="write a number")
                 edits[path] = places[0].numbers
             if edits and (match := _ELEMENT.fullmatch(element)):
                 yield (match[1], match[2]), edits
@@ -85,7 +87,7 @@ class Records:
 
         Nothing is written if one of the files changed since it was read.
         """
-        changes = dict[str, list[tuple[Value, str]]]()
+        changes = dict[str, list[tuple[Place, str]]]()
         values = dict[tuple[str, str], list[str]]()
         for number in numbers:
             if not number.is_written:
@@ -98,16 +100,16 @@ class Records:
             words[int(item[1]) - 1 if item else 0] = spelled(number)
         for (element, path), words in values.items():
             for place in self.values[element][path]:
-                text = f"{{{', '.join(map(_short, words))}}}" if place.value.text.startswith("{") else _short(words[0])
-                changes.setdefault(place.path, []).append((place.value, text))
+                text = f"{{{', '.join(map(_short, words))}}}" if place.text.startswith("{") else _short(words[0])
+                changes.setdefault(place.path, []).append((place, text))
         folder, contents = self.package.robot.folder, dict[Path, bytes]()
         for path, of_file in changes.items():
             before = read_unrecorded(folder / path)
             if before != self.package.on_disk[path]:
                 raise ConfigError.of("identify", "the file was saved meanwhile", shown(folder / path), hint="try again")
             text = _text(before)
-            for value, new in sorted(of_file, key=lambda each: -each[0].start):
-                text = text[: value.start] + new + text[value.start + len(value.text) :]
+            for place, new in sorted(of_file, key=lambda each: -each[0].start):
+                text = text[: place.start] + new + text[place.start + len(place.text) :]
             contents[folder / path] = text.encode(errors="surrogateescape")
         for file, content in contents.items():
             try:

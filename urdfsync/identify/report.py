@@ -26,7 +26,7 @@ class IdentificationDisplay(Identification, frozen=True):
 def identification_lines(result: Identification) -> Iterator[StyledLine]:
     """Yield the lines about an identification, without its diagnostics."""
     late = f"efforts {1000 * abs(result.delay):.1f} ms {'late' if result.delay > 0 else 'early'}"
-    about = f"{result.seconds:.4g} s at {result.rate:.4g} Hz, filtered at {result.cutoff:.3g} Hz; {late}"
+    about = f"{result.seconds:.3g} s at {result.rate:.4g} Hz, filtered at {result.cutoff:.3g} Hz; {late}"
     yield line((result.robot, "bold"), (f": {result.log}, {about}", ""))
     yield from _table([_JOINTS, *map(_joint, result.joints)])
     if result.held_out:

@@ -36,8 +36,8 @@ _STORED = 3_000_000
 
 _USUAL_DELAY = 0.005
 """In s: a longer delay needs evidence, since in slow motions damping looks much like a delay."""
-_ALIKE = 4
-"""So many neighbouring samples tell one thing, before the fit knows better."""
+_USUAL_OFFSET = 0.02
+"""Of a sensor, in root mean squares of the effort: in a small range, an offset looks much like gravity."""
 
 
 class Measured:
@@ -90,21 +90,15 @@ class Measured:
         if sum(block.size for _, block, _ in self._stored) + rows.size < _STORED or not self._stored:
             self._stored.append((times, rows, is_free))
 
-    def find_delay(self) -> float:
-        """Return the delay of the efforts in s for which the linear model explains most."""
+    def delay(self) -> float:
+        """Return the delay of the efforts in s with which the model, as it is, explains most."""
         from scipy.optimize import minimize_scalar
 
-        solution = self.evidence.linear_fit(self.parameters + len(self.axes))
-
         def cost(delay: float) -> float:
-            target = signals.target_at(delay)
-            roots = self.evidence.roots(np.concatenate([solution @ target, -target]))
-            return float(2 * self.evidence.counts @ np.log(roots) / _ALIKE + (delay / _USUAL_DELAY) ** 2)
+            return float(self.evidence.counts @ np.log(self.evidence.roots(self._at(signals.target_at(delay)))))
 
-        coarse = min(signals.SHIFTS[1:-1], key=cost)
-        step = signals.SHIFTS[1] - signals.SHIFTS[0]
-        found = minimize_scalar(cost, bounds=(coarse - step, coarse + step), method="bounded", options={"xatol": 1e-6})
-        return float(found.x)
+        coarse, step = float(min(signals.SHIFTS[1:-1], key=cost)), float(np.diff(signals.SHIFTS)[0])
+        return float(minimize_scalar(cost, bounds=(coarse - step, coarse + step), method="bounded").x)
 
     def _at(self, target: Array) -> Array:
         return np.concatenate([np.zeros(self.parameters + len(self.axes)), target])
@@ -145,7 +139,8 @@ def identify(
     measured = Measured(regressor, log, options, progress)
     _check_names(options, regressor)
     problem, fitted, notes = _problem(regressor, measured, records, options)
-    result, delay = _fitted(problem, measured, fitted)
+    result = _fitted(problem, measured, fitted)
+    delay = float(result.after[-1])
     target = signals.target_at(delay)
     numbers = _numbers(problem, result, fitted, records)
     written = records.write(numbers) if write else ()
@@ -176,7 +171,7 @@ def identify(
 def judge(config: Config, robot: RobotConfig, log: Path, options: IdentifyOptions, progress: Progress) -> Judgement:
     """Return how far the records of a robot are from a log. Raises UrdfsyncError."""
     measured = Measured(read_records(config, robot, options.wait).regressor(), log, options, progress)
-    target = signals.target_at(measured.find_delay())
+    target = signals.target_at(measured.delay())
     fits = measured.joint_fits(measured.evidence, target, np.zeros(measured.parameters + len(measured.axes)))
     return Judgement(shown(log), measured.seconds, fits)
 
@@ -219,10 +214,9 @@ def _problem(
     return Problem(bodies, regressor.losses, len(measured.axes)), fitted, notes
 
 
-def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> tuple[Fit, float]:
-    """Return the fit, and the delay of the efforts."""
-    delay, nothing = measured.find_delay(), np.zeros(len(problem.start) - 1)
-    joints = measured.joint_fits(measured.evidence, signals.target_at(delay), nothing)
+def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
+    nothing = np.zeros(len(problem.start) - 1)
+    joints = measured.joint_fits(measured.evidence, signals.target_at(0.0), nothing)
     efforts = {joint.element: joint.measured for joint in joints}
     by_joint = {f"joint {axis.name}": measured.sizes[:, j] for j, axis in enumerate(measured.axes)}
     usual = float(np.mean(list(efforts.values())))
@@ -230,16 +224,15 @@ def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> tupl
         max(loss.value, efforts.get(name := f"joint {loss.joint}", usual) / by_joint.get(name, np.ones(3))[k % 3])
         for k, loss in enumerate(problem.losses)
     ]
-    offsets = [efforts.get(f"joint {axis.name}", usual) for axis in measured.axes]
+    offsets = [_USUAL_OFFSET * efforts.get(f"joint {axis.name}", usual) for axis in measured.axes]
     sizes = problem.sizes(np.array([*others, *offsets, _USUAL_DELAY]))
-    first = fit(problem, measured.evidence, delay, fitted, sizes, np.ones(len(measured.axes)))
-    series = measured.series(signals.target_at(delay + first.after[-1]), first.delta)
+    first = fit(problem, measured.evidence, fitted, sizes, np.ones(len(measured.axes)))
+    series = measured.series(signals.target_at(first.after[-1]), first.delta)
     left = (series.measured - series.after).T
     alike = [
         signals.alike(each[used]) if used.any() else 1.0 for each, used in zip(left, series.is_used.T, strict=True)
     ]
-    result = fit(problem, measured.evidence, delay, fitted, sizes, np.array(alike))
-    return result, float(delay + result.after[-1])
+    return fit(problem, measured.evidence, fitted, sizes, np.array(alike))
 
 
 def _name(problem: Problem, place: int) -> tuple[str, str]:
