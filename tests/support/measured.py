@@ -125,6 +125,13 @@ class Recording(NamedTuple):
     positions: Array
     efforts: Array
 
+    def spoiled(self, noise: Noise, seed: int) -> Recording:
+        """Return the log with noise, quantised positions, and efforts that arrive late."""
+        late, rng = noise.delay, np.random.default_rng(seed)
+        efforts = np.concatenate([self.efforts[:1].repeat(late, axis=0), self.efforts[: len(self.efforts) - late]])
+        efforts += noise.effort * efforts.std(axis=0) * rng.standard_normal(efforts.shape)
+        return self._replace(positions=noise.step * np.round(self.positions / noise.step), efforts=efforts)
+
     def write(self, file: Path, *, header: str = "time,{}", decimals: int = 9) -> Path:
         """Write it as CSV."""
         names = [*(f"{joint}.position" for joint in self.joints), *(f"{joint}.effort" for joint in self.joints)]
@@ -162,12 +169,8 @@ def record(
         data.qfrc_applied[axes] = effort
         mujoco.mj_step(model, data)
     times, positions, efforts = np.split(np.array(rows), [1, 1 + len(axes)], axis=1)
-    if noise:
-        positions = noise.step * np.round(positions / noise.step)
-        efforts = np.concatenate([efforts[:1].repeat(noise.delay, axis=0), efforts[: len(efforts) - noise.delay]])
-        scale = noise.effort * efforts.std(axis=0)
-        efforts = efforts + scale * np.random.default_rng(seed).standard_normal(efforts.shape)
-    return Recording([names[k] for k in axes], times[:, 0], positions, efforts)
+    clean = Recording([names[k] for k in axes], times[:, 0], positions, efforts)
+    return clean.spoiled(noise, seed) if noise else clean
 
 
 def _numbers(element: ET.Element | None) -> dict[str, float]:

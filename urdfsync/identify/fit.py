@@ -29,6 +29,8 @@ _EXCITED = 3.0
 """So many standard errors has a number's natural size, at least, if the motion determines the number."""
 _EDGE = 3.0
 """The distance, as a logarithm, at which a link is no more like its source: a part of its inertia fell to a 20th."""
+_MODEL_ERROR = 0.005
+"""Of an effort: no model of rigid bodies and two numbers of friction is better, however little noise a log has."""
 _MOST_STEPS = 60
 """Towards the edge, where a link becomes no real body, a fit takes endless small steps."""
 _ROUNDS = 3
@@ -195,9 +197,11 @@ def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Ar
     `alike` is the number of neighbouring samples of each axis that tell one thing.
     """
     count, x = len(problem.start) - 1, problem.start
-    roots = evidence.roots(np.concatenate([evidence.linear_fit(count) @ target_at(0.0), -target_at(0.0)]))
+    measured = np.concatenate([np.zeros(count), target_at(0.0)[:-1], [0.0]])
+    least, solution = _MODEL_ERROR * evidence.roots(measured), evidence.linear_fit(count) @ target_at(0.0)
+    roots = evidence.roots(np.concatenate([solution, -target_at(0.0)]))
     for _ in range(_ROUNDS):
-        rows, late = evidence.stacked(roots * np.sqrt(alike)), float(x[-1])
+        rows, late = evidence.stacked(np.hypot(roots, least) * np.sqrt(alike)), float(x[-1])
         slope = rows[:, count:] @ [*shift_slopes(late), 0.0]
         matrix, goal = np.column_stack([rows[:, :count], -slope]), rows[:, count:] @ target_at(late) - late * slope
         chosen = _determined(matrix @ problem.slopes(problem.start) * sizes, _order(problem, fitted))

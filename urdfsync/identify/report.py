@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from urdfsync.checks.results import JointFit
-from urdfsync.identify.results import NUMBERS, Excitation, FittedNumber, Identification
+from urdfsync.identify.results import NUMBERS, Excitation, FittedNumber, Identification, Unexcited
 from urdfsync.output.console import StyledLine, findings, html, line
 from urdfsync.spelling import counted
 
@@ -99,8 +99,9 @@ def _short(path: str) -> str:
     return path.partition(".")[2]
 
 
-def _grouped(unexcited: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    for element, paths in unexcited.items():
+def _grouped(unexcited: Sequence[Unexcited]) -> Iterator[str]:
+    for each in unexcited:
+        paths = each.paths
         names = [_short(path) for path in paths if path not in _TENSOR or not {*_TENSOR} <= {*paths}]
         whole = ["the inertia"] if {*_TENSOR} <= {*paths} else []
-        yield f"{element}: " + ("all" if len(paths) == len(NUMBERS) else ", ".join([*names, *whole]))
+        yield f"{each.element}: " + ("all" if len(paths) == len(NUMBERS) else ", ".join([*names, *whole]))

@@ -123,6 +123,13 @@ class FittedNumber(msgspec.Struct, frozen=True):
     """Whether the number is in a record, now or with `--write`."""
 
 
+class Unexcited(msgspec.Struct, frozen=True):
+    """Numbers of an element that a motion does not determine."""
+
+    element: str
+    paths: tuple[str, ...]
+
+
 class Series(NamedTuple):
     """Samples for a plot: times in s, and for each joint its measured effort, that of the model, and after the fit."""
 
@@ -154,8 +161,8 @@ class Identification(msgspec.Struct, frozen=True):
     """By how many seconds the log has efforts later than positions."""
     joints: tuple[JointFit, ...]
     numbers: tuple[FittedNumber, ...]
-    unexcited: Mapping[str, tuple[str, ...]]
-    """The numbers that the motion does not determine, by element: they stay."""
+    unexcited: tuple[Unexcited, ...]
+    """The numbers that the motion does not determine: they stay."""
     freed: tuple[str, ...] = ()
     """The links whose unexcited numbers changed too, since no real body has the others with them."""
     dropped: tuple[str, ...] = ()

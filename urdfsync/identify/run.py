@@ -28,6 +28,7 @@ from urdfsync.identify.results import (
     IdentifyOptions,
     Regressor,
     Series,
+    Unexcited,
 )
 from urdfsync.spelling import nearest
 
@@ -158,7 +159,7 @@ def identify(
         delay=delay,
         joints=measured.joint_fits(measured.evidence, target, result.delta),
         numbers=numbers,
-        unexcited={element: tuple(paths) for element, paths in unexcited.items()},
+        unexcited=tuple(Unexcited(element, tuple(paths)) for element, paths in unexcited.items()),
         freed=tuple(result.freed),
         dropped=measured.told(),
         held_out=measured.joint_fits(measured.held_out, target, result.delta),
