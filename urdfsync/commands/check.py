@@ -67,7 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     judge = _judge(args, console) if args.log else None
 
     def show(result: CheckResult) -> None:
-        result.log = judge
+        result.log = judge or result.log
         results.append(result)
         show_result(console, result)
 
