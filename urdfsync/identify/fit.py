@@ -27,8 +27,8 @@ from urdfsync.identify.signals import shift_slopes, target_at
 
 _EXCITED = 3.0
 """So many standard errors has a number's natural size, at least, if the motion determines the number."""
-_EDGE = 3.0
-"""The distance, as a logarithm, at which a link is no more like its source: a part of its inertia fell to a 20th."""
+_EDGE = 1.2
+"""The distance, as a logarithm, at which a link is no more like its source: a part of its inertia fell to 30 %."""
 _MODEL_ERROR = 0.002
 """Of an effort: no model of rigid bodies and two numbers of friction is better, however little noise a log has."""
 _MOST_STEPS = 60
