@@ -20,11 +20,21 @@ from support.documents import is_described
 
 from urdfsync import cli, config
 from urdfsync.checks.experiment import Deviation, Difference, Numbers, Part, Quantity
-from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult, TrialTime
+from urdfsync.checks.results import (
+    CheckResult,
+    CheckStatus,
+    CompiledModel,
+    EditEffect,
+    JointFit,
+    Judgement,
+    ToolResult,
+    TrialTime,
+)
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
+from urdfsync.identify.results import Excitation, FittedNumber, Identification, Unexcited
 from urdfsync.output.documents import JSON_VERSION
 from urdfsync.simulation import results as simulation
 from urdfsync.simulation.cases import Cases
@@ -285,6 +295,7 @@ def checked() -> CheckResult:
         reference="Pinocchio 4.1.0",
         numbers=Numbers(411, 412, (differing,), (differing,), ("reach of records (1 number)",)),
         edited=("Joints/Hold_joint.mo",),
+        log=Judgement("log.csv", 20.0, (JointFit("joint hold", "N·m", 5.0, 2.0, 2.0, 0.0, 200),)),
     )
 
 
@@ -323,6 +334,27 @@ def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("urdfsync.simulation.vary.vary", lambda *_: varied())
     assert tell_all([document, printed(execute, folder, "simulate", "--vary", "mass=1..2")], "simulate")
     assert document["results"][0]["files"] == {"csv": "arm.csv", "plot": "arm.png"}
+
+
+def identified() -> Identification:
+    """An arm with one fitted number."""
+    joint = JointFit("joint hold", "N·m", 5.0, 2.0, 0.1, 0.01, 200)
+    number = FittedNumber("joint hold", "dynamics.damping", 1.0, 1.25, 0.02, is_written=True)
+    about = "arm", "log.csv", 20.0, 500.0, 5.5, 0.004
+    stays = (Unexcited("link tip", ("inertial.mass",)),)
+    return Identification(*about, (joint,), (number,), stays, dropped=("1 gap",), held_out=(joint,))
+
+
+def test_identify(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    cli.main(["init", "arm.urdf"])
+    motion = "time\n", Excitation("arm", 20.0, 90.0, 12.0, 30, ("hold",), {})
+    monkeypatch.setattr("urdfsync.identify.run.identify", lambda *_, **__: identified())
+    monkeypatch.setattr("urdfsync.identify.run.find_motion", lambda *_: motion)
+    monkeypatch.setattr("urdfsync.identify.plot.draw", lambda *_: b"")
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    fitted = printed(execute, folder, "identify", "arm", "log.csv", "--plot", "arm.png")
+    excited = printed(execute, folder, "identify", "arm", "--excite", "motion.csv")
+    assert tell_all([fitted, excited], "identify", absent=FINDING)
 
 
 def varied() -> Study:

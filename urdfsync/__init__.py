@@ -3,7 +3,7 @@
 # ruff: noqa: F403, F405 - type checkers find the names below in `api`
 __version__ = "0.1.0"
 __all__ = ["Results", "UrdfsyncError", "build", "check", "diff", "edits", "library_folder", "load", "record"]
-__all__ += ["simulate", "status", "vary"]
+__all__ += ["excite", "identify", "simulate", "status", "vary"]
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of the up-to-date check
 if TYPE_CHECKING:

@@ -30,6 +30,8 @@ from urdfsync.output.terminal import text
 if TYPE_CHECKING:
     from urdfsync.checks.results import CheckResult
     from urdfsync.engine.edits import RobotEdits
+    from urdfsync.identify.report import IdentificationDisplay
+    from urdfsync.identify.results import Excitation
     from urdfsync.simulation.report import Simulation, StudyDisplay
     from urdfsync.versions.comparison import Comparison
 
@@ -281,6 +283,59 @@ def vary(
     study = cases.vary(loaded, robot, VaryOptions(tool=chosen, **given), progress)
     write_outputs(files, study)
     return StudyDisplay(**msgspec.structs.asdict(study) | {"files": files})
+
+
+def identify(
+    *robots: str,
+    log: Path | str,
+    config: Place = None,
+    write: bool = False,
+    files: Mapping[str, Path] | None = None,
+    progress: Progress = no_progress,
+    **given: Any,
+) -> IdentificationDisplay:
+    """Fit the records of a robot to a log, as `urdfsync identify` does; with `write`, write them.
+
+    `given` are fields of `IdentifyOptions`, such as `joints`. The result has `joints` (how much of each effort is
+    explained), `numbers` (before, after, standard error) and `unexcited`. It writes `files`: `plot`. Raises
+    UrdfsyncError for faults of the log, and for a robot that is out of step.
+    """
+    from urdfsync.identify import run
+    from urdfsync.identify.report import IdentificationDisplay
+    from urdfsync.identify.results import IdentifyOptions
+    from urdfsync.simulation.files import check_outputs, input_files, write_file
+
+    loaded, files, log = load(config), files or {}, Path(log)
+    robot = loaded.select_one(robots, "identify")
+    check_outputs(files, input_files(loaded, robot, None) | ({"the log": log} if log.exists() else {}))
+    result = run.identify(loaded, robot, log, IdentifyOptions(**given), progress, write=write)
+    for file in files.values():
+        from urdfsync.identify.plot import draw  # matplotlib takes 0.5 s, and is an extra
+
+        write_file(file, draw(result, file.suffix.lower().removeprefix(".")))
+    return IdentificationDisplay(**msgspec.structs.asdict(result) | {"files": files})
+
+
+def excite(
+    *robots: str,
+    file: Path | str,
+    config: Place = None,
+    seconds: float = 20.0,
+    seed: int = 0,
+    progress: Progress = no_progress,
+    **given: Any,
+) -> Excitation:
+    """Write a motion that excites the numbers of a robot, as `urdfsync identify --excite` does."""
+    from urdfsync.identify import run
+    from urdfsync.identify.results import IdentifyOptions
+    from urdfsync.simulation.files import check_outputs, input_files, write_file
+
+    loaded, file = load(config), Path(file)
+    robot = loaded.select_one(robots, "identify")
+    check_outputs({"csv": file}, input_files(loaded, robot, None))
+    text, result = run.find_motion(loaded, robot, seconds, seed, IdentifyOptions(**given), progress)
+    write_file(file, text.encode())
+    return msgspec.structs.replace(result, files={"csv": file})
 
 
 def record(

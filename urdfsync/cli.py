@@ -19,8 +19,8 @@ from urdfsync.output.console import Console, Format
 from urdfsync.spelling import nearest
 
 _COMMANDS = (
-    "init add remove adopt build diff report status watch check simulate fmu resolve record hook merge-driver library "
-    "schema completion"
+    "init add remove adopt build diff report status watch check simulate identify fmu resolve record hook merge-driver "
+    "library schema completion"
 ).split()
 """The commands in the order of the help. Each command is a module of `commands`; other commands' modules are not
 loaded."""

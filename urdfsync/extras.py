@@ -6,6 +6,7 @@ PACKAGES = {
     "epanet": "wntr",
     "fmu": "fmpy",
     "mjcf": "mujoco",
+    "log": "pyarrow",
     "physics": "pin",
     "plot": "matplotlib",
     "remote": "fsspec",

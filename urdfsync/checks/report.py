@@ -14,6 +14,7 @@ from urdfsync.checks.results import (
     CheckResult,
     CheckStatus,
     EditEffect,
+    Judgement,
     listed,
     part_word,
     worst,
@@ -40,6 +41,7 @@ _FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction ", Quantity.GROUND:
 def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     """Return the sentences below the first line, with their styles."""
     sentences = [*_numbers(result), *(_two_tools(result) if len(result.tools) > 1 else ())]
+    sentences += _measured(result.log) if result.log else ()
     if result.between is None:
         sentences += _differences(result)
     if result.strict and result.is_doubtful:
@@ -59,6 +61,14 @@ def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     elif not result.in_step:
         sentences.append(("the package is out of step; run `urdfsync build`", "yellow"))
     return sentences
+
+
+def _measured(log: Judgement) -> Iterator[tuple[str, str]]:
+    """Yield how far the model is from a log: one number, then each joint."""
+    yield f"{log.log}: {100 * log.misfit:.1f} % of the measured efforts unexplained ({log.seconds:.3g} s)", "bold"
+    for joint in log.joints:
+        share = f"{100 * joint.before / joint.measured:.1f} %" if joint.measured else "-"
+        yield f"  {joint.element}: {share}; {joint.before:.3g} of {joint.measured:.3g} {joint.unit} (RMS)", ""
 
 
 def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:

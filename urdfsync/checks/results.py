@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import itertools
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -143,13 +144,47 @@ class ToolResult(msgspec.Struct):
     """Poses and efforts of the generated package in the first simulation, for a page."""
 
 
+class JointFit(msgspec.Struct, frozen=True):
+    """The efforts of one joint in a log: root mean squares of all, and of the unexplained parts."""
+
+    element: str
+    unit: str
+    measured: float
+    before: float
+    after: float
+    offset: float
+    """The constant part of the measured effort that no part of the model explains."""
+    samples: int
+
+    @property
+    def explained(self) -> float:
+        """The share of the squared error before that is gone after."""
+        return 1 - (self.after / self.before) ** 2 if self.before else 0.0
+
+
+class Judgement(msgspec.Struct, frozen=True):
+    """How far a model is from what was measured."""
+
+    KEYS = ("log", "seconds", "misfit", "joints")
+
+    log: str
+    seconds: float
+    joints: tuple[JointFit, ...]
+
+    @property
+    def misfit(self) -> float:
+        """The root mean square, over joints, of the unexplained part of each joint's effort: 0 is perfect."""
+        shares = [joint.before / joint.measured for joint in self.joints if joint.measured]
+        return math.sqrt(sum(share * share for share in shares) / len(shares)) if shares else 0.0
+
+
 class CheckResult(msgspec.Struct):
     """The result for one robot. Only the check changes this object."""
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
         *("numbers", "edited", "uncompared_edits", "freedoms", "reference", "agrees", "worst", "tools"),
-        *("between", "between_edited", "notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
+        *("between", "between_edited", "log", "notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
     )
 
     robot: str
@@ -172,6 +207,8 @@ class CheckResult(msgspec.Struct):
     """Deviations of the second compiler from the first, for the generated package; None without two simulations."""
     between_edited: tuple[Deviation, ...] = ()
     """Deviations of the second compiler from the first, for the package with the user's edits; none without edits."""
+    log: Judgement | None = None
+    """How far the model is from a log; None without `--log`."""
     notes: tuple[str, ...] = ()
     """Assumptions of the comparison, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()

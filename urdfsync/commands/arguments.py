@@ -118,6 +118,17 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "metavar": "K/N",
         "help": "take share K of N of the robots: each robot is in one share, balanced by the size of its record",
     },
+    "--column": {
+        "dest": "columns",
+        "action": "append",
+        "metavar": "JOINT.QUANTITY=NAME",
+        "default": [],
+        "help": "a column of the log: elbow.effort=current3, or with a factor =current3*21.5; may be repeated",
+    },
+    "--motor-side": {
+        "action": "store_true",
+        "help": "the log has positions and efforts of motors: the gears of the source turn them into those of joints",
+    },
     # never from the configuration: a worker can do anything with the files
     "--executor": {
         "default": "",

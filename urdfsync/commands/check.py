@@ -9,7 +9,7 @@ from pathlib import Path
 from urdfsync.api import check
 from urdfsync.checks.compilers import BOTH, COMPILERS
 from urdfsync.checks.report import closing_lines, to_section
-from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
+from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, Judgement, exit_code
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
 from urdfsync.output.console import Console, line
@@ -23,7 +23,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "check",
-        "robots --wait --trust --executor --timeout --memory --shard",
+        "robots --wait --trust --executor --timeout --memory --shard --column --motor-side",
         formats=True,
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
@@ -35,6 +35,9 @@ def add(commands: arguments.Commands) -> None:
     option = parser.add_argument
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     option("--report", type=Path, metavar="FILE.html", help="write a page with the result of one robot")
+    option(
+        "--log", type=Path, metavar="FILE", help="tell how far one robot is from a log of its joints, CSV or Parquet"
+    )
     option("--strict", action="store_true", help="effects of edits, doubtful sources and unchecked robots fail")
     titles = {name: compiler.TITLE for name, compiler in COMPILERS.items()}
     arguments.add_tool(parser, {**titles, BOTH: BOTH})
@@ -52,12 +55,19 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Check the robots, and show each result at once; at the end show the findings about all robots."""
     if args.report and args.shard:
         raise arguments.UsageError(args.parser, "`--report` takes one robot, `--shard` a share of all")
+    if (args.columns or args.motor_side) and not args.log:
+        raise arguments.UsageError(args.parser, "`--column` and `--motor-side` need `--log`")
+    if args.log and (args.shard or args.executor):
+        raise arguments.UsageError(args.parser, "`--log` takes one robot, on this machine")
     if args.remote_write and not args.remote_cache:
         raise arguments.UsageError(args.parser, "`--remote-write` needs `--remote-cache`")
     results = list[CheckResult]()
     write_report = prepare_page(args, console, args.report) if args.report else None
 
+    judge = _judge(args, console) if args.log else None
+
     def show(result: CheckResult) -> None:
+        result.log = judge or result.log
         results.append(result)
         show_result(console, result)
 
@@ -70,6 +80,15 @@ def run(args: argparse.Namespace, console: Console) -> int:
         write_report(check=results[0])
         console.tell([line((f"  report: {args.report}", ""))])
     return console.end(exit_code(results))
+
+
+def _judge(args: argparse.Namespace, console: Console) -> Judgement:
+    """Compare the one robot with a log, before its check: a log with faults ends the command at once."""
+    from urdfsync.identify import run  # loads numpy
+    from urdfsync.identify.results import IdentifyOptions
+
+    options = IdentifyOptions(columns=tuple(args.columns), motor_side=args.motor_side, wait=args.wait)
+    return run.judge(*arguments.select_robot(args, console), args.log, options, console.progress)
 
 
 def show_result(console: Console, result: CheckResult) -> None:

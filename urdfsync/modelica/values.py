@@ -29,6 +29,8 @@ class Value(NamedTuple):
     text: str
     """The expression."""
     line: int
+    start: int = 0
+    """Where the expression begins in the text."""
 
 
 @functools.lru_cache(maxsize=4096)  # cached: most texts on disk equal the generated texts
@@ -76,7 +78,7 @@ def _of_statement(text: str, tokens: list[Token]) -> Iterator[Value]:
         at = _close(words, at) + 1
     if words[at] == "=":
         end = next(k for k in range(at + 2, len(words)) if words[k] in (";", "annotation") or words[k].startswith('"'))
-        yield Value(path, type_, text[tokens[at + 1].start : tokens[end].start].strip(), _line(text, tokens[at + 1]))
+        yield _value(text, path, type_, tokens[at + 1], tokens[end])
 
 
 def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: str) -> Iterator[Value]:
@@ -95,9 +97,7 @@ def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: st
         if words[at + 1] == "(":
             yield from _modifiers(text, tokens, at + 1, inner, type_)
         elif words[at + 1] == "=":
-            yield Value(
-                inner, type_, text[tokens[at + 2].start : tokens[end].start].strip(), _line(text, tokens[at + 2])
-            )
+            yield _value(text, inner, type_, tokens[at + 2], tokens[end])
         at = end + 1
 
 
@@ -111,5 +111,6 @@ def _close(words: Sequence[str], at: int) -> int:
     return len(words) - 1
 
 
-def _line(text: str, token: Token) -> int:
-    return text.count("\n", 0, token.start) + 1
+def _value(text: str, path: str, type_: str, first: Token, after: Token) -> Value:
+    line = text.count("\n", 0, first.start) + 1
+    return Value(path, type_, text[first.start : after.start].strip(), line, first.start)

@@ -24,7 +24,7 @@ from urdfsync.spelling import name_and_unit, nearest
 
 MOST_ROWS = 10_000
 
-_UNITS = {
+UNITS = {
     "rad": {"rad": 1.0, "deg": math.pi / 180},
     "m": {"m": 1.0, "mm": 1e-3},
     "rad/s": {"rad/s": 1.0, "deg/s": math.pi / 180},
@@ -157,7 +157,7 @@ def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Inpu
             _refuse(file, f"the model has no input `{name}`", line, f"did you mean `{near}`?" if near else others)
         if name in factors:
             _refuse(file, f"the column `{name}` is there twice", line)
-        possible = _UNITS.get(units[name], {units[name]: 1.0})
+        possible = UNITS.get(units[name], {units[name]: 1.0})
         if unit and unit not in possible:
             hint = f"give it in {' or '.join(filter(None, possible))}"
             _refuse(file, f"`{name}` can't be given in {unit}", line, hint)

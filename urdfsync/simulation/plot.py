@@ -19,13 +19,13 @@ _ROWS = ("position", "speed", "effort")
 _PER_COLUMN = 6
 _MOST = 12
 """The greatest number of series of a picture without joints."""
-_WIDTH, _HEIGHT = 6.4, 2.6
+WIDTH, HEIGHT = 6.4, 2.6
 """Width and height of a panel, in inches."""
 _LONGEST = 90
 """Letters that fit below a row of panels."""
-_PLAIN = {"svg.hashsalt": "urdfsync", "text.parse_math": False, "text.usetex": False}
+PLAIN = {"svg.hashsalt": "urdfsync", "text.parse_math": False, "text.usetex": False}
 """No dates in SVG; `$` in the name of a joint begins no formula."""
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The colours of Okabe and Ito, which colour-blind people can distinguish."""
 
 
@@ -38,11 +38,11 @@ def draw(result: SimulateResult, kind: str) -> bytes:
     if not (result.joints or 0 < len(series) <= _MOST):
         message = f"the simulation has no joints, and {len(series)} variables: a picture has at most {_MOST}"
         raise ConfigError.of("no-plot", message, hint="name some with `--variable`")
-    with rc_context({**_PLAIN, "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
+    with rc_context({**PLAIN, "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
         if series:
-            return _saved(_draw_series(result, series), kind)
+            return saved(_draw_series(result, series), kind)
         columns = list(_columns(result.joints))
-        figure = Figure(figsize=(_WIDTH * len(columns), _HEIGHT * len(_ROWS)), layout="constrained")
+        figure = Figure(figsize=(WIDTH * len(columns), HEIGHT * len(_ROWS)), layout="constrained")
         FigureCanvasAgg(figure)
         panels: Any = figure.subplots(len(_ROWS), len(columns), sharex=True, squeeze=False)
         figure.suptitle(f"{result.model}; dotted: {result.against.revision}" if result.against else result.model)
@@ -57,7 +57,7 @@ def draw(result: SimulateResult, kind: str) -> bytes:
             last.set_xlabel("time [s]")
             last.tick_params(labelbottom=True)
             panels[0][column].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-        return _saved(figure, kind)
+        return saved(figure, kind)
 
 
 def draw_study(study: Study, kind: str) -> bytes:
@@ -70,8 +70,8 @@ def draw_study(study: Study, kind: str) -> bytes:
         raise ConfigError.of("no-plot", "all cases failed, so there is nothing to draw")
     names = study.names
     width = max(len(names), len(study.varied.names), 1)
-    with rc_context({**_PLAIN, "font.size": 8, "axes.grid": True, "grid.alpha": 0.3}):
-        figure = Figure(figsize=(max(2.2 * width, 6.4), 3 * _HEIGHT), layout="constrained")
+    with rc_context({**PLAIN, "font.size": 8, "axes.grid": True, "grid.alpha": 0.3}):
+        figure = Figure(figsize=(max(2.2 * width, 6.4), 3 * HEIGHT), layout="constrained")
         FigureCanvasAgg(figure)
         figure.suptitle(f"{study.model}: {study.within} of {len(study.outcomes)} cases within all limits")
         rows = figure.add_gridspec(2, 1, height_ratios=(2, 1))
@@ -84,7 +84,7 @@ def draw_study(study: Study, kind: str) -> bytes:
                 panel.set_title(f"{joint.short}: {quantity}", fontsize=8)
         panels = rows[1].subgridspec(1, len(study.varied.names)).subplots(squeeze=False, sharey=True)[0]
         for column, (panel, name) in enumerate(zip(panels, study.varied.names, strict=True)):
-            for status, colour in (("within", _COLOURS[2]), ("beyond", _COLOURS[1])):
+            for status, colour in (("within", COLOURS[2]), ("beyond", COLOURS[1])):
                 chosen = [number for number in simulated if study.outcomes[number].status == status]
                 values = [study.varied.rows[number][column] for number in chosen]
                 loads = [study.outcomes[number].load for number in chosen]
@@ -93,24 +93,24 @@ def draw_study(study: Study, kind: str) -> bytes:
             panel.set_xlabel(name if len(name) * len(panels) < _LONGEST else f"…{name[-_LONGEST // len(panels) :]}")
         panels[0].set_ylabel("greatest share of a limit")
         panels[-1].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-        return _saved(figure, kind)
+        return saved(figure, kind)
 
 
 def _draw_sizes(panel: Any, extents: Sequence[Extent], unit: str) -> None:
     """Draw how many cases have each greatest absolute value, and the limit if it is near."""
     panel.set_visible(bool(extents))  # a joint that follows another has no effort
     sizes = [extent.size for extent in extents]
-    panel.hist(sizes, bins=min(30, max(5, len(sizes) // 5)), color=_COLOURS[0])
+    panel.hist(sizes, bins=min(30, max(5, len(sizes) // 5)), color=COLOURS[0])
     limits = {extent.upper for extent in extents if extent.upper is not None}
     low, high = panel.get_xlim()
     for limit in limits if len(limits) == 1 else ():
         if limit <= high + 1.5 * (high - low):  # a far limit would flatten the bars
-            panel.axvline(limit, color=_COLOURS[1], linestyle="--", linewidth=1)
+            panel.axvline(limit, color=COLOURS[1], linestyle="--", linewidth=1)
     panel.set_xlabel(unit)
 
 
 def _draw_series(result: SimulateResult, names: Sequence[str]) -> Figure:
-    figure = Figure(figsize=(2 * _WIDTH, 2 * _HEIGHT), layout="constrained")
+    figure = Figure(figsize=(2 * WIDTH, 2 * HEIGHT), layout="constrained")
     FigureCanvasAgg(figure)
     panel: Any = figure.subplots()
     figure.suptitle(result.model)
@@ -121,7 +121,8 @@ def _draw_series(result: SimulateResult, names: Sequence[str]) -> Figure:
     return figure
 
 
-def _saved(figure: Figure, kind: str) -> bytes:
+def saved(figure: Figure, kind: str) -> bytes:
+    """Return a picture, `png` or `svg`; the same figure gives the same bytes."""
     figure.draw_without_rendering()  # places the panels
     figure.set_layout_engine("none")
     for panel in figure.findobj(Axes):
@@ -148,7 +149,7 @@ def _draw_panel(panel: Any, name: str, joints: Sequence[JointResult], result: Si
     """Draw one quantity of some joints; near limits are dashed in the colour of the joint."""
     units = []
     times, drawn = result.series["time"], [getattr(joint, name) for joint in joints]
-    for joint, quantity, colour in zip(joints, drawn, _COLOURS, strict=False):
+    for joint, quantity, colour in zip(joints, drawn, COLOURS, strict=False):
         label = f"{joint.robot}: {joint.element}" if joint.robot not in ("", "robot") else joint.element
         values = result.series[quantity.variable] if quantity else [float("nan")] * len(times)
         panel.plot(times, values, color=colour, label=label, linewidth=1.3)
@@ -158,7 +159,7 @@ def _draw_panel(panel: Any, name: str, joints: Sequence[JointResult], result: Si
         if quantity:
             units.append(quantity.unit)
     low, high = panel.get_ylim()
-    for quantity, colour in zip(drawn, _COLOURS, strict=False):
+    for quantity, colour in zip(drawn, COLOURS, strict=False):
         for limit in _limits(quantity):
             if low - 0.5 * (high - low) <= limit <= high + 0.5 * (high - low):  # far limits would flatten the curves
                 panel.axhline(limit, color=colour, linestyle="--", linewidth=0.8)

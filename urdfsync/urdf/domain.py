@@ -69,7 +69,7 @@ class UrdfDomain(Domain):
     permissive_options = Options(allow=get_args(LeftOut))
     cured = ("loop-singular",)
     advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
-    judgements = _Module("plausibility.judgements")
+    judgements, identification = _Module("plausibility.judgements"), _Module("physics.regressor")
     imports, simulation, pictures = _Module("meshes.lookup"), _Module("benches"), _Module("scene")
     companions = (
         CompanionKind("closed_loops", ".yaml", CLOSED_LOOP),

@@ -1,0 +1,277 @@
+"""Reads a log of positions, velocities and efforts of joints piece by piece: CSV and Parquet.
+
+A piece has at most `ROWS` rows, however long the file is. Gaps and resets of the time end a piece.
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple, NoReturn
+
+import numpy as np
+
+from urdfsync.diagnostics import ConfigError, SourceError
+from urdfsync.extras import install_command
+from urdfsync.files import kind_of, shown
+from urdfsync.identify.results import QUANTITIES, Array, Axis, IdentifyOptions
+from urdfsync.numerals import find_separator
+from urdfsync.simulation.motion import UNITS
+from urdfsync.spelling import counted, name_and_unit
+
+ROWS = 50_000
+_LEAST = 50
+"""Shorter pieces are left out: the filter takes as much from both ends."""
+_GAP = 5
+"""A step in time of so many usual steps is a gap."""
+_SEPARATORS = re.compile(r"[\W_]+")
+_WORDS = {
+    "position": "position positions pos q phi s",
+    "velocity": "velocity velocities vel speed qd dq w v",
+    "effort": "effort efforts eff torque force tau f current",
+}
+_TIMES = ("time", "t", "timestamp", "stamp")
+_UNITS = {
+    ("rad", "position"): "rad",
+    ("rad", "velocity"): "rad/s",
+    ("rad", "effort"): "N.m",
+    ("m", "position"): "m",
+    ("m", "velocity"): "m/s",
+    ("m", "effort"): "N",
+}
+_MARGIN = 1.05
+"""So far beyond its limits, as a factor, a joint may be."""
+
+
+class Column(NamedTuple):
+    """A column of the log."""
+
+    place: int
+    factor: float
+
+
+class Piece(NamedTuple):
+    """Samples without a gap: times in s, and a column for each axis in SI at the joint's side."""
+
+    times: Array
+    position: Array
+    velocity: Array | None
+    effort: Array
+
+
+class Log:
+    """A log, read once; `dropped` tells after that what was left out."""
+
+    def __init__(self, file: Path, axes: Sequence[Axis], options: IdentifyOptions) -> None:
+        """Raises UrdfsyncError for a file without positions and efforts of a joint."""
+        self.file, self._axes, self._options = file, axes, options
+        self.dropped = Counter[str]()
+        if not file.is_file():
+            what = f"{kind_of(file.stat().st_mode)} is there" if file.exists() else "there is no such file"
+            _refuse(file, what, hint="name a CSV or Parquet file")
+        self._is_parquet = file.suffix.lower() in (".parquet", ".pq")
+        self.header = _parquet(file).schema_arrow.names if self._is_parquet else _header(file)
+        self.time, self.columns = self._find_columns()
+        self.measured = [k for k in range(len(axes)) if {(k, "position"), (k, "effort")} <= self.columns.keys()]
+        """The axes with positions and efforts, by number."""
+        used = {self.time.place, *(column.place for column in self.columns.values())}
+        self.unused = [name for place, name in enumerate(self.header) if place not in used]
+        if not self.measured:
+            names = ", ".join(axis.name for axis in axes)
+            message = f"no joint has a position and an effort: the columns are {', '.join(self.header)[:300]}"
+            first = axes[0].name
+            hint = f"the joints are {names}: name the columns {first}.position and {first}.effort, or give "
+            _refuse(file, message, 1, hint + f"`--column {first}.effort=NAME`")
+
+    def _find_columns(self) -> tuple[Column, dict[tuple[int, str], Column]]:
+        aliases = dict[str, tuple[int, str]]()
+        for k, axis in enumerate(self._axes):
+            for quantity, words in _WORDS.items():
+                for word in words.split():
+                    for name in dict.fromkeys([axis.name, axis.component]):
+                        aliases[_plain(f"{name} {word}")] = aliases[_plain(f"{word} {name}")] = k, quantity
+        time: Column | None = None
+        columns = dict[tuple[int, str], Column]()
+        for place, cell in enumerate(self.header):
+            name, unit = name_and_unit(cell)
+            name = _plain(name).removeprefix("jointstates").removeprefix("robot")
+            if name in _TIMES and time is None:
+                time = Column(place, {"ns": 1e-9, "us": 1e-6}.get(unit) or self._factor(cell, unit, "s"))
+            elif name in aliases:
+                k, quantity = aliases[name]
+                factor = self._factor(cell, unit, _UNITS[self._axes[k].unit, quantity])
+                if (k, quantity) in columns:
+                    _refuse(self.file, f"two columns give the {quantity} of {self._axes[k].name}", 1, "rename one")
+                columns[k, quantity] = Column(place, factor)
+        columns |= self._stated()
+        if time is None:
+            _refuse(self.file, "no column is the time", 1, "name it `time` in s, or `time [ms]`")
+        if self._options.motor_side:
+            for (k, quantity), column in columns.items():
+                ratio = self._axes[k].reduction
+                factor = column.factor * (ratio if quantity == "effort" else 1 / ratio)
+                columns[k, quantity] = column._replace(factor=factor)
+        return time, columns
+
+    def _stated(self) -> Iterator[tuple[tuple[int, str], Column]]:
+        """Yield the columns that the user names: `elbow.effort=current3*21.5`. Raises ConfigError."""
+        joints = {axis.name: k for k, axis in enumerate(self._axes)}
+        for text in self._options.columns:
+            target, _, source = text.partition("=")
+            joint, _, quantity = target.rpartition(".")
+            name, star, number = source.rpartition("*")
+            name, factor = (name, number) if star and source not in self.header else (source, "1")
+            if joint not in joints or quantity not in QUANTITIES or name not in self.header:
+                names = f"the joints are {', '.join(joints)}; the columns are {', '.join(self.header)[:300]}"
+                message = f"`--column {text}` names no joint, quantity ({', '.join(QUANTITIES)}) or column"
+                raise ConfigError.of("log", message, hint=names)
+            try:
+                yield (joints[joint], quantity), Column(self.header.index(name), float(factor))
+            except ValueError:
+                raise ConfigError.of("log", f"`--column {text}`: {factor!r} is no number") from None
+
+    def _factor(self, cell: str, unit: str, wanted: str) -> float:
+        if unit and unit not in UNITS[wanted]:
+            _refuse(self.file, f"`{cell}` can't be read in {unit}", 1, f"give it in {' or '.join(UNITS[wanted])}")
+        return UNITS[wanted][unit] if unit else 1.0
+
+    def pieces(self) -> Iterator[Piece]:
+        """Yield the pieces of the log. Raises SourceError for a row that can't be read, and for wrong units."""
+        usual, last = 0.0, -math.inf
+        for rows in _parquet_rows(self.file) if self._is_parquet else _csv_rows(self.file, self.header):
+            used = [self.time.place, *(column.place for column in self.columns.values())]
+            whole = np.isfinite(rows[:, used]).all(axis=1)
+            self.dropped["row without a number"] += int(np.count_nonzero(~whole))
+            rows = rows[whole]
+            times = self.time.factor * rows[:, self.time.place]
+            steps = np.diff(times, prepend=last)
+            usual = usual or (float(np.median(steps[1:][steps[1:] > 0])) if (steps[1:] > 0).any() else 0.0)
+            again = steps == 0
+            self.dropped["row with the time of the row before"] += int(np.count_nonzero(again))
+            rows, times, steps = rows[~again], times[~again], steps[~again]
+            breaks = (steps < 0) | (steps > _GAP * usual)
+            self.dropped["reset of the time"] += int(np.count_nonzero(steps < 0))
+            self.dropped["gap"] += int(np.count_nonzero(np.isfinite(steps) & (steps > _GAP * usual)))
+            last = times[-1] if len(times) else last
+            for part in np.split(np.arange(len(times)), np.flatnonzero(breaks)):
+                if len(part) >= _LEAST:
+                    yield self._piece(times[part], rows[part])
+                elif len(part):
+                    self.dropped["row in a piece that is too short"] += len(part)
+
+    def _piece(self, times: Array, rows: Array) -> Piece:
+        shape = len(rows), len(self._axes)
+        tables = {quantity: np.zeros(shape) for quantity in QUANTITIES}
+        tables["position"] += [axis.start for axis in self._axes]
+        for (k, quantity), column in self.columns.items():
+            tables[quantity][:, k] = column.factor * rows[:, column.place]
+        for k in self.measured:
+            self._check_range(self._axes[k], tables["position"][:, k])
+        moving = [k for k in range(shape[1]) if (k, "position") in self.columns]
+        has_velocities = all((k, "velocity") in self.columns for k in moving)
+        return Piece(times, tables["position"], tables["velocity"] if has_velocities else None, tables["effort"])
+
+    def _check_range(self, axis: Axis, values: Array) -> None:
+        """Refuse positions that are degrees, or those of motors."""
+        ends = float(values.min()), float(values.max())
+        width = max(map(abs, axis.range)) if np.isfinite(axis.range).all() else 40 * math.pi
+        most = max(map(abs, ends))
+        if most <= _MARGIN * width or self._options.motor_side:
+            return
+        message = f"{axis.name} moves from {ends[0]:.4g} to {ends[1]:.4g} {axis.unit}, far beyond its limits"
+        if abs(axis.reduction) > 1 and most / abs(axis.reduction) <= _MARGIN * width:
+            _refuse(self.file, f"{message}: its motor would, by a gear of {axis.reduction:g}", 0, "give `--motor-side`")
+        if axis.unit == "rad" and math.radians(most) <= _MARGIN * width:
+            _refuse(self.file, f"{message}: these look like degrees", 1, f"write `{axis.name}.position [deg]`")
+        if axis.unit == "m" and most / 1000 <= _MARGIN * width:
+            _refuse(self.file, f"{message}: these look like millimetres", 1, f"write `{axis.name}.position [mm]`")
+
+    def told(self) -> tuple[str, ...]:
+        """Return what was left out, in words."""
+        parts = [(number, *what.partition(" ")) for what, number in self.dropped.items() if number]
+        rows = tuple(f"{counted(number, noun)}{space}{rest}" for number, noun, space, rest in parts)
+        others = [axis.name for k, axis in enumerate(self._axes) if (k, "position") not in self.columns]
+        resting = (f"not in the log, taken to rest at the start: {', '.join(others)}",) if others else ()
+        unused = (f"columns without a use: {', '.join(self.unused)[:300]}",) if self.unused else ()
+        return (*rows, *resting, *unused)
+
+
+def _plain(name: str) -> str:
+    return _SEPARATORS.sub("", name).lower()
+
+
+def _header(file: Path) -> list[str]:
+    try:
+        with file.open(encoding="utf-8-sig", newline="") as lines:
+            first = lines.readline(100_000)
+            separator, text = find_separator(first)
+            return [cell.strip() for cell in next(csv.reader([text or lines.readline()], delimiter=separator), [])]
+    except UnicodeDecodeError:
+        _refuse(file, "the file is no text", hint="name a CSV or Parquet file")
+    except (OSError, csv.Error) as error:
+        _refuse(file, f"the file can't be read: {error}")
+
+
+def _csv_rows(file: Path, header: Sequence[str]) -> Iterator[Array]:
+    """Yield the rows as numbers, with NaN for an empty cell."""
+    with file.open(encoding="utf-8-sig", newline=None) as lines:
+        separator, _ = find_separator(lines.readline())
+        number = 2
+        try:
+            while chunk := list(itertools.islice(lines, ROWS)):
+                if separator != ",":
+                    chunk = [line.replace(",", ".") for line in chunk]
+                try:
+                    rows = np.loadtxt(chunk, delimiter=separator, ndmin=2, comments=None)
+                except ValueError:  # empty cells, or a fault: the slow way finds out
+                    rows = np.array(list(_cells(file, chunk, separator, number, len(header))))
+                if rows.size and rows.shape[1] != len(header):
+                    _refuse(file, f"the row has {rows.shape[1]} cells, the header {len(header)}", number)
+                if rows.size:
+                    yield rows
+                number += len(chunk)
+        except UnicodeDecodeError:
+            _refuse(file, "the file is not in UTF-8", number)
+
+
+def _cells(file: Path, chunk: Sequence[str], separator: str, number: int, width: int) -> Iterator[list[float]]:
+    for line, row in enumerate(csv.reader(chunk, delimiter=separator), number):
+        if not any(cell.strip() for cell in row):
+            continue
+        if len(row) != width:
+            _refuse(file, f"the row has {len(row)} cells, the header {width}", line)
+        try:
+            yield [float(cell) if cell.strip() else math.nan for cell in row]
+        except ValueError as error:
+            _refuse(file, f"a cell is no number: {str(error).rpartition(': ')[2]}", line)
+
+
+def _parquet(file: Path) -> Any:
+    try:
+        from pyarrow import ArrowException, parquet
+    except ImportError:
+        raise ConfigError.of(
+            "log", "Parquet needs pyarrow, which is not installed", hint=install_command("log")
+        ) from None
+    try:
+        return parquet.ParquetFile(file)
+    except (ArrowException, OSError) as error:
+        _refuse(file, f"the file can't be read: {str(error).splitlines()[0]}")
+
+
+def _parquet_rows(file: Path) -> Iterator[Array]:
+    for batch in _parquet(file).iter_batches(batch_size=ROWS):
+        try:
+            columns = [np.array(column.to_numpy(zero_copy_only=False), float) for column in batch.columns]
+        except (TypeError, ValueError) as error:
+            _refuse(file, f"a column has no numbers: {error}")
+        yield np.column_stack(columns)
+
+
+def _refuse(file: Path, message: str, line: int = 0, hint: str = "") -> NoReturn:
+    raise SourceError.of("log", message, shown(file), line, hint=hint)

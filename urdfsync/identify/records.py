@@ -1,0 +1,167 @@
+"""The records of a robot on disk: their numbers, and how fitted ones get into them as edits."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from urdfsync import registry
+from urdfsync.checks.experiment import Sample
+from urdfsync.checks.package import RobotPackage, read_package
+from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.domain import Role
+from urdfsync.engine.options import BuildOptions
+from urdfsync.files import failure, put, shown
+from urdfsync.identify.results import FittedNumber
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.values import Value, literals, read_values
+
+_COMMENT = re.compile(r"/[*/]")
+_ITEM = re.compile(r"\[(\d)\]$")
+_ELEMENT = re.compile(r"(\w+) (.*)", re.DOTALL)
+
+
+class Place:
+    """One value in one record."""
+
+    def __init__(self, path: str, value: Value) -> None:
+        self.path, self.start, self.line = path, value.start, value.line
+        self.text = _COMMENT.split(value.text)[0].rstrip()
+        self.numbers = literals(self.text)
+
+
+class Records:
+    """The records of a robot, which agree with its source but for the user's edits."""
+
+    def __init__(self, config: Config, package: RobotPackage) -> None:
+        self.config, self.package, self.notes = config, package, tuple[Diagnostic, ...]()
+        artifacts = package.generation.package.artifacts
+        self.paths = [path for path, artifact in artifacts.items() if artifact.role is Role.RECORD]
+        self.values = _by_element({path: _text(package.on_disk[path]) for path in self.paths})
+        """Values by element, then by path: a link may have a record of its own, and be in that of the whole robot."""
+        self._edited = dict(self._edits())
+        models = [path for path in package.changed if path not in self.paths]
+        if models:
+            message = f"{', '.join(models[:3])} edited: the fit takes links and joints as they are generated"
+            self.notes = (Diagnostic(Severity.NOTE, "identify", message, shown(package.robot.folder)),)
+
+    def _edits(self) -> Iterator[tuple[tuple[str, str], dict[str, tuple[float, ...]]]]:
+        generated = _by_element({path: _text(self.package.generated[path]) for path in self.paths})
+        for element, paths in self.values.items():
+            edits = dict[str, tuple[float, ...]]()
+            for path, places in paths.items():
+                before = generated.get(element, {}).get(path)
+                if before is None or before[0].numbers == places[0].numbers is not None:
+                    continue
+                if not isinstance(places[0].numbers, tuple):
+                    file = shown(self.package.robot.folder / places[0].path)
+                    message = f"{element}: {path} is edited to `{places[0].text}`, which is no number"
+                    raise ConfigError.of("identify", message, file, places[0].line, hint="write a number")
+                edits[path] = places[0].numbers
+            if edits and (match := _ELEMENT.fullmatch(element)):
+                yield (match[1], match[2]), edits
+
+    def regressor(self) -> Any:
+        """Return the model of the robot with its edits. Raises UrdfsyncError."""
+        robot, inputs = self.package.robot, self.package.inputs
+        physics = registry.domain(robot.domain).identification
+        if physics is None:
+            message = f"robot `{robot.name}` has no joints whose efforts a log could show"
+            raise ConfigError.of("identify", message, shown(self.config.file))
+        source, imports = inputs.source, self.package.generation.now.imports or {}
+        texts = self.package.on_disk
+        place = shown(robot.source)
+        sample = Sample(source.content, place, robot.target, robot.options, imports, texts, source.companions)
+        return physics.read_regressor(sample, self._edited)
+
+    def has(self, element: str, path: str) -> bool:
+        """Return whether a number is in a record."""
+        return _ITEM.sub("", path) in self.values.get(element, {})
+
+    def write(self, numbers: Sequence[FittedNumber]) -> tuple[str, ...]:
+        """Write numbers into the records, as a user would; return the files. Raises UrdfsyncError.
+
+        Nothing is written if one of the files changed since it was read.
+        """
+        changes = dict[str, list[tuple[Place, str]]]()
+        values = dict[tuple[str, str], list[str]]()
+        for number in numbers:
+            if not number.is_written:
+                continue
+            item, path = _ITEM.search(number.path), _ITEM.sub("", number.path)
+            places = self.values[number.element][path]
+            words = values.setdefault((number.element, path), [])
+            if not words:
+                words += [repr(part) for part in places[0].numbers or ()]
+            words[int(item[1]) - 1 if item else 0] = spelled(number)
+        for (element, path), words in values.items():
+            for place in self.values[element][path]:
+                text = f"{{{', '.join(map(_short, words))}}}" if place.text.startswith("{") else _short(words[0])
+                changes.setdefault(place.path, []).append((place, text))
+        folder, contents = self.package.robot.folder, dict[Path, bytes]()
+        for path, of_file in changes.items():
+            before = read_unrecorded(folder / path)
+            if before != self.package.on_disk[path]:
+                raise ConfigError.of("identify", "the file was saved meanwhile", shown(folder / path), hint="try again")
+            text = _text(before)
+            for place, new in sorted(of_file, key=lambda each: -each[0].start):
+                text = text[: place.start] + new + text[place.start + len(place.text) :]
+            contents[folder / path] = text.encode(errors="surrogateescape")
+        for file, content in contents.items():
+            try:
+                put(file, content)
+            except OSError as error:
+                raise failure(error, file) from None
+        return tuple(file.relative_to(self.config.root).as_posix() for file in contents)
+
+
+def read_records(config: Config, robot: RobotConfig, wait: float) -> Records:
+    """Read the records of a robot. Raises ConfigError if it is out of step or in conflict, or if one is no record."""
+    package = read_package(config, robot, BuildOptions(dry=True, wait=wait, jobs=1))
+    place = shown(robot.folder)
+    if not package.in_step:
+        state = "is in conflict" if package.conflicting else "is out of step with its source"
+        hint = "resolve the conflicts: `urdfsync resolve`" if package.conflicting else "run `urdfsync build`"
+        raise ConfigError.of("identify", f"robot `{robot.name}` {state}", place, hint=hint)
+    for path, artifact in package.generation.package.artifacts.items():
+        if artifact.role is Role.RECORD:
+            text = parse(_text(package.on_disk.get(path, b"")))
+            if text.is_broken or [each.kind for each in text.classes] != ["record"]:
+                file = shown(robot.folder / path)
+                raise ConfigError.of("identify", "the edited file is no single record", file, hint="correct it")
+    return Records(config, package)
+
+
+def spelled(number: FittedNumber) -> str:
+    """Return a number with two digits more than its standard error has, and with six at least."""
+    return f"{number.after:.6g}"
+
+
+def _text(content: bytes) -> str:
+    return content.decode(errors="surrogateescape")  # with its line ends, so that places in the text are those on disk
+
+
+def _short(word: str) -> str:
+    return word.removesuffix(".0")
+
+
+def _by_element(texts: Mapping[str, str]) -> dict[str, dict[str, list[Place]]]:
+    """Return the values of links and joints by element and path; those of the elements' own records come first."""
+    found = dict[str, dict[str, list[Place]]]()
+    for path, text in sorted(texts.items(), key=lambda item: "/" not in item[0]):
+        prefix = "" if "/" in path else None
+        names, values = dict[str, str](), read_values(text)
+        for value in values:
+            component, _, rest = value.path.rpartition(".")
+            if (rest or value.path) == "name" and (prefix is None) == bool(component):
+                kind = "link" if value.type.endswith(".Link") else "joint"
+                names[component] = f"{kind} {literals(value.text)}"
+        for value in values:
+            component, _, rest = ("", "", value.path) if prefix == "" else value.path.partition(".")
+            if component in names:
+                found.setdefault(names[component], {}).setdefault(rest, []).append(Place(path, value))
+    return found

@@ -1,0 +1,107 @@
+"""Reports an identification: the joints, the numbers, and what stayed or was left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from urdfsync.checks.results import JointFit
+from urdfsync.identify.results import NUMBERS, Excitation, FittedNumber, Identification, Unexcited
+from urdfsync.output.console import StyledLine, findings, html, line
+from urdfsync.spelling import counted
+
+_JOINTS = ("joint", "measured", "before", "after", "explained", "unit")
+_NUMBERS = ("element", "number", "before", "after", "± error", "change")
+_TENSOR = NUMBERS[4:]
+_SURE = 3
+"""A number has changed if it did by so many standard errors."""
+
+
+class IdentificationDisplay(Identification, frozen=True):
+    """An identification with a display for notebooks."""
+
+    def _repr_html_(self) -> str:
+        return html([*identification_lines(self), *findings(self.diagnostics)])
+
+
+def identification_lines(result: Identification) -> Iterator[StyledLine]:
+    """Yield the lines about an identification, without its diagnostics."""
+    late = f"efforts {1000 * abs(result.delay):.1f} ms {'late' if result.delay > 0 else 'early'}"
+    about = f"{result.seconds:.3g} s at {result.rate:.4g} Hz, filtered at {result.cutoff:.3g} Hz; {late}"
+    yield line((result.robot, "bold"), (f": {result.log}, {about}", ""))
+    yield from _table([_JOINTS, *map(_joint, result.joints)])
+    if result.held_out:
+        yield line(("  the seconds that were not fitted:", ""))
+        yield from _table([_JOINTS, *map(_joint, result.held_out)])
+    yield from _table([_NUMBERS, *map(_number, result.numbers)])
+    if result.unexcited:
+        yield line(("  stays, since the motion does not determine it:", ""))
+        yield from (line((f"    {text}", "dim")) for text in _grouped(result.unexcited))
+    for link in result.freed:
+        text = f"  {link}: all its numbers are fitted, since no body has the determined ones and the source's others"
+        yield line((text, "yellow"))
+    yield from (line((f"  left out: {text}", "dim")) for text in result.dropped)
+    if homeless := sorted({number.element for number in result.numbers if not number.is_written}):
+        yield line((f"  no record has numbers of {', '.join(homeless)}: see the hint", "yellow"))
+    if result.written:
+        yield line(
+            (f"  {counted(len(result.written), 'record')} written", "bold"), ("; `urdfsync diff --edits`", "dim")
+        )
+    else:
+        yield line(("  nothing written: `--write` writes the numbers into the records", "dim"))
+    yield from _files(result.files)
+
+
+def excitation_lines(result: Excitation) -> Iterator[StyledLine]:
+    """Yield the lines about a motion."""
+    numbers = counted(result.numbers, "number")
+    about = f"{result.seconds:g} s that determine {numbers}; condition {result.condition:.3g}"
+    yield line((result.robot, "bold"), (f": {about} (the first try: {result.first_condition:.3g})", ""))
+    if result.resting:
+        yield line((f"  at rest, since Run does not drive them: {', '.join(result.resting)}", "dim"))
+    yield line(("  collisions are not looked for: play the motion with `urdfsync simulate --input` first", "yellow"))
+    yield from _files(result.files)
+
+
+def joint_lines(joints: Sequence[JointFit]) -> Iterator[StyledLine]:
+    """Yield a row for each joint, without a fit."""
+    rows = [(each.element, f"{each.measured:.3g}", f"{each.before:.3g}", each.unit) for each in joints]
+    yield from _table([("joint", "measured", "unexplained", "unit"), *rows])
+
+
+def _files(files: Mapping[str, object]) -> Iterator[StyledLine]:
+    for kind, file in files.items():
+        yield line((f"  {kind}: ", ""), (str(file), "bold"))
+
+
+def _table(rows: Iterable[Sequence[str]]) -> Iterator[StyledLine]:
+    rows = list(rows)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for number, row in enumerate(rows if len(rows) > 1 else []):
+        cells = "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        style = "dim" if not number else "yellow" if row[-1].endswith("!") else ""
+        yield line((f"  {cells}".rstrip().removesuffix("!"), style))
+
+
+def _joint(joint: JointFit) -> tuple[str, ...]:
+    roots = (f"{value:.3g}" for value in (joint.measured, joint.before, joint.after))
+    return (joint.element.partition(" ")[2], *roots, f"{100 * joint.explained:.1f} %", joint.unit)
+
+
+def _number(number: FittedNumber) -> tuple[str, ...]:
+    change = number.after - number.before
+    share = f"{100 * change / number.before:+.1f} %" if number.before else f"{change:+.3g}"
+    sure = share if abs(change) > _SURE * number.error else f"{share} (not sure)"
+    values = f"{number.before:.5g}", f"{number.after:.5g}", f"{number.error:.2g}"
+    return number.element, _short(number.path), *values, sure
+
+
+def _short(path: str) -> str:
+    return path.partition(".")[2]
+
+
+def _grouped(unexcited: Sequence[Unexcited]) -> Iterator[str]:
+    for each in unexcited:
+        paths = each.paths
+        names = [_short(path) for path in paths if path not in _TENSOR or not {*_TENSOR} <= {*paths}]
+        whole = ["the inertia"] if {*_TENSOR} <= {*paths} else []
+        yield f"{each.element}: " + ("all" if len(paths) == len(NUMBERS) else ", ".join([*names, *whole]))

@@ -1,0 +1,275 @@
+"""Compares a log with a robot's package, and fits the numbers of its records to the log."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from urdfsync.checks.results import JointFit, Judgement
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
+from urdfsync.engine.options import Progress
+from urdfsync.files import shown
+from urdfsync.identify import signals
+from urdfsync.identify.fit import Evidence, Fit, Problem, fit, is_body
+from urdfsync.identify.log import Log
+from urdfsync.identify.records import Records, read_records
+from urdfsync.identify.results import (
+    NUMBERS,
+    QUANTITIES,
+    Array,
+    Body,
+    Excitation,
+    FittedNumber,
+    Identification,
+    IdentifyOptions,
+    Regressor,
+    Series,
+    Unexcited,
+)
+from urdfsync.spelling import nearest
+
+_STORED = 3_000_000
+"""So many numbers of samples remain in memory: for the plot, and to see how alike neighbouring residuals are."""
+
+_USUAL_DELAY = 0.005
+"""In s: a longer delay needs evidence, since in slow motions damping looks much like a delay."""
+_USUAL_OFFSET = 0.02
+"""Of a sensor, in root mean squares of the effort: in a small range, an offset looks much like gravity."""
+
+
+class Measured:
+    """A log against a model: the evidence of all samples, and some of the samples."""
+
+    def __init__(self, regressor: Regressor, file: Path, options: IdentifyOptions, progress: Progress) -> None:
+        """Raises UrdfsyncError for a log that can't be used."""
+        self.regressor, self.log = regressor, Log(file, regressor.axes, options)
+        self.axes = [regressor.axes[k] for k in self.log.measured]
+        self.parameters = 10 * len(regressor.bodies) + len(regressor.losses)
+        self.evidence, self.held_out = Evidence(len(self.axes)), Evidence(len(self.axes))
+        self.sizes = np.full((3, len(self.axes)), 1e-12)
+        """The greatest speed, 1 and acceleration of each axis, as damping, dry friction and inertia act on them."""
+        self.seconds = self.rate = self.cutoff = 0.0
+        self._stored: list[tuple[Array, Array, np.ndarray]] = []
+        self._left_out = 0
+        first, total = 0.0, 0
+        for number, piece in enumerate(self.log.pieces()):
+            self.cutoff = self.cutoff or options.cutoff or signals.find_cutoff(piece, self.log.measured)
+            first = first if number else piece.times[0]
+            total += len(piece.times)
+            progress("reading the log", total, 0)
+            samples = signals.prepare(piece, regressor.axes, self.cutoff)
+            if samples is None:
+                self.log.dropped["row in a piece that is too short"] += len(piece.times)
+                continue
+            self.rate = self.rate or (len(piece.times) - 1) / (piece.times[-1] - piece.times[0])
+            self.seconds += piece.times[-1] - piece.times[0]
+            self._add(samples, first + (np.inf if options.until is None else options.until))
+        if not self.evidence.counts.any():
+            message = f"{shown(file)} has no sample in which a joint moves: {'; '.join(self.log.told()) or 'all rest'}"
+            raise SourceError.of("log", message, hint="the joints have to move for a few seconds without a gap")
+
+    def _add(self, samples: signals.Samples, end: float) -> None:
+        derivatives, model = self.regressor.rows(samples.q, samples.v, samples.a)
+        chosen = self.log.measured
+        places, derivatives, model = signals.thinned(samples, self.cutoff, derivatives[:, chosen], model[:, chosen])
+        times, is_free = samples.times[places], samples.is_free[places][:, chosen]
+        self._left_out += int(np.count_nonzero(~is_free))
+        self.sizes[0] = np.maximum(self.sizes[0], np.abs(samples.v[:, chosen]).max(axis=0))
+        self.sizes[2] = np.maximum(self.sizes[2], np.abs(samples.a[:, chosen]).max(axis=0))
+        self.sizes[1] = 1.0
+        offsets = np.broadcast_to(np.eye(len(chosen)), (len(places), len(chosen), len(chosen)))
+        efforts = np.moveaxis(samples.efforts[:, places][:, :, chosen], 0, 2)
+        rows = np.concatenate([derivatives, offsets, efforts, model[:, :, None]], axis=2)
+        for j in range(len(chosen)):
+            early = is_free[:, j] & (times < end)
+            self.evidence.add(j, rows[early, j])
+            self.held_out.add(j, rows[is_free[:, j] & (times >= end), j])
+        if sum(block.size for _, block, _ in self._stored) + rows.size < _STORED or not self._stored:
+            self._stored.append((times, rows, is_free))
+
+    def delay(self) -> float:
+        """Return the delay of the efforts in s with which the model, as it is, explains most."""
+        from scipy.optimize import minimize_scalar
+
+        def cost(delay: float) -> float:
+            return float(self.evidence.counts @ np.log(self.evidence.roots(self._at(signals.target_at(delay)))))
+
+        coarse, step = float(min(signals.SHIFTS[1:-1], key=cost)), float(np.diff(signals.SHIFTS)[0])
+        return float(minimize_scalar(cost, bounds=(coarse - step, coarse + step), method="bounded").x)
+
+    def _at(self, target: Array) -> Array:
+        return np.concatenate([np.zeros(self.parameters + len(self.axes)), target])
+
+    def joint_fits(self, evidence: Evidence, target: Array, delta: Array) -> tuple[JointFit, ...]:
+        """Return how well the model explains each joint, before and after a change of its parameters."""
+        measured = target.copy()
+        measured[-1] = 0.0
+        rows, left = [], np.concatenate([delta, -target])
+        for j, axis in enumerate(self.axes):
+            if count := int(evidence.counts[j]):
+                parts = self._at(measured), self._at(target), left
+                whole, before, after = (math.sqrt(evidence.squares(j, part) / count) for part in parts)
+                unit, offset = "N·m" if axis.unit == "rad" else "N", float(delta[self.parameters + j])
+                rows.append(JointFit(f"joint {axis.name}", unit, whole, before, after, offset, count))
+        return tuple(rows)
+
+    def series(self, target: Array, delta: Array) -> Series:
+        """Return the stored samples."""
+        times, rows, is_free = (np.concatenate(parts) for parts in zip(*self._stored, strict=True))
+        count = len(delta)
+        measured, model = rows[:, :, count:-1] @ target[:-1], rows[:, :, -1]
+        return Series(times, measured, model, model + rows[:, :, :count] @ delta, is_free)
+
+    def told(self) -> tuple[str, ...]:
+        """Return what was left out of the log, in words."""
+        held = self._left_out
+        words = f"{held} filtered samples of joints that stand still, or whose effort is at its limit"
+        return (*self.log.told(), *([words] if held else []))
+
+
+def identify(
+    config: Config, robot: RobotConfig, log: Path, options: IdentifyOptions, progress: Progress, *, write: bool
+) -> Identification:
+    """Fit a robot's records to a log, and write the records if asked to. Raises UrdfsyncError."""
+    records = read_records(config, robot, options.wait)
+    regressor = records.regressor()
+    measured = Measured(regressor, log, options, progress)
+    _check_names(options, regressor)
+    problem, fitted, notes = _problem(regressor, measured, records, options)
+    result = _fitted(problem, measured, fitted)
+    delay = float(result.after[-1])
+    target = signals.target_at(delay)
+    numbers = _numbers(problem, result, fitted, records)
+    written = records.write(numbers) if write else ()
+    unexcited = dict[str, list[str]]()
+    for place in fitted:
+        if not result.is_fitted[place] and place < problem.count:
+            element, path = _name(problem, place)
+            unexcited.setdefault(element, []).append(path)
+    return Identification(
+        robot=robot.name,
+        log=shown(log),
+        seconds=measured.seconds,
+        rate=measured.rate,
+        cutoff=measured.cutoff,
+        delay=delay,
+        joints=measured.joint_fits(measured.evidence, target, result.delta),
+        numbers=numbers,
+        unexcited=tuple(Unexcited(element, tuple(paths)) for element, paths in unexcited.items()),
+        freed=tuple(result.freed),
+        dropped=measured.told(),
+        held_out=measured.joint_fits(measured.held_out, target, result.delta),
+        written=written,
+        diagnostics=(*notes, *records.notes),
+        series=measured.series(target, result.delta),
+    )
+
+
+def judge(config: Config, robot: RobotConfig, log: Path, options: IdentifyOptions, progress: Progress) -> Judgement:
+    """Return how far the records of a robot are from a log. Raises UrdfsyncError."""
+    measured = Measured(read_records(config, robot, options.wait).regressor(), log, options, progress)
+    target = signals.target_at(measured.delay())
+    fits = measured.joint_fits(measured.evidence, target, np.zeros(measured.parameters + len(measured.axes)))
+    return Judgement(shown(log), measured.seconds, fits)
+
+
+def _check_names(options: IdentifyOptions, regressor: Regressor) -> None:
+    """Raise ConfigError for a chosen link or joint that can't be fitted."""
+    joints = list(dict.fromkeys(loss.joint for loss in regressor.losses))
+    known = {"link": [body.name for body in regressor.bodies], "joint": joints}
+    for kind, names in (("link", options.links), ("joint", options.joints)):
+        for name in names:
+            if name not in known[kind]:
+                near = nearest(name, known[kind])
+                hint = f"did you mean `{near}`?" if near else f"choose from {', '.join(known[kind])}"
+                raise ConfigError.of("identify", f"`{name}` is no {kind} that moves and has numbers", hint=hint)
+
+
+def _problem(
+    regressor: Regressor, measured: Measured, records: Records, options: IdentifyOptions
+) -> tuple[Problem, list[int], list[Diagnostic]]:
+    """Return the unknowns, the places of the numbers to fit, and what can't be fitted."""
+    notes = list[Diagnostic]()
+    chosen_links, chosen_joints = options.links, options.joints
+    some = bool(chosen_links or chosen_joints)
+    fitted, bodies = list[int](), list[Body]()
+    for k, body in enumerate(regressor.bodies):
+        is_wanted = body.name in chosen_links if some else body.is_first
+        if is_body(body):
+            bodies.append(body)
+            fitted += range(10 * k, 10 * k + 10) if is_wanted else ()
+        else:
+            bodies.append(body._replace(numbers=np.array([1.0, 0, 0, 0, 1, 1, 1, 0, 0, 0]), rotation=np.eye(3)))
+            message = f"link {body.name}: no real body has its mass and inertia, so they are not fitted"
+            notes += [Diagnostic(Severity.WARNING, "identify", message)] if is_wanted else []
+    for k, loss in enumerate(regressor.losses, 10 * len(bodies)):
+        is_stated = loss.path in records.values[f"joint {loss.joint}"]
+        # the inertia of a drive that the source does not state can't be told from that of the link
+        if (loss.joint in chosen_joints or not some) and (is_stated or not loss.path.endswith("armature")):
+            fitted.append(k)
+    fitted += range(measured.parameters, measured.parameters + len(measured.axes) + 1)
+    return Problem(bodies, regressor.losses, len(measured.axes)), fitted, notes
+
+
+def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
+    nothing = np.zeros(len(problem.start) - 1)
+    joints = measured.joint_fits(measured.evidence, signals.target_at(0.0), nothing)
+    efforts = {joint.element: joint.measured for joint in joints}
+    by_joint = {f"joint {axis.name}": measured.sizes[:, j] for j, axis in enumerate(measured.axes)}
+    usual = float(np.mean(list(efforts.values())))
+    others = [
+        max(loss.value, efforts.get(name := f"joint {loss.joint}", usual) / by_joint.get(name, np.ones(3))[k % 3])
+        for k, loss in enumerate(problem.losses)
+    ]
+    offsets = [_USUAL_OFFSET * efforts.get(f"joint {axis.name}", usual) for axis in measured.axes]
+    sizes = problem.sizes(np.array([*others, *offsets, _USUAL_DELAY]))
+    first = fit(problem, measured.evidence, fitted, sizes, np.ones(len(measured.axes)))
+    series = measured.series(signals.target_at(first.after[-1]), first.delta)
+    left = (series.measured - series.after).T
+    alike = [
+        signals.alike(each[used]) if used.any() else 1.0 for each, used in zip(left, series.is_used.T, strict=True)
+    ]
+    return fit(problem, measured.evidence, fitted, sizes, np.array(alike))
+
+
+def _name(problem: Problem, place: int) -> tuple[str, str]:
+    if place < (count := 10 * len(problem.bodies)):
+        return f"link {problem.bodies[place // 10].name}", NUMBERS[place % 10]
+    loss = problem.losses[place - count]
+    return f"joint {loss.joint}", loss.path
+
+
+def _numbers(problem: Problem, result: Fit, fitted: Sequence[int], records: Records) -> tuple[FittedNumber, ...]:
+    """Return the fitted numbers, as they are written: with the digits that their errors leave."""
+    numbers = list[FittedNumber]()
+    for place in fitted:
+        if result.is_fitted[place] and place < problem.count:
+            element, path = _name(problem, place)
+            values = float(result.before[place]), float(result.after[place]), float(result.errors[place])
+            numbers.append(FittedNumber(element, path, *values, records.has(element, path)))
+    return tuple(numbers)
+
+
+def find_motion(
+    config: Config, robot: RobotConfig, seconds: float, seed: int, options: IdentifyOptions, progress: Progress
+) -> tuple[str, Excitation]:
+    """Return a motion that excites a robot's numbers, as a table for Run. Raises UrdfsyncError."""
+    from urdfsync.identify.excite import excite
+
+    regressor = read_records(config, robot, options.wait).regressor()
+    driven = [k for k, axis in enumerate(regressor.axes) if axis.input]
+    if not driven:
+        message = f"Run of robot `{robot.name}` has no input for a joint"
+        raise ConfigError.of("identify", message, shown(robot.folder), hint='choose `inputs = "names"`')
+    course, efforts, first, condition, numbers = excite(regressor, seconds, seed, progress)
+    tables = dict(zip(QUANTITIES, (course.q, course.v, efforts), strict=True))
+    columns = [course.times, *(tables[regressor.axes[k].command][:, k] for k in driven)]
+    rows = [",".join(f"{number:.9g}" for number in row) for row in np.column_stack(columns)]
+    header = ",".join(["time", *(regressor.axes[k].input for k in driven)])
+    resting = tuple(axis.name for axis in regressor.axes if not axis.command)
+    duration = float(course.times[-1])
+    return "\n".join([header, *rows, ""]), Excitation(robot.name, duration, first, condition, numbers, resting, {})

@@ -1,0 +1,148 @@
+"""Filters and differentiates pieces of a log, and makes the samples that a fit uses.
+
+The filter has no phase: a Butterworth filter, forwards and backwards. It goes over positions and efforts, and over the
+model's efforts too, so that model and log lose the same. Splines through the filtered positions give velocities and
+accelerations. FIGAROH and FloBaRoID do this with central differences, at the full rate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from urdfsync.identify.log import Piece
+from urdfsync.identify.results import Array, Axis
+
+SHIFTS = np.linspace(-0.1, 0.1, 21)
+"""Times in s by which efforts are moved against positions, to find a delay."""
+_ORDER = 4
+_PER_CUTOFF = 20
+"""The model is computed so many times in each period of the cut-off frequency; the filter then takes away its jumps."""
+_KEPT = 4
+"""So many samples remain in each period."""
+_OF_MOTION = 10
+"""The cut-off frequency, in frequencies below which the positions have 99 % of their power."""
+_SLOW = 0.03
+"""In rad/s or m/s · 10: below, dry friction holds a joint, and its effort has any value."""
+_HELD = 0.001
+"""The greatest part that efforts without a meaning may have in a filtered sample."""
+_FLAT = 5
+"""So many equal greatest efforts in a row are a saturation."""
+
+
+class Samples(NamedTuple):
+    """Filtered samples; a column for each axis."""
+
+    times: Array
+    q: Array
+    v: Array
+    a: Array
+    efforts: Array
+    """For each of `SHIFTS` the efforts that the log has so much later; the last axis is the joint."""
+    is_free: np.ndarray
+    """Whether an effort is neither saturated nor held by dry friction."""
+    rate: float
+
+
+def find_cutoff(piece: Piece, measured: Sequence[int]) -> float:
+    """Return the cut-off frequency in Hz for a motion."""
+    times = np.linspace(piece.times[0], piece.times[-1], len(piece.times))
+    step, most = times[1] - times[0], 0.0
+    for k in measured:
+        values = np.interp(times, piece.times, piece.position[:, k])
+        power = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(len(values)))) ** 2
+        if power.sum() > 0:
+            above = np.searchsorted(np.cumsum(power), 0.99 * power.sum())
+            most = max(most, float(np.fft.rfftfreq(len(values), step)[above]))
+    return float(np.clip(_OF_MOTION * most, 1.0, 0.1 / step))
+
+
+def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None:
+    """Return the samples of a piece; None if it is shorter than the filter."""
+    from scipy.interpolate import CubicSpline  # their import takes 0.5 s
+    from scipy.signal import butter, sosfiltfilt
+
+    count = len(piece.times)
+    rate = (count - 1) / (piece.times[-1] - piece.times[0])
+    times = np.linspace(piece.times[0], piece.times[-1], count)
+    sections = butter(_ORDER, cutoff, fs=rate, output="sos")
+    border = SHIFTS[-1] + 1.5 / cutoff
+    if times[-1] - times[0] < 4 * border or cutoff >= rate / 2:
+        return None
+
+    def smooth(values: Array) -> Array:
+        return np.array(sosfiltfilt(sections, values, axis=0))
+
+    curve = CubicSpline(piece.times, piece.position)
+    position = CubicSpline(times, smooth(curve(times)))
+    speeds = piece.velocity
+    velocity = position.derivative() if speeds is None else CubicSpline(times, smooth(_at(times, piece.times, speeds)))
+    raw = _at(times, piece.times, piece.effort)
+    effort, slow = CubicSpline(times, smooth(raw)), [_SLOW if axis.unit == "rad" else 0.1 * _SLOW for axis in axes]
+    # the filter spreads an effort that has any value over its neighbours
+    held = np.abs(smooth((_saturated(raw, axes) | (np.abs(velocity(times)) < slow)).astype(float)))
+    even = min(rate, _PER_CUTOFF * cutoff)
+    chosen = np.arange(times[0] + border / 3, times[-1] - border / 3, 1 / even)
+    inside = np.clip(chosen[None, :] + SHIFTS[:, None], times[0], times[-1])
+    is_free = _at(chosen, times, held) < _HELD
+    return Samples(chosen, position(chosen), velocity(chosen), velocity(chosen, 1), effort(inside), is_free, even)
+
+
+def thinned(samples: Samples, cutoff: float, rows: Array, model: Array) -> tuple[np.ndarray, Array, Array]:
+    """Return the places of the samples that remain, and the filtered rows of the model there."""
+    from scipy.signal import butter, sosfiltfilt
+
+    border = round((SHIFTS[-1] + 1.5 / cutoff) * samples.rate)
+    step = max(1, round(samples.rate / (_KEPT * cutoff)))
+    places = np.arange(border, len(samples.times) - border, step)
+    if cutoff >= 0.45 * samples.rate:
+        return places, rows[places], model[places]
+    sections = butter(_ORDER, cutoff, fs=samples.rate, output="sos")
+    return places, sosfiltfilt(sections, rows, axis=0)[places], sosfiltfilt(sections, model, axis=0)[places]
+
+
+def target_at(delay: float) -> Array:
+    """Return the combination of efforts at `SHIFTS`, and of the model's, that a fit explains at a delay."""
+    middle, part = _parabola(delay)
+    weights = np.zeros(len(SHIFTS))
+    weights[middle - 1 : middle + 2] = 0.5 * part * (part - 1), 1 - part * part, 0.5 * part * (part + 1)
+    return np.array([*weights, -1.0])
+
+
+def shift_slopes(delay: float) -> Array:
+    """Return the derivative of the efforts' combination by the delay."""
+    middle, part = _parabola(delay)
+    weights = np.zeros(len(SHIFTS))
+    weights[middle - 1 : middle + 2] = part - 0.5, -2 * part, part + 0.5
+    return np.asarray(weights / (SHIFTS[1] - SHIFTS[0]))
+
+
+def _parabola(delay: float) -> tuple[int, float]:
+    middle = int(np.clip(np.abs(SHIFTS - delay).argmin(), 1, len(SHIFTS) - 2))
+    return middle, (delay - SHIFTS[middle]) / (SHIFTS[1] - SHIFTS[0])
+
+
+def alike(residuals: Array) -> float:
+    """Return the number of neighbouring residuals that tell one thing: 1 for independent ones."""
+    values = residuals - residuals.mean()
+    power = np.abs(np.fft.rfft(values, 2 * len(values))) ** 2
+    products = np.fft.irfft(power)[: len(values) // 4]
+    if products[0] <= 0:
+        return 1.0
+    products = products / products[0]
+    ends = np.flatnonzero(products < 0)  # beyond the first zero, sums are noise
+    return float(max(1.0, 2 * products[: ends[0] if len(ends) else None].sum() - 1))
+
+
+def _at(times: Array, old: Array, values: Array) -> Array:
+    return np.column_stack([np.interp(times, old, column) for column in values.T])
+
+
+def _saturated(efforts: Array, axes: Sequence[Axis]) -> np.ndarray:
+    """Return which efforts are at their limit, or on a flat top."""
+    sizes = np.abs(efforts)
+    tops = sizes >= sizes.max(axis=0) * (1 - 1e-9)
+    runs = np.lib.stride_tricks.sliding_window_view(tops, _FLAT, axis=0).all(axis=-1).any(axis=0)
+    return np.asarray(((tops & runs) | (sizes >= [0.999 * axis.effort for axis in axes])) & (sizes > 0))
