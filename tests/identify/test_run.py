@@ -111,8 +111,9 @@ def judged() -> Judgement:
 @pytest.mark.slow
 def test_a_log_judges_a_model(gripper: Path, execute: Execute) -> None:
     (result,) = execute("check", "gripper", "--log", "log.csv", "--format=json").json["results"]
-    words = execute("check", "gripper", "--log", "log.csv").words
-    assert f"log.csv: {100 * result['log']['misfit']:.1f} % of the measured efforts unexplained (7" in words
+    words, log = execute("check", "gripper", "--log", "log.csv").words, result["log"]
+    assert f"log.csv: {100 * log['misfit']:.1f} % of the measured efforts unexplained ({log['seconds']:.3g} s)" in words
+    assert 5 < log["seconds"] < 10
     assert "joint drive: " in words
 
 
