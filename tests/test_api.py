@@ -92,6 +92,8 @@ def test_all_names_are_there_and_on_the_page_and_nothing_is_loaded_before() -> N
     assert all(hasattr(urdfsync, name) for name in urdfsync.__all__)
     assert set(urdfsync.__all__) < set(dir(urdfsync))  # notebooks complete names by this list
     functions = {name for name in urdfsync.__all__ if name[0].islower()}
+    # importing a module of the same name would replace the function
+    assert functions.isdisjoint(path.stem for path in Path(urdfsync.__file__).parent.iterdir())
     assert functions <= set(re.findall(r"`urdfsync\.(\w+)\(?", PAGE))
     with pytest.raises(AttributeError, match="has no attribute 'biuld'"):
         _ = urdfsync.biuld  # type: ignore[attr-defined]

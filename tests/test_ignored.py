@@ -21,6 +21,7 @@ UNRELATED = {
     "conflict",
     "edit-left",
     "exec",
+    "identify",
     "no-browser",
     "no-attribute",
     "no-conflict",

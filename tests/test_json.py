@@ -34,7 +34,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
-from urdfsync.identify.results import Excitation, FittedNumber, Identification, Unexcited
+from urdfsync.identification.results import Excitation, FittedNumber, Identification, Unexcited
 from urdfsync.output.documents import JSON_VERSION
 from urdfsync.simulation import results as simulation
 from urdfsync.simulation.cases import Cases
@@ -348,9 +348,9 @@ def identified() -> Identification:
 def test_identify(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
     motion = "time\n", Excitation("arm", 20.0, 90.0, 12.0, 30, ("hold",), {})
-    monkeypatch.setattr("urdfsync.identify.run.identify", lambda *_, **__: identified())
-    monkeypatch.setattr("urdfsync.identify.run.find_motion", lambda *_: motion)
-    monkeypatch.setattr("urdfsync.identify.plot.draw", lambda *_: b"")
+    monkeypatch.setattr("urdfsync.identification.run.identify", lambda *_, **__: identified())
+    monkeypatch.setattr("urdfsync.identification.run.find_motion", lambda *_: motion)
+    monkeypatch.setattr("urdfsync.identification.plot.draw", lambda *_: b"")
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     fitted = printed(execute, folder, "identify", "arm", "log.csv", "--plot", "arm.png")
     excited = printed(execute, folder, "identify", "arm", "--excite", "motion.csv")

@@ -30,8 +30,8 @@ from urdfsync.output.terminal import text
 if TYPE_CHECKING:
     from urdfsync.checks.results import CheckResult
     from urdfsync.engine.edits import RobotEdits
-    from urdfsync.identify.report import IdentificationDisplay
-    from urdfsync.identify.results import Excitation
+    from urdfsync.identification.report import IdentificationDisplay
+    from urdfsync.identification.results import Excitation
     from urdfsync.simulation.report import Simulation, StudyDisplay
     from urdfsync.versions.comparison import Comparison
 
@@ -300,9 +300,9 @@ def identify(
     explained), `numbers` (before, after, standard error) and `unexcited`. It writes `files`: `plot`. Raises
     UrdfsyncError for faults of the log, and for a robot that is out of step.
     """
-    from urdfsync.identify import run
-    from urdfsync.identify.report import IdentificationDisplay
-    from urdfsync.identify.results import IdentifyOptions
+    from urdfsync.identification import run
+    from urdfsync.identification.report import IdentificationDisplay
+    from urdfsync.identification.results import IdentifyOptions
     from urdfsync.simulation.files import check_outputs, input_files, write_file
 
     loaded, files, log = load(config), files or {}, Path(log)
@@ -310,7 +310,7 @@ def identify(
     check_outputs(files, input_files(loaded, robot, None) | ({"the log": log} if log.exists() else {}))
     result = run.identify(loaded, robot, log, IdentifyOptions(**given), progress, write=write)
     for file in files.values():
-        from urdfsync.identify.plot import draw  # matplotlib takes 0.5 s, and is an extra
+        from urdfsync.identification.plot import draw  # matplotlib takes 0.5 s, and is an extra
 
         write_file(file, draw(result, file.suffix.lower().removeprefix(".")))
     return IdentificationDisplay(**msgspec.structs.asdict(result) | {"files": files})
@@ -326,8 +326,8 @@ def excite(
     **given: Any,
 ) -> Excitation:
     """Write a motion that excites the numbers of a robot, as `urdfsync identify --excite` does."""
-    from urdfsync.identify import run
-    from urdfsync.identify.results import IdentifyOptions
+    from urdfsync.identification import run
+    from urdfsync.identification.results import IdentifyOptions
     from urdfsync.simulation.files import check_outputs, input_files, write_file
 
     loaded, file = load(config), Path(file)

@@ -285,7 +285,7 @@ class Domain(Protocol):
     record: Any = None  # `urdfsync.api.Recorder`
     checks: Any = None  # `urdfsync.checks.experiment.Checks`
     simulation: Any = None  # `urdfsync.simulation.bench.Benches`
-    identification: Any = None  # `urdfsync.identify.results.Physics`
+    identification: Any = None  # `urdfsync.identification.results.Physics`
     drawing: Any = None  # `urdfsync.engine.stage.Drawing`
     pictures: Any = None  # `urdfsync.pages.scene.Pictures`
 

@@ -84,8 +84,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _judge(args: argparse.Namespace, console: Console) -> Judgement:
     """Compare the one robot with a log, before its check: a log with faults ends the command at once."""
-    from urdfsync.identify import run  # loads numpy
-    from urdfsync.identify.results import IdentifyOptions
+    from urdfsync.identification import run  # loads numpy
+    from urdfsync.identification.results import IdentifyOptions
 
     options = IdentifyOptions(columns=tuple(args.columns), motor_side=args.motor_side, wait=args.wait)
     return run.judge(*arguments.select_robot(args, console), args.log, options, console.progress)

@@ -8,8 +8,8 @@ from pathlib import Path
 from urdfsync.api import excite, identify
 from urdfsync.commands import arguments
 from urdfsync.engine.result import Exit
-from urdfsync.identify.report import excitation_lines, identification_lines
-from urdfsync.identify.results import IdentifyOptions
+from urdfsync.identification.report import excitation_lines, identification_lines
+from urdfsync.identification.results import IdentifyOptions
 from urdfsync.output.console import Console
 
 

@@ -19,7 +19,7 @@ from urdfsync.commands.report import PageDocument
 from urdfsync.config import schema
 from urdfsync.engine.edits import RobotEdits
 from urdfsync.engine.result import Exit, Result
-from urdfsync.identify.results import Excitation, Identification
+from urdfsync.identification.results import Excitation, Identification
 from urdfsync.output.console import Console
 from urdfsync.output.documents import Document, document_type
 from urdfsync.simulation.fmu import WrittenFmu

@@ -14,7 +14,7 @@ import numpy as np
 
 from urdfsync.checks.experiment import Sample
 from urdfsync.diagnostics import SourceError
-from urdfsync.identify.results import LOSSES, Axis, Body, Loss
+from urdfsync.identification.results import LOSSES, Axis, Body, Loss
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
 from urdfsync.urdf.parse import xml

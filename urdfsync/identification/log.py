@@ -19,7 +19,7 @@ import numpy as np
 from urdfsync.diagnostics import ConfigError, SourceError
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, shown
-from urdfsync.identify.results import QUANTITIES, Array, Axis, IdentifyOptions
+from urdfsync.identification.results import QUANTITIES, Array, Axis, IdentifyOptions
 from urdfsync.numerals import find_separator
 from urdfsync.simulation.motion import UNITS
 from urdfsync.spelling import counted, name_and_unit

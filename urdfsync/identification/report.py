@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from urdfsync.checks.results import JointFit
-from urdfsync.identify.results import NUMBERS, Excitation, FittedNumber, Identification, Unexcited
+from urdfsync.identification.results import NUMBERS, Excitation, FittedNumber, Identification, Unexcited
 from urdfsync.output.console import StyledLine, findings, html, line
 from urdfsync.spelling import counted
 

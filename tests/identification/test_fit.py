@@ -14,10 +14,10 @@ from support.measured import GRIPPER, LEG, arm
 import urdfsync
 from urdfsync import cli
 from urdfsync.engine.options import no_progress
-from urdfsync.identify import run, signals
-from urdfsync.identify.fit import Fit, Problem, inertial_parameters, is_body, pseudo_inertia
-from urdfsync.identify.records import Records, read_records
-from urdfsync.identify.results import Array, Body, IdentifyOptions, Regressor
+from urdfsync.identification import run, signals
+from urdfsync.identification.fit import Fit, Problem, inertial_parameters, is_body, pseudo_inertia
+from urdfsync.identification.records import Records, read_records
+from urdfsync.identification.results import Array, Body, IdentifyOptions, Regressor
 
 BOX = Body("box", np.array([2.0, 0.1, -0.2, 0.3, 0.02, 0.03, 0.04, 0.001, -0.002, 0.003]), np.eye(3), is_first=True)
 OPTIONS = IdentifyOptions()

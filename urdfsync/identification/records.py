@@ -16,7 +16,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import failure, put, shown
-from urdfsync.identify.results import FittedNumber
+from urdfsync.identification.results import FittedNumber
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.values import Value, literals, read_values
 

@@ -17,8 +17,8 @@ from support.patches import patch_and_told
 import urdfsync
 from urdfsync.checks.results import Judgement
 from urdfsync.engine.options import no_progress
-from urdfsync.identify.results import IdentifyOptions
-from urdfsync.identify.run import judge
+from urdfsync.identification.results import IdentifyOptions
+from urdfsync.identification.run import judge
 
 DRIVE = Path("modelica/Gripper/Joints/DriveParameters.mo")
 
@@ -121,7 +121,7 @@ def test_a_build_loads_nothing_of_it(gripper: Path) -> None:
     code = "import sys; from urdfsync import cli; cli.main(['build', '--full', '-q']); print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert not {"pinocchio", "scipy", "pyarrow", "matplotlib"} & {*loaded}
-    assert [name for name in loaded if name.startswith("urdfsync.identify") or name.endswith("regressor")] == []
+    assert [name for name in loaded if name.startswith("urdfsync.identification") or name.endswith("regressor")] == []
 
 
 @pytest.mark.parametrize(

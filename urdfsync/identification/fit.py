@@ -22,8 +22,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from urdfsync.identify.results import Array, Body, Loss
-from urdfsync.identify.signals import shift_slopes, target_at
+from urdfsync.identification.results import Array, Body, Loss
+from urdfsync.identification.signals import shift_slopes, target_at
 
 _EXCITED = 3.0
 """So many standard errors has a number's natural size, at least, if the motion determines the number."""

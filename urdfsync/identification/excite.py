@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from urdfsync.engine.options import Progress
-from urdfsync.identify.fit import Problem, is_body
-from urdfsync.identify.results import Array, Axis, Regressor
+from urdfsync.identification.fit import Problem, is_body
+from urdfsync.identification.results import Array, Axis, Regressor
 
 _HARMONICS, _RATE, _LOOKS = 5, 50.0, 80
 _TRIES, _STEPS = 12, 60

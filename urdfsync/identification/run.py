@@ -13,11 +13,11 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
-from urdfsync.identify import signals
-from urdfsync.identify.fit import Evidence, Fit, Problem, fit, is_body
-from urdfsync.identify.log import Log
-from urdfsync.identify.records import Records, read_records
-from urdfsync.identify.results import (
+from urdfsync.identification import signals
+from urdfsync.identification.fit import Evidence, Fit, Problem, fit, is_body
+from urdfsync.identification.log import Log
+from urdfsync.identification.records import Records, read_records
+from urdfsync.identification.results import (
     NUMBERS,
     QUANTITIES,
     Array,
@@ -258,7 +258,7 @@ def find_motion(
     config: Config, robot: RobotConfig, seconds: float, seed: int, options: IdentifyOptions, progress: Progress
 ) -> tuple[str, Excitation]:
     """Return a motion that excites a robot's numbers, as a table for Run. Raises UrdfsyncError."""
-    from urdfsync.identify.excite import excite
+    from urdfsync.identification.excite import excite
 
     regressor = read_records(config, robot, options.wait).regressor()
     driven = [k for k, axis in enumerate(regressor.axes) if axis.input]

@@ -9,7 +9,7 @@ from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from urdfsync.identify.results import Identification
+from urdfsync.identification.results import Identification
 from urdfsync.simulation.plot import COLOURS, HEIGHT, PLAIN, WIDTH, saved
 
 
