@@ -234,8 +234,9 @@ def _tags(text: str, line: int) -> Iterator[re.Match[str]]:
 def _indented(text: str, tag: re.Match[str]) -> str:
     """Return the line end and the indentation of a new child of a tag; empty if its children are in the tag's line."""
     end = _LINE_END.match(text, tag.end())
-    indent = re.search(r"[^\S\r\n]*\Z", text[: tag.start()])
-    return f"{end[0]}{indent[0]}  " if end and indent else ""
+    before = text[: tag.start()]
+    line = before[max(before.rfind("\n"), before.rfind("\r")) + 1 :]
+    return f"{end[0]}{line[len(line.rstrip()) :]}  " if end else ""
 
 
 def _replacing(file: Path, text: str, tag: re.Match[str], value: EditedValue) -> Iterator[Changes]:
