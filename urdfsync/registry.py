@@ -30,7 +30,9 @@ _TRANSLATORS = {
                 "mjcf-limits": "use coarser meshes, or a model with fewer bodies",
             },
             # an XML whose root element is <mujoco>, a part of one, or a compiled model
-            re.compile(rb"(?s)(?:\xef\xbb\xbf)?\s*+(?>(?:<\?.*?\?>|<!--.*?-->)\s*+)*+<mujoco(?:include)?\b|1\xd4\0\0"),
+            re.compile(
+                rb"(?s)\A(?:(?:\xef\xbb\xbf)?\s*+(?>(?:<\?.*?\?>|<!--.*?-->)\s*+)*+<mujoco(?:include)?\b|1\xd4\0\0)"
+            ),
             compares=True,
         ),
     ),
