@@ -228,8 +228,7 @@ def simulate(
 
     `given` are fields of `SimulateOptions`, such as `model` and `stop` (s). The result has `series` (times in s, and
     the values of each variable) and `joints` (with ranges and limits), and the differences from a revision `against`.
-    It writes `files`: `csv` or `plot`. Raises
-    UrdfsyncError for faults of the model, its inputs, the compiler or files.
+    It writes `files`: `csv` or `plot`. Raises UrdfsyncError for faults of the model, its inputs, the compiler or files.
     """
     from urdfsync.checks import compilers
     from urdfsync.simulation import run

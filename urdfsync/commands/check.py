@@ -63,11 +63,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, "`--remote-write` needs `--remote-cache`")
     results = list[CheckResult]()
     write_report = prepare_page(args, console, args.report) if args.report else None
-
-    judge = _judge(args, console) if args.log else None
+    judgement = _judge(args, console) if args.log else None
 
     def show(result: CheckResult) -> None:
-        result.log = judge or result.log
+        result.log = judgement
         results.append(result)
         show_result(console, result)
 

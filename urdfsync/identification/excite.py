@@ -103,7 +103,7 @@ def _course(numbers: Array, axes: Sequence[Axis], seconds: float, times: Array) 
 
     def at(moments: Array) -> list[Array]:
         s, c = np.sin(np.outer(moments, w)), np.cos(np.outer(moments, w))
-        speeds = (s * 0 + c) @ (w * sines).T - s @ (w * cosines).T
+        speeds = c @ (w * sines).T - s @ (w * cosines).T
         return [s @ sines.T + c @ cosines.T, speeds, -(s @ (w * w * sines).T) - c @ (w * w * cosines).T]
 
     fine, fine_speeds, _ = at(np.linspace(0, seconds, 400))

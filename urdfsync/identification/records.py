@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from urdfsync import registry
 from urdfsync.checks.experiment import Sample
@@ -16,7 +15,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import failure, put, shown
-from urdfsync.identification.results import FittedNumber
+from urdfsync.identification.results import FittedNumber, Physics, Regressor
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.values import Value, literals, read_values
 
@@ -65,10 +64,10 @@ class Records:
             if edits and (match := _ELEMENT.fullmatch(element)):
                 yield (match[1], match[2]), edits
 
-    def regressor(self) -> Any:
+    def regressor(self) -> Regressor:
         """Return the model of the robot with its edits. Raises UrdfsyncError."""
         robot, inputs = self.package.robot, self.package.inputs
-        physics = registry.domain(robot.domain).identification
+        physics: Physics | None = registry.domain(robot.domain).identification
         if physics is None:
             message = f"robot `{robot.name}` has no joints whose efforts a log could show"
             raise ConfigError.of("identify", message, shown(self.config.file))
@@ -97,7 +96,7 @@ class Records:
             words = values.setdefault((number.element, path), [])
             if not words:
                 words += [repr(part) for part in places[0].numbers or ()]
-            words[int(item[1]) - 1 if item else 0] = spelled(number)
+            words[int(item[1]) - 1 if item else 0] = f"{number.after:.6g}"
         for (element, path), words in values.items():
             for place in self.values[element][path]:
                 text = f"{{{', '.join(map(_short, words))}}}" if place.text.startswith("{") else _short(words[0])
@@ -134,11 +133,6 @@ def read_records(config: Config, robot: RobotConfig, wait: float) -> Records:
                 file = shown(robot.folder / path)
                 raise ConfigError.of("identify", "the edited file is no single record", file, hint="correct it")
     return Records(config, package)
-
-
-def spelled(number: FittedNumber) -> str:
-    """Return a number with two digits more than its standard error has, and with six at least."""
-    return f"{number.after:.6g}"
 
 
 def _text(content: bytes) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from urdfsync.checks.results import JointFit
 from urdfsync.identification.results import NUMBERS, Excitation, FittedNumber, Identification, Unexcited
-from urdfsync.output.console import StyledLine, findings, html, line
+from urdfsync.output.console import StyledLine, file_lines, findings, html, line, table_lines
 from urdfsync.spelling import counted
 
 _JOINTS = ("joint", "measured", "before", "after", "explained", "unit")
@@ -28,11 +28,11 @@ def identification_lines(result: Identification) -> Iterator[StyledLine]:
     late = f"efforts {1000 * abs(result.delay):.1f} ms {'late' if result.delay > 0 else 'early'}"
     about = f"{result.seconds:.3g} s at {result.rate:.4g} Hz, filtered at {result.cutoff:.3g} Hz; {late}"
     yield line((result.robot, "bold"), (f": {result.log}, {about}", ""))
-    yield from _table([_JOINTS, *map(_joint, result.joints)])
+    yield from _table(_JOINTS, map(_joint, result.joints))
     if result.held_out:
         yield line(("  the seconds that were not fitted:", ""))
-        yield from _table([_JOINTS, *map(_joint, result.held_out)])
-    yield from _table([_NUMBERS, *map(_number, result.numbers)])
+        yield from _table(_JOINTS, map(_joint, result.held_out))
+    yield from _table(_NUMBERS, map(_number, result.numbers))
     if result.unexcited:
         yield line(("  stays, since the motion does not determine it:", ""))
         yield from (line((f"    {text}", "dim")) for text in _grouped(result.unexcited))
@@ -41,14 +41,14 @@ def identification_lines(result: Identification) -> Iterator[StyledLine]:
         yield line((text, "yellow"))
     yield from (line((f"  left out: {text}", "dim")) for text in result.dropped)
     if homeless := sorted({number.element for number in result.numbers if not number.is_written}):
-        yield line((f"  no record has numbers of {', '.join(homeless)}: see the hint", "yellow"))
+        yield line((f"  no record has numbers of {', '.join(homeless)}, so they are not written", "yellow"))
     if result.written:
         yield line(
             (f"  {counted(len(result.written), 'record')} written", "bold"), ("; `urdfsync diff --edits`", "dim")
         )
     else:
         yield line(("  nothing written: `--write` writes the numbers into the records", "dim"))
-    yield from _files(result.files)
+    yield from file_lines(result.files)
 
 
 def excitation_lines(result: Excitation) -> Iterator[StyledLine]:
@@ -59,27 +59,11 @@ def excitation_lines(result: Excitation) -> Iterator[StyledLine]:
     if result.resting:
         yield line((f"  at rest, since Run does not drive them: {', '.join(result.resting)}", "dim"))
     yield line(("  collisions are not looked for: play the motion with `urdfsync simulate --input` first", "yellow"))
-    yield from _files(result.files)
+    yield from file_lines(result.files)
 
 
-def joint_lines(joints: Sequence[JointFit]) -> Iterator[StyledLine]:
-    """Yield a row for each joint, without a fit."""
-    rows = [(each.element, f"{each.measured:.3g}", f"{each.before:.3g}", each.unit) for each in joints]
-    yield from _table([("joint", "measured", "unexplained", "unit"), *rows])
-
-
-def _files(files: Mapping[str, object]) -> Iterator[StyledLine]:
-    for kind, file in files.items():
-        yield line((f"  {kind}: ", ""), (str(file), "bold"))
-
-
-def _table(rows: Iterable[Sequence[str]]) -> Iterator[StyledLine]:
-    rows = list(rows)
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for number, row in enumerate(rows if len(rows) > 1 else []):
-        cells = "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        style = "dim" if not number else "yellow" if row[-1].endswith("!") else ""
-        yield line((f"  {cells}".rstrip().removesuffix("!"), style))
+def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[StyledLine]:
+    return table_lines([(header, "dim"), *((row, "") for row in rows)])
 
 
 def _joint(joint: JointFit) -> tuple[str, ...]:

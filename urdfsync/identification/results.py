@@ -22,7 +22,7 @@ NUMBERS = (
     *(f"inertial.inertia.{part}" for part in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")),
 )
 """Paths of the ten numbers of a link in its record."""
-LOSSES = {"dynamics.damping": "damping", "dynamics.friction": "friction", "dynamics.armature": "armature"}
+JOINT_NUMBERS = {"dynamics.damping": "damping", "dynamics.friction": "friction", "dynamics.armature": "armature"}
 """Paths of the fitted numbers of a joint in its record, and their names in Pinocchio."""
 
 

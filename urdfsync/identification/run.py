@@ -244,7 +244,7 @@ def _name(problem: Problem, place: int) -> tuple[str, str]:
 
 
 def _numbers(problem: Problem, result: Fit, fitted: Sequence[int], records: Records) -> tuple[FittedNumber, ...]:
-    """Return the fitted numbers, as they are written: with the digits that their errors leave."""
+    """Return the fitted numbers."""
     numbers = list[FittedNumber]()
     for place in fitted:
         if result.is_fitted[place] and place < problem.count:

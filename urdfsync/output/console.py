@@ -12,7 +12,7 @@ import json
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
@@ -62,6 +62,20 @@ class StyledLine(msgspec.Struct, frozen=True):
 def line(*parts: tuple[str, str]) -> StyledLine:
     """Return a line of pieces of text with their styles; control characters are escaped."""
     return StyledLine(tuple((visible(text), style) for text, style in parts))
+
+
+def table_lines(rows: Sequence[tuple[Sequence[str], str]]) -> Iterator[StyledLine]:
+    """Yield rows of cells in aligned columns, each row with its style; nothing for a header without rows."""
+    widths = [max(map(len, column)) for column in zip(*(cells for cells, _ in rows), strict=True)]
+    for cells, style in rows if len(rows) > 1 else ():
+        aligned = "  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True))
+        yield line((f"  {aligned}".rstrip(), style))
+
+
+def file_lines(files: Mapping[str, object]) -> Iterator[StyledLine]:
+    """Yield a line for each file that a command was asked to write, by kind."""
+    for kind, file in files.items():
+        yield line((f"  {kind}: ", ""), (str(file), "bold"))
 
 
 def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: bool) -> Sequence[StyledLine]:

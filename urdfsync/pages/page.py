@@ -150,15 +150,14 @@ def _motion(result: SimulateResult) -> dict[str, Any]:
     robot = "robot" if "robot" in robots else next(iter(robots), "")
     joints = [joint for joint in result.joints if joint.robot == robot]
     ranges = [each for joint in joints for each in (joint.position, joint.speed, joint.effort) if each is not None]
-    step, series = math.ceil(len(result.series["time"]) / _MOST_INSTANTS), {}
-    for name in ("time", *(each.variable for each in ranges)):
-        values = result.series[name]
-        series[name] = [float(f"{value:.7g}") for value in (*values[:-1:step], values[-1])]
-    former = {}
-    for name in result.former if result.against else ():
-        endless = itertools.chain(result.former[name], itertools.repeat(math.nan))
-        padded = list(itertools.islice(endless, result.points))
-        former[name] = [float(f"{value:.7g}") for value in (*padded[:-1:step], padded[-1])]
+    step = math.ceil(result.points / _MOST_INSTANTS)
+
+    def sampled(values: Sequence[float]) -> list[float]:
+        padded = *values[: result.points], *itertools.repeat(math.nan, result.points - len(values))
+        return [float(f"{value:.7g}") for value in (*padded[:-1:step], padded[-1])]
+
+    series = {name: sampled(result.series[name]) for name in ("time", *(each.variable for each in ranges))}
+    former = {name: sampled(values) for name, values in result.former.items()}
     return {"joints": joints, "series": series, "former": former}
 
 

@@ -94,9 +94,8 @@ def _csv_lines(result: SimulateResult) -> Iterator[str]:
     The series of an older version have names such as `robot.elbow.phi@HEAD~1`, and blanks after its end.
     """
     columns = dict(result.series)
-    for name, values in result.former.items() if result.against else ():
-        if result.against and name != "time":
-            columns[f"{name}@{result.against.revision}"] = values
+    revision = result.against.revision if result.against else ""
+    columns |= {f"{name}@{revision}": values for name, values in result.former.items() if name != "time"}
     names = (f'"{name}"' if "," in name else name for name in columns)
     yield ",".join(names) + "\n"
     for row in itertools.islice(itertools.zip_longest(*columns.values()), result.points):

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from urdfsync.checks.compilers.compiler import one_line
-from urdfsync.output.console import StyledLine, findings, html, line
+from urdfsync.output.console import StyledLine, file_lines, findings, html, line, table_lines
 from urdfsync.simulation.fmu import AGREEMENT, WrittenFmu
 from urdfsync.simulation.outcomes import Study
 from urdfsync.simulation.results import Against, Difference, JointResult, Range, SimulateResult
@@ -45,25 +45,20 @@ def result_lines(result: SimulateResult) -> Iterator[StyledLine]:
     for robot in robots:
         if robots != ["robot"]:
             yield line((f"  {robot or 'the model itself'}", "bold"))
-        rows = [_row(joint) for joint in result.joints if joint.robot == robot]
-        widths = [max(map(len, column)) for column in zip(_HEADER, *(cells for cells, _ in rows), strict=True)]
-        yield line((_aligned(_HEADER, widths), "dim"))
-        for cells, style in rows:
-            yield line((_aligned(cells, widths), style))
+        yield from table_lines([(_HEADER, "dim"), *(_row(joint) for joint in result.joints if joint.robot == robot)])
         for loop in result.loops:
             if loop.robot == robot:
                 amounts = f"open by {1000 * loop.gap:.2g} mm, {loop.force:.3g} N and {_digits(loop.torque)} N·m"
                 yield line((f"  {loop.element}: {amounts} at most", ""))
     if result.against:
         yield from _against_lines(result, result.against)
-    for name, file in result.files.items():
-        yield line((f"  {name}: ", ""), (str(file), "bold"))
+    yield from file_lines(result.files)
 
 
 def _against_lines(result: SimulateResult, against: Against) -> Iterator[StyledLine]:
     """Yield a row for each joint that moves otherwise than in the older version."""
     efforts = {(joint.robot, joint.element): joint.effort for joint in result.joints}
-    rows = []
+    rows: list[tuple[tuple[str, ...], str]] = [(_AGAINST_HEADER, "dim")]
     for joint in against.joints:
         found = {each.quantity: each for each in joint.differences if each.difference > _NOTHING}
         if not found:
@@ -74,14 +69,13 @@ def _against_lines(result: SimulateResult, against: Against) -> Iterator[StyledL
         differences = [_worst(found.get(quantity)) for quantity in ("position", "speed", "effort")]
         effort, before = efforts[joint.robot, joint.element], found.get("effort")
         sizes = f"{_digits(max(abs(before.least), abs(before.greatest)))} → {_size(effort)}" if before else "-"
-        rows.append((name, *differences, sizes))
-    equal = len(against.joints) - len(rows)
-    words = "the same motion" if not rows else f"{counted(len(rows), 'joint')} differ{'s' if len(rows) == 1 else ''}"
-    same = f", {equal} equal" if rows and equal else ""
-    yield line((f"  since {against.revision}: {words}{same}", "bold" if rows else "green"))
-    widths = [max(map(len, column)) for column in zip(_AGAINST_HEADER, *rows, strict=True)]
-    for cells, style in [(_AGAINST_HEADER, "dim"), *((row, "") for row in rows)] if rows else ():
-        yield line((_aligned(cells, widths), style))
+        rows.append(((name, *differences, sizes), ""))
+    count, words = len(rows) - 1, "the same motion"
+    if count:
+        equal = f", {len(against.joints) - count} equal" if count < len(against.joints) else ""
+        words = f"{counted(count, 'joint')} differ{'s' if count == 1 else ''}{equal}"
+    yield line((f"  since {against.revision}: {words}", "bold" if count else "green"))
+    yield from table_lines(rows)
     if against.only:
         yield line((f"  only in one version: {', '.join(against.only)}", ""))
 
@@ -109,9 +103,7 @@ def study_lines(study: Study) -> Iterator[StyledLine]:
         sizes = (_digits(number) for number in (each.least, each.median, each.greatest))
         cells = (name, each.quantity, *sizes, limit, each.unit, str(each.beyond or ""))
         rows.append((cells, "bold yellow" if each.beyond else ""))
-    widths = [max(map(len, column)) for column in zip(*(cells for cells, _ in rows), strict=True)]
-    for cells, style in rows if len(rows) > 1 else ():
-        yield line((_aligned(cells, widths), style))
+    yield from table_lines(rows)
     problems = Counter(outcome.problem for outcome in study.outcomes if outcome.problem)
     for problem, count in problems.most_common(_MOST_PROBLEMS):
         first = next(number for number, outcome in enumerate(study.outcomes, 1) if outcome.problem == problem)
@@ -122,12 +114,7 @@ def study_lines(study: Study) -> Iterator[StyledLine]:
         share = f"{outcome.heaviest}, {100 * outcome.load:.0f} % of its limit" if outcome.heaviest else "no limits"
         yield line((f"  worst: case {study.worst}: {share}", ""))
         yield line((f"    {study.replay}", "dim"))
-    for kind, file in study.files.items():
-        yield line((f"  {kind}: ", ""), (str(file), "bold"))
-
-
-def _aligned(cells: tuple[str, ...], widths: list[int]) -> str:
-    return ("  " + "  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True))).rstrip()
+    yield from file_lines(study.files)
 
 
 def _row(joint: JointResult) -> tuple[tuple[str, ...], str]:

@@ -229,7 +229,7 @@ class Reference:
         mass amplifies this error. The base rests, unless `is_free`. Ball joints turn in all directions.
         """
         data, nv = self.model.createData(), self.model.nv
-        load = self._load(data, state, state.drift)
+        load = self.load(data, state, state.drift)
         loose = [*(range(6) if is_free else ()), *self._balls]
         ways = np.column_stack([np.eye(nv)[:, loose], state.ways[:, : self._scalars]])
         drives = np.concatenate([np.zeros(len(loose)), efforts[: self._scalars]])
@@ -245,7 +245,7 @@ class Reference:
     def _mass(self, q: Array) -> Array:
         return np.asarray(self.pin.crba(self.model, self.model.createData(), q)) + self.rotors
 
-    def _load(self, data: Any, state: Configuration, a: Array) -> Array:
+    def load(self, data: Any, state: Configuration, a: Array) -> Array:
         """Return the efforts of all coordinates, including losses, for a configuration with accelerations `a`."""
         return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.rotors @ a + self.losses(state.v))
 
@@ -284,7 +284,7 @@ class Reference:
         """Return force and torque in a sensor's joint, in the sensor's axes; `parent` is the link above the joint."""
         pin, model = self.pin, self.model
         data, joint = model.createData(), model.getJointId(sensor.parent)
-        load = self._load(data, state, state.a)
+        load = self.load(data, state, state.a)
         if self.closing:
             forces = self.closing.forces(state.positions, load)
             pin.rnea(model, data, state.q, state.v, state.a, forces)
@@ -300,7 +300,7 @@ class Reference:
     def solve(self, state: Configuration) -> Solution:
         """Return poses, and the efforts of base and axes."""
         pin, data = self.pin, self.model.createData()
-        load = self._load(data, state, state.a)
+        load = self.load(data, state, state.a)
         pin.framesForwardKinematics(self.model, data, state.q)
         reactions = self.closing.reactions(state.positions, load) if self.closing else []
         reactions = [one._replace(gap=data.oMi[1].rotation @ one.gap) for one in reactions]

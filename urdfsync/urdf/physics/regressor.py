@@ -14,7 +14,7 @@ import numpy as np
 
 from urdfsync.checks.experiment import Sample
 from urdfsync.diagnostics import SourceError
-from urdfsync.identification.results import LOSSES, Axis, Body, Loss
+from urdfsync.identification.results import JOINT_NUMBERS, Axis, Body, Loss
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
 from urdfsync.urdf.parse import xml
@@ -55,35 +55,35 @@ def read_regressor(sample: Sample, edits: Mapping[tuple[str, str], Mapping[str, 
         message = f"joint {free[0]} moves in several directions: no log of positions determines the efforts"
         raise SourceError.of("identify", message, sample.file)
     gears = read_gears(xml.parse(content).root, stated.rows)
-    return Regressor(assembly, Reference, read(content, sample.file, (), stated.rows), gears)
+    return Regressor(assembly, read(content, sample.file, (), stated.rows), gears)
 
 
 def _edited(content: bytes, edits: Mapping[tuple[str, str], Mapping[str, tuple[float, ...]]]) -> bytes:
     """Return a URDF with the numbers of edited records."""
     root = xml.parse(content).root
     for (kind, name), values in edits.items():
-        element = next(each for each in root.findall(kind) if each.get("name") == name)
+        part = next(each for each in root.findall(kind) if each.get("name") == name)
         for path, numbers in values.items():
             *places, attribute = path.split(".")
             if (places or [attribute])[0].rstrip("0123456789") in _UNREAD:
                 continue
             if attribute in ("mass", "axis"):
                 places, attribute = [*places, attribute], "xyz" if attribute == "axis" else "value"
+            element = part
             for tag in (_TAGS.get(place, place) for place in places):
                 child = element.find(tag)
                 element = SubElement(element, tag) if child is None else child
             element.set(attribute, " ".join(map(repr, numbers)))
-            element = next(each for each in root.findall(kind) if each.get("name") == name)
     return tostring(root)
 
 
 class Regressor:
     """The efforts of a robot's axes, and their derivatives by all parameters."""
 
-    def __init__(self, assembly: Assembly, kind: type[Reference], robot: Any, gears: Mapping[str, Gear]) -> None:
+    def __init__(self, assembly: Assembly, robot: Any, gears: Mapping[str, Gear]) -> None:
         tree = assembly.tree
         joints = [joint for joint in motion.driven_axes(tree) if joint.name not in assembly.closed.dependent]
-        self.reference = kind(robot, [joint.name for joint in joints], assembly.closed)
+        self.reference = Reference(robot, [joint.name for joint in joints], assembly.closed)
         self.axes = tuple(_axes(assembly, joints, gears))
         model, pin = self.reference.model, self.reference.pin
         self._rows = {name: row for name, row in self.reference.coordinates().items() if row >= 6}
@@ -101,7 +101,7 @@ class Regressor:
         self.losses: tuple[Loss, ...] = tuple(
             Loss(name, path, float(getattr(model, attribute)[row]))
             for name, row in self._rows.items()
-            for path, attribute in LOSSES.items()
+            for path, attribute in JOINT_NUMBERS.items()
         )
 
     def rows(self, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
@@ -127,8 +127,8 @@ class Regressor:
                 derivatives[k, :, 10 * n : 10 * n + 10] = state.ways.T @ block
             by_kind = [state.v, np.tanh(slope * state.v / 2), state.a]
             for n, row in enumerate(places):
-                derivatives[k, :, 10 * len(self.bodies) + n] = state.ways[row] * by_kind[n % len(LOSSES)][row]
-            efforts[k] = state.ways.T @ reference._load(data, state, state.a)
+                derivatives[k, :, 10 * len(self.bodies) + n] = state.ways[row] * by_kind[n % len(JOINT_NUMBERS)][row]
+            efforts[k] = state.ways.T @ reference.load(data, state, state.a)
         return derivatives, efforts
 
 
