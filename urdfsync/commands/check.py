@@ -66,7 +66,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     judgement = _judge(args, console) if args.log else None
 
     def show(result: CheckResult) -> None:
-        result.log = judgement
+        if judgement:
+            result.log = judgement
         results.append(result)
         show_result(console, result)
 
