@@ -27,7 +27,7 @@ _HINTS = {
 }
 
 
-def shown(path: Path) -> str:
+def shown(path: str | Path) -> str:
     """Return a path for messages, as a user would type it: relative to the working folder if that is shorter."""
     text = str(path)
     try:
@@ -98,7 +98,7 @@ def templates_digest(folders: Sequence[Path]) -> str:
     return digest("".join(lines).encode(errors="surrogateescape"))
 
 
-def failure(error: OSError, path: Path, what: str = "it can't be written") -> OutputError:
+def failure(error: OSError, path: str | Path, what: str = "it can't be written") -> OutputError:
     """Return an error of the system about a file or folder, with a hint."""
     hint = "; ".join(filter(None, [_HINTS.get(error.errno or 0, ""), "then build again"]))
     message = f"{what}: {error.strerror or error}"

@@ -89,7 +89,7 @@ def test_two_files_are_swapped_at_once(old: Path, tmp_path: Path, monkeypatch: p
 
 @pytest.mark.parametrize("done", range(3))
 def test_an_exchange_that_was_cut_short_is_completed(tmp_path: Path, old: Path, done: int) -> None:
-    target, spare = tmp_path / "target", file_operations.spare(old)
+    target, spare = tmp_path / "target", Path(file_operations.spare(old))
     target.write_bytes(b"target")
     for source, to in ((target, spare), (old, target), (spare, old))[:done]:
         source.rename(to)

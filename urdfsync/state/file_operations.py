@@ -45,17 +45,18 @@ def remove_folder(path: Path) -> None:
         path.rmdir()
 
 
-def read(path: Path) -> bytes | None:
+def read(path: str | Path) -> bytes | None:
     """The content of a regular file; None for a missing file. Raises IsADirectoryError for a folder, link or device."""
     try:
-        if not stat.S_ISREG(path.lstat().st_mode):
+        if not stat.S_ISREG(os.lstat(path).st_mode):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-        return path.read_bytes()
+        with open(path, "rb") as file:
+            return file.read()
     except (FileNotFoundError, NotADirectoryError):
         return None
 
 
-def write(path: Path, content: bytes, like: Path | None) -> None:
+def write(path: str | Path, content: bytes, like: str | Path | None) -> None:
     """Write a new file, with the permissions of the file `like` if there is one."""
     descriptor = os.open(path, _CREATE, 0o666)
     try:
@@ -63,8 +64,8 @@ def write(path: Path, content: bytes, like: Path | None) -> None:
             content = content[os.write(descriptor, content) :]
         if like:
             with contextlib.suppress(FileNotFoundError):
-                mode = stat.S_IMODE(like.lstat().st_mode)
-                os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)  # noqa: PTH101
+                mode = stat.S_IMODE(os.lstat(like).st_mode)
+                os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)
     finally:
         os.close(descriptor)
 
@@ -74,7 +75,7 @@ def write_local(path: Path, content: bytes) -> None:
     localfile.write(path, content)
 
 
-def exchange(path: Path, target: Path) -> None:
+def exchange(path: str | Path, target: str | Path) -> None:
     """Swap two files of one folder, or finish an interrupted swap.
 
     If the system can't swap files, three renames do, and the target is missing for some microseconds. A plain
@@ -90,17 +91,17 @@ def exchange(path: Path, target: Path) -> None:
     replace(spare(path), path)
 
 
-def spare(path: Path) -> Path:
+def spare(path: str | Path) -> str:
     """The third name for a swap of `path` by three renames."""
-    return path.with_name(f"{path.name}~")
+    return f"{path}~"
 
 
-def replace(path: Path, target: Path) -> None:
+def replace(path: str | Path, target: str | Path) -> None:
     """Move a file to another name in its folder; replace a file of this name."""
-    path.replace(target)
+    os.replace(path, target)
 
 
-def place(path: Path, target: Path) -> None:
+def place(path: str | Path, target: str | Path) -> None:
     """Move a file to a free name of its folder. Raises FileExistsError if the name is not free."""
     if rename(path, target, _NOREPLACE):
         return
@@ -113,22 +114,22 @@ def place(path: Path, target: Path) -> None:
             raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(target)) from None
         replace(path, target)
     else:
-        path.unlink()
+        os.unlink(path)
 
 
-def remove(path: Path) -> None:
+def remove(path: str | Path) -> None:
     """Remove a file, if it exists."""
     with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-        path.unlink()
+        os.unlink(path)
 
 
-def sync(paths: Sequence[Path]) -> None:
+def sync(paths: Sequence[str | Path]) -> None:
     """Write files and folders from the system's cache to the disk, so that they survive a power failure."""
     if len(paths) > _FEW and hasattr(os, "sync"):
         os.sync()
         return
     for path in paths:
-        if os.name == "nt" and path.is_dir():
+        if os.name == "nt" and os.path.isdir(path):
             continue  # Windows can't open a folder, and writes its entries without this
         descriptor = os.open(path, os.O_RDWR if os.name == "nt" else os.O_RDONLY)
         try:
@@ -137,7 +138,7 @@ def sync(paths: Sequence[Path]) -> None:
             os.close(descriptor)
 
 
-def rename(path: Path, target: Path, flag: int) -> bool:
+def rename(path: str | Path, target: str | Path, flag: int) -> bool:
     """Rename by `renameat2`. Returns False, and does nothing, if system or file system do not support it."""
     number = _renameat2()(os.fsencode(path), os.fsencode(target), flag)
     if number and number not in _NO_RENAMES:
