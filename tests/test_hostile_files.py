@@ -134,7 +134,6 @@ FITTING: Mapping[str, Sequence[Any]] = {
     "create_parents": (True, False),
     "on_conflict": ("keep", "merge"),
     "base": ("fixed", "floating"),
-    "visualizer": ("standard", "visualization2"),
     "collisions": (True, False),
     "meshes": ("import", "skip"),
     "approach": (["package"], ["record"], ["package", "record"]),

@@ -169,7 +169,7 @@ def test_a_source_whose_name_no_configuration_can_hold(bare: Path, execute: Exec
 
 
 def test_long_and_taken_names_give_a_configuration_that_is_right(execute: Execute, bare: Path) -> None:
-    names = ["x" * 200, "modelica", "aux", "real", "links", "Package", "urdfsync", "visualization2", "3d"]
+    names = ["x" * 200, "modelica", "aux", "real", "links", "Package", "urdfsync", "3d"]
     for name in names:
         (bare / f"{name}.json").write_bytes((bare / "ladder.json").read_bytes())
     execute(*INIT, *(f"{name}.json" for name in names))

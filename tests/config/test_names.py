@@ -10,7 +10,7 @@ pytestmark = pytest.mark.usefixtures("rc_domain")
 
 @pytest.mark.parametrize(
     "package", ["Modelica.Arm", "Plant.real.Arm", "Plant.sin.Arm", "Plant.Aux.Arm", "com1", "Plant.UrdfSync.Arm",
-                "UrdfSync", "urdfsync.Arm", "visualization2", "Plant.time", "Plant.Resources.Arm", "Complex"]
+                "UrdfSync", "urdfsync.Arm", "Plant.time", "Plant.Resources.Arm", "Complex"]
 )  # fmt: skip
 def test_packages_that_would_hide_what_models_refer_to(package: str) -> None:
     (message,) = failures(robot('class = "Robot1"', package=package))
@@ -22,7 +22,7 @@ def test_packages_that_hide_nothing(package: str) -> None:
     assert parse(robot(package=package)).robots[0].target.package == package
 
 
-@pytest.mark.parametrize("name", ["Package", "Aux", "Complex", "Joints", "Visualization2", "robot", "Links"])
+@pytest.mark.parametrize("name", ["Package", "Aux", "Complex", "Joints", "robot", "Links"])
 def test_classes_that_clash_with_files_or_other_classes_are_told_at_their_line(name: str) -> None:
     (message,) = failures(robot(f'class = "{name}"'))
     assert message.startswith(f"urdfsync.toml:5: error: {name!r} can't be the class of a robot model; set `class`")

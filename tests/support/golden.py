@@ -48,7 +48,6 @@ class Variant(NamedTuple):
 VARIANTS: Mapping[str, Variant] = {
     "fixed": Variant("menagerie"),
     "floating": Variant("menagerie", {"base": "floating"}),
-    "visualization2": Variant("menagerie", {"visualizer": "visualization2", "inputs": "vector"}),
     "record": Variant("twig", {"approach": ("record",)}),
     "laws": Variant(
         "rig",

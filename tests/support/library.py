@@ -89,7 +89,7 @@ def link_files(name: str, record: str, link: Link, note: str) -> Iterator[Artifa
             "contact": {},
         }
         yield Artifact(f"Links/{record}.mo", Role.RECORD, "link/record.mo.jinja", named | data, name)
-    data = link_model(visuals, collisions, Options()) | {"note": f"{note} {RECORD_NOTE}"}
+    data = link_model(visuals, collisions) | {"note": f"{note} {RECORD_NOTE}"}
     yield Artifact(f"Links/{name}.mo", Role.MODEL, "link/model.mo.jinja", named | data, name)
 
 

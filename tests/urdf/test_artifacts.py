@@ -108,17 +108,9 @@ def test_roles_and_owners() -> None:
     assert files["package.order"] == Order("package.order", order)
 
 
-@pytest.mark.parametrize(("package", "approach", "visualizer", "uses"), [
-    ("Own", ("package",), "standard", ["Modelica", "UrdfSync"]),
-    ("Own", ("package", "record"), "visualization2", ["Modelica", "UrdfSync", "Visualization2"]),
-    ("Own", ("record",), "visualization2", ["Modelica", "UrdfSync"]),
-    ("Plant.Robots.Own", ("package",), "visualization2", []),
-])  # fmt: skip
-def test_a_package_at_the_top_says_what_it_uses(
-    package: str, approach: tuple[str, ...], visualizer: str, uses: list[str]
-) -> None:
-    """Only links have shapes of the visualizer's library."""
-    made = package_of(urdfs.link("a"), package=package, visualizer=visualizer, approach=approach)
+@pytest.mark.parametrize(("package", "uses"), [("Own", ["Modelica", "UrdfSync"]), ("Plant.Robots.Own", [])])
+def test_a_package_at_the_top_says_what_it_uses(package: str, uses: list[str]) -> None:
+    made = package_of(urdfs.link("a"), package=package)
     text = made.texts["package.mo"]
     assert re.findall(r"(\w+)\(version ?=", text) == uses
     assert text.startswith(f"within {package.rpartition('.')[0]};")

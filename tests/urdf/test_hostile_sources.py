@@ -89,7 +89,6 @@ OPTIONS = st.builds(
     frames=st.sampled_from(["leaves", "all"]),
     inputs=st.sampled_from(["names", "vector"]),
     collisions=st.booleans(),
-    visualizer=st.sampled_from(["standard", "visualization2"]),
 )
 
 

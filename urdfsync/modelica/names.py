@@ -23,7 +23,7 @@ STANDARD_LIBRARIES = ("Modelica", "ModelicaServices", "Complex")
 RESERVED_CLASSES = frozenset(
     """
     assertionlevel boolean clock complex connections externalobject integer modelica modelicaservices real resources
-    stateselect string urdfsync visualization2
+    stateselect string urdfsync
     """.split()
 )
 """Types and libraries, in lower case: a class of the same name would hide them from generated models."""

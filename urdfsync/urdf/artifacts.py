@@ -16,7 +16,7 @@ from urdfsync.urdf.model.numbers import joint_part, link_numbers, loop_numbers, 
 from urdfsync.urdf.model.record import obstacles, record_data
 from urdfsync.urdf.model.robot import bench_data, robot_data
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Inertial, Joint, Link, Loop, Robot
 
 _PARAMETERS = "Parameters"
@@ -76,7 +76,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         "title": f"Robot {target.name}: links, joints, robot and benches"
         if folders
         else f"Robot {target.name} in one record",
-        "uses": () if parent else options.uses,
+        "uses": () if parent else USES,
         "robot": target.name,
         "bench": has_bench(tree.joints, options),
     }
@@ -138,7 +138,7 @@ def _link(assembly: Assembly, link: Link, imports: Mapping[str, Import]) -> Iter
     shapes = {"visuals": list(map(shape_part, visuals)), "collisions": list(map(shape_part, collisions))}
     record = {"numbers": link_numbers(link.name, link.inertial), "contact": contact, **shapes}
     note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>."
-    model = link_model(visuals, collisions, assembly.options, link.contact)
+    model = link_model(visuals, collisions, link.contact)
     templates = "link/model", "link/record"
     return _element(assembly, "link", link.name, f'link "{link.name}"', templates, (model, record), note)
 

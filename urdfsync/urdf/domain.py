@@ -31,7 +31,7 @@ from urdfsync.urdf.kinematics.loops import find_loop_findings
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.names import identify
-from urdfsync.urdf.options import LeftOut, Options
+from urdfsync.urdf.options import USES, LeftOut, Options
 from urdfsync.urdf.parse.closures import CLOSED_LOOP
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
@@ -77,9 +77,9 @@ class UrdfDomain(Domain):
     )
     describe = staticmethod(describe)
 
-    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
-        """Return the Modelica Standard Library, UrdfSync, and the library of the visualizer."""
-        return options.uses
+    def uses(self, _options: Options) -> Sequence[tuple[str, str]]:
+        """Return the Modelica Standard Library and UrdfSync."""
+        return USES
 
     def read(self, content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
         """Read a URDF.

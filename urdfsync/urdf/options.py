@@ -11,10 +11,6 @@ from urdfsync.urdf.robot import Command, LoopKind, Vector
 
 USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
 """Libraries that all generated packages need."""
-# No release notes of Visualization2 are public. The published URDFModelica_Tutorial uses this version.
-_VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
-"""The library that packages need in addition for a visualizer."""
-
 
 FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
 MotorNumber: TypeAlias = Literal["effort", "velocity", "damping", "friction", "armature", "reduction", "rotor_inertia"]
@@ -50,8 +46,6 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     base: Literal["fixed", "floating"] = "fixed"
     """`fixed`: the root link is bolted down; `floating`: the robot moves freely and touches the ground."""
-    visualizer: Literal["standard", "visualization2"] = "standard"
-    """The library of shapes: the Modelica Standard Library or the DLR Visualization 2 library."""
     collisions: bool = True
     """Whether links have their collision shapes."""
     meshes: Literal["import", "skip"] = "import"
@@ -89,9 +83,3 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Joints that close loops, in addition to those of the source."""
     allow: tuple[LeftOut, ...] = ()
     """Errors that become warnings: the faulty parts are left out."""
-
-    @property
-    def uses(self) -> tuple[tuple[str, str], ...]:
-        """The libraries and their versions that a package with these options needs."""
-        library = _VISUALIZER_USES.get(self.visualizer) if "package" in self.approach else None
-        return (*USES, library) if library else USES

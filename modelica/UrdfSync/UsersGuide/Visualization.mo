@@ -7,18 +7,10 @@ class Visualization "Shapes, meshes, colours"
     preferredView="info",
     Documentation(info="<html>
 <p>
-The option <code>visualizer</code> in <code>urdfsync.toml</code> says which library draws the shapes of links in the package approach. The
-<a href=\"modelica://UrdfSync.UsersGuide.RecordApproach\">generic robots</a> draw visuals with the Modelica Standard Library.
+Links draw their shapes by the animation of the Modelica Standard Library, through
+<a href=\"modelica://UrdfSync.Visualizers\">UrdfSync.Visualizers</a>. It does not show opacity. The
+<a href=\"modelica://UrdfSync.UsersGuide.RecordApproach\">generic robots</a> draw visuals in the same way.
 </p>
-<dl>
-<dt><code>\"standard\"</code></dt>
-<dd>The animation of the Modelica Standard Library, through <a href=\"modelica://UrdfSync.Visualizers\">UrdfSync.Visualizers</a>. This is
-the default. It does not show opacity.</dd>
-<dt><code>\"visualization2\"</code></dt>
-<dd>The shapes of the DLR Visualization 2 library, which you need to have. Models generated with this option have been checked for syntax
-and layout only: the library was not at hand when this was written. The version in <code>uses</code> is the one that its authors' published
-tutorial names. A capsule is a cylinder and two spheres.</dd>
-</dl>
 <h4>Shapes</h4>
 <p>
 Boxes, cylinders, capsules and spheres are centred at the origin of their element; cylinders and capsules lie along z. Colours are red, green

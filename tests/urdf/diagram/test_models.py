@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 
-import pytest
 from support.annotations import Call, statements
 from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, mimic, robot
@@ -31,9 +30,8 @@ def corners(note: Call) -> tuple[float, ...]:
     return x1, y1, x2, y2
 
 
-@pytest.mark.parametrize("visualizer", ["standard", "visualization2"])
-def test_a_model_has_the_places_and_lines_of_the_layout(visualizer: str) -> None:
-    package = generate(ZOO.encode(), Target("Bot", "Bot"), visualizer=visualizer)
+def test_a_model_has_the_places_and_lines_of_the_layout() -> None:
+    package = generate(ZOO.encode(), Target("Bot", "Bot"))
     expected = layout(package.skeleton, Assembly(package.robot, package.options, package.target).connectors)
     places, lines, extents = {}, {}, []
     for statement, note in statements(package.texts["Bot.mo"]):

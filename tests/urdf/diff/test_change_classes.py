@@ -27,7 +27,6 @@ LOOKUP = Lookup(Path("/robots/arm.urdf"))
 OPTIONS = st.builds(
     Options,
     base=st.sampled_from(["fixed", "floating"]),
-    visualizer=st.sampled_from(["standard", "visualization2"]),
     collisions=st.booleans(),
     meshes=st.sampled_from(["import", "import", "skip"]),
     drives=st.sampled_from(["joint", "motor"]),

@@ -191,7 +191,7 @@ def _data(element: Link | Joint, imports: Mapping[str, Import] | None, options: 
         imports = {key: Import(key, "", "", facts) for key in keys}
     visuals, collisions = link_shapes(element, imports, "", options)
     height = list(touching(element, imports)) if options.base == "floating" else []
-    model = link_model(visuals, collisions, options, element.contact)
+    model = link_model(visuals, collisions, element.contact)
     return model, (visuals, collisions, height, element.inertial, element.contact)
 
 

@@ -126,7 +126,6 @@ def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
     saturated = {joint.name for joint in tree.joints if is_chosen(joint, options.saturated)}
     drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
-        "visualizer": options.visualizer,
         "drives": [
             row
             | {

@@ -50,7 +50,6 @@ def link_shapes(
 def link_model(
     visuals: Sequence[Mapping[str, Any]],
     collisions: Sequence[Mapping[str, Any]],
-    options: Options,
     contact: Contact | None = None,
 ) -> dict[str, Any]:
     """Return the structure of a link for its model, without numbers and names of the URDF.
@@ -73,7 +72,6 @@ def link_model(
         "collisions": [{key: shape[key] for key in _IN_MODEL} for shape in collisions],
         "contacts": contacts,
         "surface": list(to_builtins(contact)) if contact and contacts else [],
-        "visualizer": options.visualizer,
         "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
         "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
     }

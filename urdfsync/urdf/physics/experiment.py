@@ -77,7 +77,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         options=simplified,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        laws=laws_trial(subject, second, options) if has_package else None,
+        laws=laws_trial(subject, second) if has_package else None,
         companions=catalogue,
         unchecked=(*_simplified(subject, options), *_not_compared(subject), *subject.unchecked),
     )
@@ -181,8 +181,6 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     if in_loops:
         yield f"the limits of joints in loops beyond the motion of {', '.join(in_loops)}"
     yield "the motion of Run, and models around the robot (they are only compiled)"
-    if options.visualizer != "standard":
-        yield "how Visualization2 draws shapes"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes: a compiler would need too much memory"
     if "record" in options.approach and subject.tree.loops:

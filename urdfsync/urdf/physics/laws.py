@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from urdfsync.checks.experiment import Compared, Part, Probe, Quantity, Trial
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import probe
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.second.reading import MOVES, TURNS, Element, SecondReading
@@ -32,10 +31,10 @@ _BREAKAWAY = 1.5
 _RUN = "saturated drive in Run"
 
 
-def laws_trial(subject: Subject, reading: SecondReading, options: Options) -> Trial | None:
+def laws_trial(subject: Subject, reading: SecondReading) -> Trial | None:
     """Return the simulation of one joint with each combination of laws; None if Pinocchio has all laws.
 
-    `reading` and `options` have the laws of the source; the subject has simpler laws.
+    `reading` has the laws of the source; the subject has simpler laws.
     """
     tree, target, driven = subject.tree, subject.target, subject.closed.driven
     chosen = dict[tuple[object, ...], tuple[Element, str]]()
@@ -65,7 +64,7 @@ def laws_trial(subject: Subject, reading: SecondReading, options: Options) -> Tr
         declarations.append(f"Real law{k} = {' + '.join(f'abs({term})' for term in _errors(k, joint, laws))}")
         for quantity, value in quantities:
             compared.append(Compared(quantity, f"joint {joint.name}", "", (value,), times, Part.LOSSES, laws))
-    source = probe.text(target, options, "", declarations, connections)
+    source = probe.text(target, "", declarations, connections)
     values = tuple(each.values[0] for each in compared)
     expected = {"time": times, **dict.fromkeys(values, (0.0,) * len(times))}
     return Trial("laws of joints", Probe(source, "Probe_.Probe", _STOP, _STEP, values), tuple(compared), expected)

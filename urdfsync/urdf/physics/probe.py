@@ -16,7 +16,7 @@ from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.model.loop import loop_reaches
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import USES
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.subject import Subject
@@ -152,7 +152,7 @@ def moving_probe(
     base = zip(("x", "y", "z", "turn"), subject.base, strict=True)
     tables = ", ".join(f"{name} = {matrix(motion.ways(courses), 6)}" for name, courses in base)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
-    source = text(target, options, "", declarations, connections, _driven_balls(subject))
+    source = text(target, "", declarations, connections, _driven_balls(subject))
     last = float(max(motion.Instant))
     # integration closes loops: its error, times the square of its decay rate, adds to the accelerations
     tolerance = 3e-12 if subject.tree.loops else None
@@ -180,7 +180,7 @@ def sweeping_probe(subject: Subject, values: Iterable[str]) -> Probe:
             f"Real balance{k} = sweep{k}.flange.{effort} + sweep{k}.support.{effort}",
         )
         connections += (f"sweep{k}.support, housing{k}.flange", f"sweep{k}.flange, weight{k}.flange_a")
-    source = text(subject.target, subject.options, "", declarations, connections)
+    source = text(subject.target, "", declarations, connections)
     return Probe(source, "Probe_.Probe", motion.PERIOD, motion.PERIOD / 2, tuple(values))
 
 
@@ -288,7 +288,7 @@ def free_probe(
     declarations.append("Real gravity[3] = world.g*world.n")
     if options.base == "floating":
         declarations.append("Real weight = ground.load")
-    source = text(subject.target, options, bench, declarations, connections)
+    source = text(subject.target, bench, declarations, connections)
     return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
 
 
@@ -323,14 +323,13 @@ def _place(link: str, origin: Origin) -> str:
 
 def text(
     target: Target,
-    options: Options,
     bench: str,
     declarations: Iterable[str],
     connections: Iterable[str],
     classes: Iterable[str] = (),
 ) -> str:
     """Return the package `Probe_`, whose model `Probe` may extend a bench; `classes` are lines of other classes."""
-    libraries = [name for name, _ in options.uses]
+    libraries = [name for name, _ in USES]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads only imported libraries
     lines = [
         "package Probe_",
