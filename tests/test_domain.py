@@ -114,6 +114,7 @@ def test_options(case: Case) -> None:
         setattr(case.options, fields[0].name, None)
     reading = case.domain.read(SAMPLES[case.domain.name][0], "sample", case.options)
     assert reading.option_findings == (), "defaults suit every model"
+    assert case.domain.advice
     values = {proposal.option: proposal.value for proposal in case.domain.advice.propose(case.snapshot, ())}
     assert values.keys() <= known
     msgspec.convert(values, case.domain.options)
@@ -181,7 +182,7 @@ def test_artifacts_follow_from_their_input_alone(case: Case) -> None:
     if case.domain.drawing:
         drawing = case.domain.drawing(case.snapshot, case.imports, TARGET, case.options, {})
         assert drawing is None or "<svg" in drawing
-        assert drawing == again.domain.drawing(again.snapshot, again.imports, TARGET, again.options, {})
+        assert drawing == case.domain.drawing(again.snapshot, again.imports, TARGET, again.options, {})
 
 
 def test_imports_show_in_the_text_only_while_they_are_there(case: Case) -> None:

@@ -358,7 +358,7 @@ def record(
     source, target, form = Path(source), _target(class_, within, Path(source)), registry.domain(domain)
     text = sources.read_file_source(form, source, arguments or {}, configuration.ros_package_path())
     snapshot, reading = sources.read_permissively(form, text)
-    recorder: Recorder | None = form.record
+    recorder = form.record
     if recorder is None:
         message = f"the domain `{form.name}` has no record approach"
         raise ConfigError.of("no-record", message, hint="use `urdfsync build`")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections import defaultdict
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, Protocol, TypeAlias, cast
+from typing import Any, Protocol, TypeAlias
 
 import msgspec
 
@@ -168,7 +168,7 @@ def compare(old: Version, new: Version, domain: Domain, options: Any, matching: 
         is_same = old.snapshot == new.snapshot
         matching = Matching() if is_same else match(domain.features(old.snapshot), domain.features(new.snapshot))
     renames = matching.renames
-    describe = cast("Describe", domain.describe or functools.partial(_describe, unit=domain.unit))
+    describe = domain.describe or functools.partial(_describe, unit=domain.unit)
     changes = [
         Change((f"{kind} {name}",), ChangeKind.RENAMED, ChangeClass.STRUCTURAL, name, renamed)
         for (kind, name), renamed in renames.items()

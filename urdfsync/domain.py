@@ -11,11 +11,24 @@ import enum
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
+
+if TYPE_CHECKING:  # types of features alone: no module needs another one for a domain
+    from urdfsync.api import Recorder
+    from urdfsync.changes import Describe, Effects
+    from urdfsync.checks.experiment import Checks
+    from urdfsync.config.advice import Advice, Starter
+    from urdfsync.engine.imports import Mentions
+    from urdfsync.engine.judgements import Judgements
+    from urdfsync.engine.stage import Drawing
+    from urdfsync.engine.unused import Parts
+    from urdfsync.identification.results import Physics
+    from urdfsync.pages.scene import Pictures
+    from urdfsync.simulation.bench import Benches
 
 Snapshot: TypeAlias = Any
 """A model as its domain reads it: a frozen msgspec.Struct, `Domain.model`, with all data of artifacts.
@@ -275,19 +288,19 @@ class Domain(Protocol):
     """Kinds of files that a source is read with."""
 
     # Optional features. Each Protocol is defined beside the code that uses it; an object or a module implements it.
-    advice: Any = None  # `urdfsync.config.advice.Advice`
-    starter: Any = None  # `urdfsync.config.advice.Starter`
-    imports: Any = None  # `urdfsync.engine.imports.Mentions`
-    describe: Any = None  # `urdfsync.changes.Describe`
-    parts: Any = None  # `urdfsync.engine.unused.Parts`
-    judgements: Any = None  # `urdfsync.engine.judgements.Judgements`
-    effects: Any = None  # `urdfsync.changes.Effects`
-    record: Any = None  # `urdfsync.api.Recorder`
-    checks: Any = None  # `urdfsync.checks.experiment.Checks`
-    simulation: Any = None  # `urdfsync.simulation.bench.Benches`
-    identification: Any = None  # `urdfsync.identification.results.Physics`
-    drawing: Any = None  # `urdfsync.engine.stage.Drawing`
-    pictures: Any = None  # `urdfsync.pages.scene.Pictures`
+    advice: Advice | None = None
+    starter: Starter | None = None
+    imports: Mentions | None = None
+    describe: Describe | None = None
+    parts: Parts | None = None
+    judgements: Judgements | None = None
+    effects: Effects | None = None
+    record: Recorder | None = None
+    checks: Checks | None = None
+    simulation: Benches | None = None
+    identification: Physics | None = None
+    drawing: Drawing | None = None
+    pictures: Pictures | None = None
 
     def read(self, content: bytes, file: str, options: Any, *companions: Companion) -> Reading:
         """Read a source; `file` is its name in diagnostics. Pure. Errors of the input are in the `Reading`.

@@ -12,7 +12,7 @@ import msgspec
 from urdfsync.checks import libraries
 from urdfsync.checks.package import RobotPackage
 from urdfsync.checks.results import listed
-from urdfsync.config.advice import Advice, brings_back
+from urdfsync.config.advice import brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Node
@@ -110,7 +110,7 @@ def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved])
         if earliest.kind is UnresolvedKind.ELEMENT:
             robot, snapshot = package.robot, package.generation.now.snapshot
             if earliest.owner in [f"{robot.target.package}.{model}" for model in package.models]:
-                advice: Advice | None = package.inputs.domain.advice
+                advice = package.inputs.domain.advice
                 option = advice.option_for(earliest.part, snapshot, robot.target, robot.options) if advice else ""
                 hint = brings_back(option) or hint
     lines = sorted({place.line for place in places} - {earliest.line})

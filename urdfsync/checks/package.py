@@ -14,7 +14,6 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.checks.contents import package_texts
-from urdfsync.checks.experiment import Checks
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Role
@@ -109,7 +108,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     errors = [finding for finding in built.diagnostics if finding.severity is Severity.ERROR]
     on_disk, generated = package_texts(robot.folder), generated_texts(inputs, generation)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
-    checks: Checks | None = inputs.domain.checks
+    checks = inputs.domain.checks
     models = (
         checks.models(snapshot, robot.target, robot.options) if checks else _generated_models(generation.package, robot)
     )

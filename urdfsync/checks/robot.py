@@ -102,7 +102,7 @@ def _check(
     robot, inputs = package.robot, package.inputs
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
     result.edited = package.changed
-    checks: Checks | None = inputs.domain.checks
+    checks = inputs.domain.checks
     result.freedoms = checks.freedoms(package.generation.now.snapshot, robot.options) if checks else None
     tell(f"{robot.name}: checking files and names")
     result.add(package.errors)
@@ -238,7 +238,7 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
 
 def _experiments(domain: str, sample: Sample, step: float | None) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
-    checks: Checks | None = registry.domain(domain).checks
+    checks = registry.domain(domain).checks
     yield checks.experiment(sample, step) if checks else "there is no reference for packages of this domain"
 
 

@@ -18,7 +18,7 @@ import tomli_w
 from urdfsync import config, registry
 from urdfsync.commands import arguments, merge_driver
 from urdfsync.config import schema
-from urdfsync.config.advice import Advice, Proposal
+from urdfsync.config.advice import Proposal
 from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Version
@@ -172,7 +172,7 @@ def _guess(
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError.of("source-name", message, shown(source), hint=hint)
     text = source_files.read_file_source(domain, source, given, config.ros_package_path())
-    advice: Advice | None = domain.advice
+    advice = domain.advice
     if text.expansion and "name" in text.expansion.unused:  # then `name` is only the robot's name in the configuration
         others = {key: value for key, value in given.items() if key != "name"}
         text = source_files.read_file_source(domain, source, others, config.ros_package_path())

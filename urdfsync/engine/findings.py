@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync.changes import Changes, Effects
+from urdfsync.changes import Changes
 from urdfsync.config import Config
-from urdfsync.config.advice import Advice, brings_back
+from urdfsync.config.advice import brings_back
 from urdfsync.dependencies import reads
 from urdfsync.dependencies.reads import walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -132,7 +132,7 @@ def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: U
         return f"use `{'.'.join((target.package, *(renamed.get(part, part) for part in rest)))}` instead"
     if name := new_name(use.part, renamed, use.candidates):
         return f"use `{name}` instead"
-    advice: Advice | None = inputs.domain.advice
+    advice = inputs.domain.advice
     for name in dict.fromkeys((use.part, next(new_names(use.part, renamed), use.part))):
         if advice and (option := advice.option_for(name, snapshot, target, options)):
             return brings_back(option, name if name != use.part else "")
@@ -201,7 +201,7 @@ def _first(names: Sequence[str], most: int) -> str:
 def _changed_connectors(inputs: Inputs, generation: Generation, changes: Changes | None) -> Iterator[Diagnostic]:
     """Yield notes on renamed and removed connectors, and one note on new connectors."""
     complete, robot = inputs.last.version, inputs.robot
-    effects: Effects | None = inputs.domain.effects
+    effects = inputs.domain.effects
     if (
         effects is None
         or complete is None

@@ -238,7 +238,7 @@ class Mentions(Protocol):
 
 def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:
     """Return the other files that a conversion needs: contents by path from the file's folder; empty if unreadable."""
-    mentions: Mentions | None = domain.imports
+    mentions = domain.imports
     contents, waiting = dict[str, bytes](), [*mentions.mentioned(dependency, path.name, content)] if mentions else []
     while mentions and waiting and len(contents) < _MOST_OTHERS and sum(map(len, contents.values())) < MAX_FILE:
         name = waiting.pop(0)

@@ -43,7 +43,7 @@ def judge(
 
     Those that the `last` version lacks are new; `changes` lead to it. Without a last version, nothing is new.
     """
-    judgements: Judgements | None = domain.judgements
+    judgements = domain.judgements
     if judgements is None:
         return []
     changes = changes or Changes()
@@ -61,7 +61,7 @@ def find_jumps(
     domain: Domain, now: Version, reading: Reading, file: str, last: Version, renames: Mapping[ElementKey, str]
 ) -> list[Diagnostic]:
     """Return the judgements about the differences of two models, all of them new."""
-    judgements: Judgements | None = domain.judgements
+    judgements = domain.judgements
     jumps = judgements.find_jumps(last, now, renames) if judgements else ()
     return [_placed(jump, reading, file, is_new=True) for jump in jumps]
 

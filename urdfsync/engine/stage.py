@@ -138,7 +138,7 @@ def _sorted(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
 
 def draw_model(inputs: Inputs, generation: Generation, decision: Decision) -> str | None:
     """Return the diagram of the main model as the build leaves the package; None if the domain has no diagram."""
-    draw: Drawing | None = inputs.domain.drawing
+    draw = inputs.domain.drawing
     if draw is None:
         return None
     model = generation.now.snapshot, generation.imported.imports, inputs.robot.target, inputs.robot.options

@@ -35,7 +35,7 @@ def find_unused(
     domain: Domain, version: Version, target: Target, options: Any, templates: Templates, package: Package
 ) -> frozenset[str]:
     """Return the parts of a model without which its package would have the same texts."""
-    parts: Parts | None = domain.parts
+    parts = domain.parts
     without = parts.without_each(version.snapshot, options) if parts else {}
     artifacts = (domain.artifacts(snapshot, version.imports or {}, target, options) for snapshot in without.values())
     pairs = zip(without, artifacts, strict=True)

@@ -15,7 +15,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import failure, put, shown
-from urdfsync.identification.results import FittedNumber, Physics, Regressor
+from urdfsync.identification.results import FittedNumber, Regressor
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.values import Value, literals, read_values
 
@@ -67,7 +67,7 @@ class Records:
     def regressor(self) -> Regressor:
         """Return the model of the robot with its edits. Raises UrdfsyncError."""
         robot, inputs = self.package.robot, self.package.inputs
-        physics: Physics | None = registry.domain(robot.domain).identification
+        physics = registry.domain(robot.domain).identification
         if physics is None:
             message = f"robot `{robot.name}` has no joints whose efforts a log could show"
             raise ConfigError.of("identify", message, shown(self.config.file))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.changes import Changes, Effect, Effects, compare
+from urdfsync.changes import Changes, Effect, compare
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
@@ -123,7 +123,7 @@ def _with_older(
 
 def _numbers(domain: Domain, now: Version) -> Sequence[Effect]:
     """Return the properties of an unchanged model."""
-    asked: Effects | None = domain.effects
+    asked = domain.effects
     return (*asked.effects(now, now), *asked.loads(now, now, {})) if asked else ()
 
 

@@ -54,7 +54,7 @@ class _MeshFile(NamedTuple):
 def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> Picture:
     """Return the picture of a robot, beside an older version. Raises UrdfsyncError for a domain without pictures."""
     robot, imported = inputs.robot, generation.imported
-    pictures: Pictures | None = inputs.domain.pictures
+    pictures = inputs.domain.pictures
     if pictures is None:
         message = f"packages of the domain `{robot.domain}` have no picture"
         raise UrdfsyncError.of("no-picture", message, shown(robot.source))

@@ -23,7 +23,7 @@ from urdfsync.files import shown
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.stored import StoredClasses
-from urdfsync.simulation.bench import Bench, Benches
+from urdfsync.simulation.bench import Bench
 from urdfsync.simulation.models import Model, find_model
 from urdfsync.simulation.results import SimulateOptions
 from urdfsync.simulation.values import find_unknown, read_values
@@ -54,7 +54,7 @@ def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for
         raise ConfigError.of("not-built", message, place, hint=hint)
     message, hint = "the package is out of step with its source, and is used as it is", "run `urdfsync build`"
     late = Diagnostic(Severity.WARNING, "out-of-step", message, place, hint=hint)
-    benches: Benches | None = package.inputs.domain.simulation
+    benches = package.inputs.domain.simulation
     bench = benches.bench(package.generation.now.snapshot, robot.target, robot.options) if benches else None
     bench = bench or Bench("", "", ())
     name = options.model or (bench.run if for_export or options.motion else "")

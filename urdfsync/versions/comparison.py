@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync import changes, registry
-from urdfsync.changes import Changes, Effect, Effects
+from urdfsync.changes import Changes, Effect
 from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.config.load import parse as parse_config
 from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
@@ -334,7 +334,7 @@ def _files_of(
 def _effects(
     domain: Domain, old: Version, new: Version, differences: Changes, robot: RobotConfig
 ) -> tuple[Effect, ...]:
-    asked: Effects | None = domain.effects
+    asked = domain.effects
     if asked is None:
         return ()
     names = asked.interface(old, new, differences.renames, robot.target, robot.options)
