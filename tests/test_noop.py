@@ -139,7 +139,7 @@ def test_after_a_build_that_wrote_nothing_has_to_run(folder: Path) -> None:
     assert cli.main(BUILD) == 0
     lines = saved(*BUILD)
     assert lines is not None
-    assert [f"{robot}: {words}" for robot, words, _ in lines] == IN_STEP.splitlines()
+    assert [f"{robot}: {words}" for robot, words, *_ in lines] == IN_STEP.splitlines()
 
 
 def test_the_result_of_a_table_of_10_000_rows_is_remembered(folder: Path) -> None:
@@ -452,7 +452,7 @@ def test_record_and_plan_agree(
             lines = saved(*CHECK)
             with _nothing_remembered():
                 planned = _document()
-                assert lines is None or (0, "".join(f"{robot}: {words}\n" for robot, words, _ in lines)) == _output(
+                assert lines is None or (0, "".join(f"{robot}: {words}\n" for robot, words, *_ in lines)) == _output(
                     CHECK
                 )
             assert _document() == planned, step

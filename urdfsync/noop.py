@@ -28,6 +28,8 @@ NONE = "-"
 """Stands for no words in a record."""
 IN_STEP = "hook"
 """Says in a robot's record that the robot is in step, which is all that a hook wants to know."""
+MANY = 10
+"""The greatest number of robots of which each has its line, even if there is nothing to tell about it."""
 ROBOT = ".robot"
 """The ending of the names of robots' records."""
 _STATE = ".urdfsync"
@@ -77,8 +79,11 @@ def find_config(arguments: Sequence[str]) -> str | None:
     return file
 
 
-def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str]] | None:
-    """Return each robot's name, its line, and the sentence about its findings; None if the command has to run."""
+def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str, int]] | None:
+    """Return for each robot its name, its line, and the sentence about its findings with their number.
+
+    Returns None if the command has to run.
+    """
     try:
         request, file = Request(arguments), find_config(arguments)
     except ValueError:
@@ -95,7 +100,7 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str]] | None:
         words = _words(folder, robot, keys[robot], request.command, seen)
         if words is None or not record.findings_told(folder, robot).issuperset(words[3:]):
             return None
-        lines.append((robot, words[0], words[2].removeprefix(NONE)))
+        lines.append((robot, words[0], words[2].removeprefix(NONE), len(words) - 3))
     return lines or None
 
 
@@ -141,12 +146,28 @@ def answer(arguments: Sequence[str]) -> str | None:
         return None
     with streams.SafeStreams() as output:
         if not Request(arguments).quiet:
-            for robot, summary, findings in lines:
-                marks = [("✓ ", "green")] if streams.has_marks(output) else []
+            marks = [("✓ ", "green")] if streams.has_marks(output) else []
+            for robot, summary, findings, _ in lines if len(lines) <= MANY else ():
                 _write(output, *marks, (robot, "bold"), (f": {summary}", ""))
                 if findings:
                     _write(sys.stderr, (f"{robot}: {findings}", "dim"))
+            if len(lines) > MANY:
+                _write(output, *marks, (robots_in_words(len(lines)), "bold"), (": in step", ""))
+                if numbers := [number for *_, number in lines if number]:
+                    _write(sys.stderr, (findings_in_words(numbers), "dim"))
         return output.trouble
+
+
+def robots_in_words(number: int) -> str:
+    """Return the subject of a sentence about some of many robots."""
+    return "1 robot" if number == 1 else f"{number} robots"
+
+
+def findings_in_words(numbers: Sequence[int]) -> str:
+    """Return a sentence about findings that were told before: the number of each robot that has any."""
+    total = sum(numbers)
+    words = "1 finding; --verbose shows it" if total == 1 else f"{total} findings; --verbose shows them"
+    return f"{robots_in_words(len(numbers))}: still {words}"
 
 
 def _write(stream: TextIO | streams.Stream, *parts: tuple[str, str]) -> None:

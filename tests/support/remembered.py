@@ -78,7 +78,7 @@ def save(*arguments: str) -> None:
     until(lambda: saved(*arguments) is not None, lambda: cli.main(arguments))
 
 
-def saved(*arguments: str) -> list[tuple[str, str, str]] | None:
+def saved(*arguments: str) -> list[tuple[str, str, str, int]] | None:
     """What a command would write without being run; None if it has to run."""
     return noop.find_lines(arguments)
 

@@ -195,6 +195,7 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
         console.shard = "{}/{}".format(*share)
         mine = counted(len(robots), "robot") if robots else "no robot"
         console.tell([line((f"shard {console.shard}: {mine} of {count}", "dim"))])
+    console.announce(len(robots))
     return robots
 
 

@@ -50,6 +50,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, "`--shard` needs `--check`: one process at a time may build")
     given = {"dry": args.dry_run or args.check, "merge": args.merge}
     results = arguments.call(build, BuildOptions, args, console, on_result=partial(show_result, console), **given)
+    console.count_robots()
     console.tell(_next_steps(results))
     return console.end(exit_code(results, args.check))
 

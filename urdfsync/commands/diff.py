@@ -51,6 +51,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.patch:
         return _write_patch(args, console)
     given = {"config": args.config, "wait": args.wait, "progress": console.progress}
+    if not args.sources:
+        given["config"] = config = load(args.config)
+        console.announce(len(config.robots))
     if args.edits:
         edited = edits(*args.sources, **given, on_result=partial(_show_edits, console))
         return console.end(Exit.ERROR if any(each.failed for each in edited) else Exit.IN_STEP)

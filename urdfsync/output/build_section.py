@@ -80,7 +80,12 @@ def show(
         return
     if not console.quiet or (result and (result.conflicts or result.is_broken)):
         section = to_section(told, verbose=console.verbose)
-        console.print(text(section, verbose=console.verbose, quiet=quiet), error=bool(result and result.failed))
+        lines = list(text(section, verbose=console.verbose, quiet=quiet))
+        is_event = result is not None and (result.writes or result.renews or result.settled)
+        if console.counts_robots and len(lines) == 1 and section.mark in (Mark.FINE, Mark.NONE) and not is_event:
+            console.uneventful[section.summary.partition(",")[0]] += 1
+        else:
+            console.print(lines, error=bool(result and result.failed))
     if result:
         show_findings(console, result, told.diagnostics)
     else:

@@ -17,10 +17,11 @@ from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 
+from urdfsync import noop
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.documents import Document, plain
 from urdfsync.spelling import visible
-from urdfsync.streams import Stream, has_colours, is_terminal
+from urdfsync.streams import Stream, has_colours, has_marks, is_terminal
 
 if TYPE_CHECKING:
     import rich.console
@@ -155,6 +156,12 @@ class Console:
         self._warnings: Sequence[Diagnostic] = ()
         self._begin = time.monotonic()
         self.shard: str | None = None
+        self.counts_robots = False
+        """Whether robots with nothing to tell are counted at the end, instead of a line for each."""
+        self.uneventful = Counter[str]()
+        """The number of these robots by their summary."""
+        self.repeated_findings: list[int] = []
+        """The number of findings that the last build has shown already, for each robot that has any."""
         self._bar: tuple[Progress, TaskID] | None = None
 
     @property
@@ -193,6 +200,10 @@ class Console:
         self._warnings = diagnostics
         self.findings(diagnostics)
 
+    def announce(self, robots: int) -> None:
+        """Say how many robots the command is about: if there are many, those with nothing to tell are counted."""
+        self.counts_robots = robots > noop.MANY and not self.verbose
+
     def add(self, result: R, to_section: Callable[[R], Any] | None = None) -> None:
         """Add a result to the document; a later failure of the command does not remove it."""
         self.stop_progress()
@@ -205,10 +216,21 @@ class Console:
         """End a command: show its errors, or write its document. Returns the exit code."""
         self.stop_progress()
         if not self.is_document:
+            self.count_robots()
             self.findings(diagnostics)
             return code
         sys.stdout.write(self._document(code, (*self._warnings, *diagnostics)))
         return code
+
+    def count_robots(self) -> None:
+        """Show the numbers that stand for the lines of many robots, once."""
+        marks = [("✓ ", "green")] if has_marks(sys.stdout) else []
+        for summary, robots in self.uneventful.items():
+            self.tell([line(*marks, (noop.robots_in_words(robots), "bold"), (f": {summary}", ""))])
+        if self.repeated_findings and not self.quiet:
+            self.print([line((noop.findings_in_words(self.repeated_findings), "dim"))], error=True)
+        self.uneventful.clear()
+        self.repeated_findings.clear()
 
     def _document(self, code: int, diagnostics: Sequence[Diagnostic]) -> str:
         """Return the document; `diagnostics` belong to no robot."""

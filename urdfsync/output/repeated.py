@@ -31,7 +31,10 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
         or key not in before
     ]
     console.findings(new)
-    if (words := still([finding for finding in diagnostics if finding not in new])) and not console.quiet:
-        console.print([line((f"{result.robot}: {words}", "dim"))], error=True)
+    repeated = [finding for finding in diagnostics if finding not in new]
+    if repeated and console.counts_robots:
+        console.repeated_findings.append(len(repeated))
+    elif repeated and not console.quiet:
+        console.print([line((f"{result.robot}: {still(repeated)}", "dim"))], error=True)
     if before != set(keys) and not (result.dry or result.failed or console.quiet):
         record.note_findings(folder, result.robot, keys)
