@@ -224,22 +224,23 @@ def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Ar
     measured = np.concatenate([np.zeros(count), target_at(0.0)[:-1], [0.0]])
     least, solution = _MODEL_ERROR * evidence.roots(measured), evidence.linear_fit(count) @ target_at(0.0)
     roots = evidence.roots(np.concatenate([solution, -target_at(0.0)]))
+    freed, freed_places = list[str](), set[int]()
     for _ in range(_ROUNDS):
         rows, late = evidence.stacked(np.hypot(roots, least) * np.sqrt(alike)), float(x[-1])
         slope = rows[:, count:] @ [*shift_slopes(late), 0.0]
         matrix, goal = np.column_stack([rows[:, :count], -slope]), rows[:, count:] @ target_at(late) - late * slope
-        chosen = _determined(matrix @ problem.slopes(problem.start) * sizes, _order(problem, fitted))
-        freed = list[str]()
+        determined = _determined(matrix @ problem.slopes(problem.start) * sizes, _order(problem, fitted))
+        chosen = sorted({*determined, *freed_places})
         while True:
             x, jacobian = solve(problem, matrix, goal, sizes, chosen, x)
             logarithms = problem.distances(x).reshape(-1, 4, 4)
             far = np.abs(np.linalg.eigvalsh(logarithms)).max(axis=1) if len(logarithms) else []
             pushed = [k for k, each in enumerate(far) if each > _EDGE]
-            places = {10 * k + n for k in pushed for n in range(10)} & {*fitted}
-            if not places - {*chosen}:
+            freed_places |= {10 * k + n for k in pushed for n in range(10)} & {*fitted}
+            if freed_places <= {*chosen}:
                 break
             freed += [problem.bodies[k].name for k in pushed if problem.bodies[k].name not in freed]
-            chosen = sorted({*chosen, *places})
+            chosen = sorted({*chosen, *freed_places})
         covariance = np.zeros((count + 1, count + 1))
         units = np.outer(sizes[chosen], sizes[chosen])
         covariance[np.ix_(chosen, chosen)] = np.linalg.inv(jacobian.T @ jacobian) * units
