@@ -91,6 +91,8 @@ class Fit(NamedTuple):
     freed: Sequence[str]
     delta: Array
     """The change of the linear parameters, without the delay."""
+    matrix: Array
+    """The derivatives of the weighed efforts by the linear parameters and the delay."""
 
     @property
     def errors(self) -> Array:
@@ -247,7 +249,7 @@ def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Ar
         unexplained = np.concatenate([problem.delta(x)[:-1], -target_at(x[-1])])
         roots = evidence.roots(unexplained, len(chosen) / max(1, int(np.count_nonzero(evidence.counts))))
     is_fitted = np.isin(np.arange(count + 1), chosen)
-    return Fit(problem.start, x, covariance, is_fitted, tuple(freed), problem.delta(x)[:-1])
+    return Fit(problem.start, x, covariance, is_fitted, tuple(freed), problem.delta(x)[:-1], matrix)
 
 
 def _order(problem: Problem, fitted: Collection[int]) -> list[int]:

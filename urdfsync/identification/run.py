@@ -215,7 +215,8 @@ def _problem(
     return Problem(bodies, regressor.losses, len(measured.axes)), fitted, notes
 
 
-def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
+def natural_sizes(problem: Problem, measured: Measured) -> Array:
+    """Return the natural size of each number: of losses, that with which they make up the whole effort."""
     nothing = np.zeros(len(problem.start) - 1)
     joints = measured.joint_fits(measured.evidence, signals.target_at(0.0), nothing)
     efforts = {joint.element: joint.measured for joint in joints}
@@ -226,7 +227,11 @@ def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
         for k, loss in enumerate(problem.losses)
     ]
     offsets = [_USUAL_OFFSET * efforts.get(f"joint {axis.name}", usual) for axis in measured.axes]
-    sizes = problem.sizes(np.array([*others, *offsets, _USUAL_DELAY]))
+    return problem.sizes(np.array([*others, *offsets, _USUAL_DELAY]))
+
+
+def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
+    sizes = natural_sizes(problem, measured)
     first = fit(problem, measured.evidence, fitted, sizes, np.ones(len(measured.axes)))
     series = measured.series(signals.target_at(first.after[-1]), first.delta)
     left = (series.measured - series.after).T

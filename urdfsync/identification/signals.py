@@ -84,7 +84,10 @@ def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None
     speeds = piece.velocity
     velocity = position.derivative() if speeds is None else CubicSpline(times, smooth(_at(times, piece.times, speeds)))
     raw = _at(times, piece.times, piece.effort)
-    effort, slow = CubicSpline(times, _blurred(raw, cutoff / rate)), [_SLOW if axis.unit == "rad" else 0.1 * _SLOW for axis in axes]
+    effort, slow = (
+        CubicSpline(times, _blurred(raw, cutoff / rate)),
+        [_SLOW if axis.unit == "rad" else 0.1 * _SLOW for axis in axes],
+    )
     # the filter spreads an effort that has any value over its neighbours
     held = _blurred((_saturated(raw, axes) | (np.abs(velocity(times)) < slow)).astype(float), cutoff / rate)
     even = min(rate, _PER_CUTOFF * cutoff)
