@@ -155,32 +155,37 @@ def main() -> None:
     parser.add_argument("names", nargs="*", metavar="ROBOT", default=[*SOURCES], help=f"of {', '.join(SOURCES)}")
     parser.add_argument("--truths", type=int, default=10, help="real robots, each with its own motion")
     parser.add_argument("--noises", type=int, default=10, help="logs of each")
-    parser.add_argument("--seconds", type=float, default=60, help="duration of a log")
+    parser.add_argument("--seconds", type=float, default=40, help="duration of a log")
     options = parser.parse_args()
     for name in options.names:
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             results = list(trials(name, options.truths, options.noises, options.seconds))
             os.chdir("/")
-        by_name = defaultdict(list)
-        for result in results:
-            for parameter, error in result.errors.items():
-                by_name[parameter].append(abs(error) < 3)
-        shares = {parameter: float(np.mean(each)) for parameter, each in by_name.items()}
-        worst = min(shares, key=lambda each: shares[each])
-        ratios = np.array([result.ratio for result in results])
-        joints, recorded = np.array([result.ratios for result in results]), [each.ratio_of_records for each in results]
-        sys.stdout.write(
-            f"{name}: {len(results)} runs; {len(shares)} base parameters, "
-            f"{100 * np.mean(np.concatenate([*by_name.values()])):.2f} % within three errors; "
-            f"worst: {worst}, {100 * shares[worst]:.1f} % of {len(by_name[worst])}; "
-            f"consistent {sum(each.is_consistent for each in results)}; "
-            f"ratio median {np.median(ratios):.3f}, most {ratios.max():.3f}, at most 1.1 in {np.sum(ratios <= 1.1)}; "
-            f"each joint at most 1.1 in {np.sum((joints <= 1.1).all(axis=1))}, most {joints.max():.3f}; "
-            f"records alone median {np.median(recorded):.3f}, most {max(recorded):.3f}; "
-            f"{np.median([each.seconds for each in results]):.1f} s a fit\n"
-        )
+        sys.stdout.write(f"{name}: {summary(results)}\n")
         sys.stdout.flush()
+
+
+def summary(results: list[Trial]) -> str:
+    """Return how many runs were right, in words."""
+    by_name = defaultdict[str, list[bool]](list)
+    for result in results:
+        for parameter, error in result.errors.items():
+            by_name[parameter].append(abs(error) < 3)
+    shares = {parameter: float(np.mean(each)) for parameter, each in by_name.items()}
+    worst = min(shares, key=lambda each: shares[each])
+    ratios, of_records = (np.array([getattr(each, k) for each in results]) for k in ("ratio", "ratio_of_records"))
+    joints = np.array([result.ratios for result in results])
+    return (
+        f"{len(results)} runs; {len(shares)} base parameters, "
+        f"{100 * np.mean(np.concatenate([*by_name.values()])):.2f} % within three errors; "
+        f"worst: {worst}, {100 * shares[worst]:.1f} % of {len(by_name[worst])}; "
+        f"consistent {sum(each.is_consistent for each in results)}; "
+        f"ratio median {np.median(ratios):.3f}, most {ratios.max():.3f}, at most 1.1 in {np.sum(ratios <= 1.1)}; "
+        f"each joint at most 1.1 in {np.sum((joints <= 1.1).all(axis=1))}, most {joints.max():.3f}; "
+        f"records alone median {np.median(of_records):.3f}, most {of_records.max():.3f}; "
+        f"{np.median([each.seconds for each in results]):.1f} s a fit"
+    )
 
 
 if __name__ == "__main__":
