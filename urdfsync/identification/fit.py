@@ -297,4 +297,6 @@ def solve(
     if not np.isfinite(residuals(first_guess)).all():  # rounded over the edge
         first_guess = np.zeros(len(chosen))
     best = least_squares(residuals, first_guess, slopes, bounds=(lower, np.inf), max_nfev=_MOST_STEPS)
-    return start + unit @ best.x, slopes(best.x)
+    x, losses = start + unit @ best.x, slice(first, problem.count)
+    x[losses] = np.maximum(x[losses], 0.0)
+    return x, slopes(best.x)

@@ -37,6 +37,9 @@ _WORDS = {
     "effort": "effort efforts eff torque force tau f current",
 }
 _TIMES = ("time", "t", "timestamp", "stamp")
+_TIME_UNITS = {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+_SLOWEST = 0.2
+"""A greater usual step in s is no log of a motion, but another unit."""
 _UNITS = {
     ("rad", "position"): "rad",
     ("rad", "velocity"): "rad/s",
@@ -109,7 +112,7 @@ class Log:
             name, unit = name_and_unit(cell)
             name = _plain(name).removeprefix("jointstates").removeprefix("robot")
             if name in _TIMES and time is None:
-                time = Column(place, {"ns": 1e-9, "us": 1e-6}.get(unit) or self._factor(cell, unit, "s"))
+                time = Column(place, _TIME_UNITS.get(unit) or self._factor(cell, unit, "s"))
             elif name in aliases:
                 k, quantity = aliases[name]
                 factor = self._factor(cell, unit, _UNITS[self._axes[k].unit, quantity])
@@ -159,6 +162,7 @@ class Log:
             times = self.time.factor * rows[:, self.time.place]
             steps = np.diff(times, prepend=last)
             usual = usual or (float(np.median(steps[1:][steps[1:] > 0])) if (steps[1:] > 0).any() else 0.0)
+            self._check_steps(usual)
             again = steps == 0
             self.dropped["row with the time of the row before"] += int(np.count_nonzero(again))
             rows, times, steps = rows[~again], times[~again], steps[~again]
@@ -189,6 +193,13 @@ class Log:
         moving = [k for k in range(shape[1]) if (k, "position") in self.columns]
         has_velocities = all((k, "velocity") in self.columns for k in moving)
         return Piece(times, tables["position"], tables["velocity"] if has_velocities else None, tables["effort"])
+
+    def _check_steps(self, usual: float) -> None:
+        """Refuse times in another unit than the header says."""
+        if usual > _SLOWEST:
+            units = [unit for unit in ("ms", "us", "ns") if usual * _TIME_UNITS[unit] <= _SLOWEST]
+            hint = f"write `time [{units[0]}]` if that is its unit" if units else ""
+            _refuse(self.file, f"the log has a row each {usual:.4g} s, too few for a motion", 1, hint)
 
     def _check_range(self, axis: Axis, values: Array) -> None:
         """Refuse positions that are degrees, or those of motors."""

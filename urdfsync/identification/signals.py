@@ -150,8 +150,8 @@ def _at(times: Array, old: Array, values: Array) -> Array:
 
 
 def _saturated(efforts: Array, axes: Sequence[Axis]) -> np.ndarray:
-    """Return which efforts are at their limit, or on a flat top."""
+    """Return which efforts are at their limit, or on a flat top; all of a joint whose effort is always 0."""
     sizes = np.abs(efforts)
     tops = sizes >= sizes.max(axis=0) * (1 - 1e-9)
     runs = np.lib.stride_tricks.sliding_window_view(tops, _FLAT, axis=0).all(axis=-1).any(axis=0)
-    return np.asarray(((tops & runs) | (sizes >= [0.999 * axis.effort for axis in axes])) & (sizes > 0))
+    return np.asarray((tops & runs) | (sizes >= [0.999 * axis.effort for axis in axes]))
