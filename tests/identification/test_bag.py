@@ -85,6 +85,16 @@ def test_messages_without_a_joint_have_no_number_for_it(folder: Path) -> None:
     assert log.told()[0] == "1 row without a number"
 
 
+def test_a_joint_without_a_sensor_sends_no_numbers(folder: Path) -> None:
+    """As ros2_control does it: the rows of the other joints are used."""
+    messages = [(t, state(["slide", "elbow"], [0.1, np.sin(t)], [np.nan, 1.0], t)) for t in np.arange(1, 2, 0.01)]
+    slide = ELBOW._replace(name="slide", component="slide")
+    log = Log(write("bag", {"/joint_states": messages}), [ELBOW, slide], IdentifyOptions())
+    (piece,) = log.pieces()
+    assert len(piece.times) == len(messages)
+    assert log.measured == [0]
+
+
 def test_a_topic_is_chosen(folder: Path) -> None:
     bag = write("bag", {"/left/joint_states": states(), "/right/joint_states": states(60)})
     with pytest.raises(ConfigError, match="2 topics have joint states: /left/joint_states, /right/joint_states"):

@@ -45,7 +45,9 @@ class Bag:
         columns = dict[tuple[str, str], None]()  # in the order of the messages
         for message in first:
             for quantity, values in message.values.items():
-                columns |= dict.fromkeys((name, quantity) for name, _ in zip(message.joints, values, strict=False))
+                pairs = zip(message.joints, values, strict=False)
+                # ros2_control sends NaN for what a joint does not measure
+                columns |= dict.fromkeys((name, quantity) for name, value in pairs if np.isfinite(value))
         self._columns = [*columns]
         self.header = ["time", *(f"{name}.{quantity}" for name, quantity in self._columns)]
 
@@ -92,7 +94,8 @@ class Bag:
         if self.topic and self.topic not in states:
             kind = topics.get(self.topic)
             message = f"topic {self.topic} has {kind}" if kind else f"there is no topic {self.topic}"
-            raise ConfigError.of("log", message, shown(self.file), hint=_topics(states))
+            others = f"topics with joint states: {', '.join(sorted(states))}" if states else "no topic has joint states"
+            raise ConfigError.of("log", message, shown(self.file), hint=others)
         if not states:
             message = f"no topic has {_TYPE}: {', '.join(sorted(topics)) or 'the recording is empty'}"
             raise SourceError.of("log", message, shown(self.file))
@@ -101,7 +104,3 @@ class Bag:
             raise ConfigError.of("log", message, shown(self.file), hint=f"choose one: `--topic {sorted(states)[0]}`")
         self.topic = self.topic or states[0]
         return [each for each in connections if each.topic == self.topic and each.msgtype == _TYPE]
-
-
-def _topics(states: list[str]) -> str:
-    return f"topics with joint states: {', '.join(sorted(states))}" if states else "no topic has joint states"

@@ -83,7 +83,6 @@ class Evidence:
 class Fit(NamedTuple):
     """The fitted numbers: ten of each body, then losses, the offset of each axis, and the delay of the efforts."""
 
-    before: Array
     after: Array
     covariance: Array
     """Of all numbers; 0 for one that stays."""
@@ -249,7 +248,7 @@ def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Ar
         unexplained = np.concatenate([problem.delta(x)[:-1], -target_at(x[-1])])
         roots = evidence.roots(unexplained, len(chosen) / max(1, int(np.count_nonzero(evidence.counts))))
     is_fitted = np.isin(np.arange(count + 1), chosen)
-    return Fit(problem.start, x, covariance, is_fitted, tuple(freed), problem.delta(x)[:-1], matrix)
+    return Fit(x, covariance, is_fitted, tuple(freed), problem.delta(x)[:-1], matrix)
 
 
 def _order(problem: Problem, fitted: Collection[int]) -> list[int]:

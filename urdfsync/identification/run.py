@@ -268,7 +268,7 @@ def _numbers(problem: Problem, result: Fit, fitted: Sequence[int], records: Reco
     for place in fitted:
         if result.is_fitted[place] and place < problem.count:
             element, path = _name(problem, place)
-            values = float(result.before[place]), float(result.after[place]), float(result.errors[place])
+            values = float(problem.start[place]), float(result.after[place]), float(result.errors[place])
             numbers.append(FittedNumber(element, path, *values, records.has(element, path)))
     return tuple(numbers)
 
