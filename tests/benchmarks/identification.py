@@ -153,8 +153,8 @@ def main() -> None:
     """Print one row of the table for each robot."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("names", nargs="*", metavar="ROBOT", default=[*SOURCES], help=f"of {', '.join(SOURCES)}")
-    parser.add_argument("--truths", type=int, default=10, help="real robots, each with its own motion")
-    parser.add_argument("--noises", type=int, default=10, help="logs of each")
+    parser.add_argument("--truths", type=int, default=5, help="real robots, each with its own motion")
+    parser.add_argument("--noises", type=int, default=20, help="logs of each")
     parser.add_argument("--seconds", type=float, default=40, help="duration of a log")
     options = parser.parse_args()
     for name in options.names:
@@ -180,6 +180,7 @@ def summary(results: list[Trial]) -> str:
         f"{len(results)} runs; {len(shares)} base parameters, "
         f"{100 * np.mean(np.concatenate([*by_name.values()])):.2f} % within three errors; "
         f"worst: {worst}, {100 * shares[worst]:.1f} % of {len(by_name[worst])}; "
+        f"all in {sum(max(map(abs, each.errors.values())) < 3 for each in results)}; "
         f"consistent {sum(each.is_consistent for each in results)}; "
         f"ratio median {np.median(ratios):.3f}, most {ratios.max():.3f}, at most 1.1 in {np.sum(ratios <= 1.1)}; "
         f"each joint at most 1.1 in {np.sum((joints <= 1.1).all(axis=1))}, most {joints.max():.3f}; "
