@@ -6,7 +6,7 @@ PACKAGES = {
     "epanet": "wntr",
     "fmu": "fmpy",
     "mjcf": "mujoco",
-    "log": "pyarrow",
+    "log": "pyarrow rosbags",
     "physics": "pin",
     "plot": "matplotlib",
     "remote": "fsspec",

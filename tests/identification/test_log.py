@@ -89,6 +89,12 @@ def test_the_motors_side(folder: Path) -> None:
     assert piece.effort[0, 0] == pytest.approx(500)
 
 
+@pytest.mark.parametrize(("step", "unit"), [(2.0, "ms"), (2e3, "us"), (2e6, "ns")])
+def test_times_in_another_unit_are_told_by_their_steps(folder: Path, step: float, unit: str) -> None:
+    with pytest.raises(SourceError, match=rf"too few for a motion; write `time \[{unit}\]`"):
+        list(read(write("time,elbow.position,elbow.effort", 200, 0.1, step)).pieces())
+
+
 def test_gaps_resets_and_empty_cells_are_told(folder: Path) -> None:
     lines = write("time,elbow.position,elbow.effort", 400).read_text().splitlines()
     lines[61] = lines[61].rpartition(",")[0] + ","  # an empty cell
@@ -170,4 +176,4 @@ def test_noise_of_a_log_is_no_error(gripper: Path, execute: Execute, recording: 
     cut = recording._replace(efforts=np.clip(recording.efforts, -0.12, 0.12))
     cut.write(Path("cut.csv"), header="time,{}")
     printed = execute("identify", "gripper", "cut.csv", "--joint", "drive")
-    assert "filtered samples of joints that stand still, or whose effort is at its limit" in printed.out
+    assert "filtered samples of joints that stand still, or whose effort is constant or at its limit" in printed.out

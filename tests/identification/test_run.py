@@ -175,5 +175,21 @@ def test_a_joint_that_never_moves(gripper: Path, execute: Execute, recording: me
     still = recording._replace(positions=np.full_like(recording.positions, 0.3))
     still.write(Path("still.csv"))
     printed = execute("identify", "gripper", "still.csv", code=2)
-    assert "still.csv has no sample in which a joint moves" in printed.words
+    assert "still.csv has no sample that can be fitted" in printed.words
     assert len(printed.errors) == 1
+
+
+def test_efforts_of_another_sign_are_told(gripper: Path, execute: Execute, recording: measured.Recording) -> None:
+    recording._replace(efforts=-recording.efforts).write(Path("other.csv"))
+    printed = execute("identify", "gripper", "other.csv", "--write")
+    assert "joint drive: no numbers explain its effort" in printed.words
+    assert "friction = 0," in DRIVE.read_text(), "friction is never negative"
+
+
+def test_efforts_that_are_always_0(gripper: Path, execute: Execute, recording: measured.Recording) -> None:
+    recording._replace(efforts=np.zeros_like(recording.efforts)).write(Path("zero.csv"))
+    printed = execute("identify", "gripper", "zero.csv", code=2)
+    assert "zero.csv has no sample that can be fitted" in printed.words
+    assert "whose effort is constant" in printed.words
+    words = execute("identify", "gripper", "log.csv", "--cutoff", "400", code=2).words
+    assert "a cut-off frequency of 400 Hz is too high for 500 rows per second" in words

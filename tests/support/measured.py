@@ -115,6 +115,8 @@ def changed(source: str, seed: int, share: float = 0.25) -> str:
 
 
 NOISE = Noise()
+RATE, STEP = 500, 0.5e-3
+"""Samples per second of a log, and the simulation's step in s."""
 
 
 class Recording(NamedTuple):
@@ -141,11 +143,11 @@ class Recording(NamedTuple):
 
 
 def record(
-    truth: str, seed: int = 0, seconds: float = 20.0, rate: int = 500, noise: Noise | None = NOISE, motion: int = 0
+    truth: str, seed: int = 0, seconds: float = 20.0, rate: int = RATE, noise: Noise | None = NOISE, motion: int = 0
 ) -> Recording:
     """Simulate a robot along a motion of sines, and record it; `seed` is that of the noise, `motion` of the sines."""
     mujoco: Any = pytest.importorskip("mujoco")
-    root, step = ET.fromstring(truth), 0.5e-3
+    root, step = ET.fromstring(truth), STEP
     joints = {joint.get("name", ""): joint for joint in root.findall("joint") if joint.get("type") != "fixed"}
     model, mimics = _model(mujoco, root)
     model.opt.timestep, model.opt.integrator = step, mujoco.mjtIntegrator.mjINT_RK4

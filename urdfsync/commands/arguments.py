@@ -125,6 +125,11 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "default": [],
         "help": "a column of the log: elbow.effort=current3, or with a factor =current3*21.5; may be repeated",
     },
+    "--topic": {
+        "metavar": "NAME",
+        "default": "",
+        "help": "the topic of a recording of ROS 2 (default: the only one with joint states)",
+    },
     "--motor-side": {
         "action": "store_true",
         "help": "the log has positions and efforts of motors: the gears of the source turn them into those of joints",

@@ -23,7 +23,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "check",
-        "robots --wait --trust --executor --timeout --memory --shard --column --motor-side",
+        "robots --wait --trust --executor --timeout --memory --shard --column --topic --motor-side",
         formats=True,
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
@@ -36,7 +36,10 @@ def add(commands: arguments.Commands) -> None:
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     option("--report", type=Path, metavar="FILE.html", help="write a page with the result of one robot")
     option(
-        "--log", type=Path, metavar="FILE", help="tell how far one robot is from a log of its joints, CSV or Parquet"
+        "--log",
+        type=Path,
+        metavar="FILE",
+        help="tell how far one robot is from a log of its joints: CSV, Parquet, or a recording of ROS 2",
     )
     option("--strict", action="store_true", help="effects of edits, doubtful sources and unchecked robots fail")
     titles = {name: compiler.TITLE for name, compiler in COMPILERS.items()}
@@ -55,8 +58,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Check the robots, and show each result at once; at the end show the findings about all robots."""
     if args.report and args.shard:
         raise arguments.UsageError(args.parser, "`--report` takes one robot, `--shard` a share of all")
-    if (args.columns or args.motor_side) and not args.log:
-        raise arguments.UsageError(args.parser, "`--column` and `--motor-side` need `--log`")
+    if (args.columns or args.topic or args.motor_side) and not args.log:
+        raise arguments.UsageError(args.parser, "`--column`, `--topic` and `--motor-side` need `--log`")
     if args.log and (args.shard or args.executor):
         raise arguments.UsageError(args.parser, "`--log` takes one robot, on this machine")
     if args.remote_write and not args.remote_cache:
@@ -87,7 +90,8 @@ def _judge(args: argparse.Namespace, console: Console) -> Judgement:
     from urdfsync.identification import run  # loads numpy
     from urdfsync.identification.results import IdentifyOptions
 
-    options = IdentifyOptions(columns=tuple(args.columns), motor_side=args.motor_side, wait=args.wait)
+    given = {"columns": tuple(args.columns), "topic": args.topic, "motor_side": args.motor_side}
+    options = IdentifyOptions(**given, wait=args.wait)
     return run.judge(*arguments.select_robot(args, console), args.log, options, console.progress)
 
 

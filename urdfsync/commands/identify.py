@@ -18,7 +18,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "identify",
-        "--wait --column --motor-side",
+        "--wait --column --topic --motor-side",
         help="fit a robot's numbers to what was measured",
         description="Fit friction, drive inertia, mass, centre of mass and inertia in the records of a robot to "
         "recorded positions and efforts of its joints. Numbers that the motion does not determine stay. With --write, "
@@ -30,7 +30,7 @@ def add(commands: arguments.Commands) -> None:
     )
     option = parser.add_argument
     option("robots", nargs=1, metavar="ROBOT", help="the robot")
-    option("log", nargs="?", type=Path, metavar="FILE", help="the log, CSV or Parquet")
+    option("log", nargs="?", type=Path, metavar="FILE", help="the log: CSV, Parquet, or a recording of ROS 2")
     some = "; may be repeated (default: all links and joints)"
     option("--link", dest="links", action="append", metavar="NAME", default=[], help=f"fit the numbers of a link{some}")
     option("--joint", dest="joints", action="append", metavar="NAME", default=[], help=f"fit a joint's losses{some}")

@@ -16,8 +16,7 @@ If the fit pushes a link to that edge, the numbers of the link that stayed are w
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
-from functools import partial
+from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,10 +28,12 @@ _EXCITED = 3.0
 """So many standard errors has a number's natural size, at least, if the motion determines the number."""
 _EDGE = 1.2
 """The distance, as a logarithm, at which a link is no more like its source: a part of its inertia fell to 30 %."""
-_MODEL_ERROR = 0.002
+_MODEL_ERROR = 0.0005
 """Of an effort: no model of rigid bodies and two numbers of friction is better, however little noise a log has."""
 _MOST_STEPS = 60
 """Towards the edge, where a link becomes no real body, a fit takes endless small steps."""
+_TENSOR = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+"""Rows and columns of the numbers of a tensor, in the order of `NUMBERS`."""
 _ROUNDS = 3
 """Each round of the fit weighs the joints by the residuals of the round before."""
 
@@ -82,14 +83,20 @@ class Evidence:
 class Fit(NamedTuple):
     """The fitted numbers: ten of each body, then losses, the offset of each axis, and the delay of the efforts."""
 
-    before: Array
     after: Array
-    errors: Array
-    """Standard errors; 0 for a number that stays."""
+    covariance: Array
+    """Of all numbers; 0 for one that stays."""
     is_fitted: np.ndarray
     freed: Sequence[str]
     delta: Array
     """The change of the linear parameters, without the delay."""
+    matrix: Array
+    """The derivatives of the weighed efforts by the linear parameters and the delay."""
+
+    @property
+    def errors(self) -> Array:
+        """Standard errors; 0 for a number that stays."""
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
 
 
 def pseudo_inertia(numbers: Array, rotation: Array) -> Array:
@@ -103,11 +110,33 @@ def pseudo_inertia(numbers: Array, rotation: Array) -> Array:
     return matrix
 
 
+def pseudo_inertia_slopes(numbers: Array, rotation: Array) -> Array:
+    """Return the derivatives of the pseudo-inertia by the ten numbers."""
+    mass, centre = numbers[0], numbers[1:4]
+    slopes = np.zeros((10, 4, 4))
+    place = np.array([*centre, 1.0])
+    slopes[0] = np.outer(place, place)
+    for n in range(3):
+        slopes[1 + n, n] += mass * place
+        slopes[1 + n, :, n] += mass * place
+    for n, (row, column) in enumerate(_TENSOR, 4):
+        tensor = np.outer(rotation[:, row], rotation[:, column])
+        tensor = tensor if row == column else tensor + tensor.T
+        slopes[n, :3, :3] = 0.5 * np.trace(tensor) * np.eye(3) - tensor
+    return slopes
+
+
 def inertial_parameters(numbers: Array, rotation: Array) -> Array:
     """Return Pinocchio's ten parameters of a body: mass, first moments, and the inertia about the link's origin."""
-    matrix = pseudo_inertia(numbers, rotation)
-    tensor = np.trace(matrix[:3, :3]) * np.eye(3) - matrix[:3, :3]
-    return np.array([matrix[3, 3], *matrix[3, :3], *tensor[[0, 0, 1, 0, 1, 2], [0, 1, 1, 2, 2, 2]]])
+    return _parameters_of(pseudo_inertia(numbers, rotation))
+
+
+def _parameters_of(matrix: Array) -> Array:
+    """Return the parameters of pseudo-inertias, of which they are linear combinations."""
+    second = matrix[..., :3, :3]
+    tensor = np.trace(second, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) - second
+    parts = [tensor[..., row, column] for row, column in ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))]
+    return np.stack([matrix[..., 3, 3], *(matrix[..., 3, n] for n in range(3)), *parts], axis=-1)
 
 
 def is_body(body: Body) -> bool:
@@ -142,7 +171,7 @@ class Problem:
         slopes = np.eye(len(x))
         for k, body in enumerate(self.bodies):
             part = slice(10 * k, 10 * k + 10)
-            slopes[part, part] = _differences(partial(inertial_parameters, rotation=body.rotation), x[part])
+            slopes[part, part] = _parameters_of(pseudo_inertia_slopes(x[part], body.rotation)).T
         return slopes
 
     def distance(self, k: int, numbers: Array) -> Array:
@@ -162,8 +191,12 @@ class Problem:
         """Return their derivatives by the numbers at `places`; other columns of other bodies are 0."""
         slopes = np.zeros((16 * len(self.bodies), len(x)))
         for k in {place // 10 for place in places if place < 10 * len(self.bodies)}:
-            part = slice(10 * k, 10 * k + 10)
-            slopes[16 * k : 16 * k + 16, part] = _differences(partial(self.distance, k), x[part])
+            part, root, body = slice(10 * k, 10 * k + 10), self._roots[k], self.bodies[k]
+            values, vectors = np.linalg.eigh(root @ pseudo_inertia(x[part], body.rotation) @ root.T)
+            turned = vectors.T @ root
+            moved = turned @ pseudo_inertia_slopes(x[part], body.rotation) @ turned.T
+            by_part = vectors @ (moved * _log_differences(values)) @ vectors.T
+            slopes[16 * k : 16 * k + 16, part] = by_part.reshape(10, 16).T
         return slopes
 
     def sizes(self, others: Array) -> Array:
@@ -174,21 +207,13 @@ class Problem:
         return np.concatenate([1 / np.maximum(slopes, 1e-12), others])
 
 
-def _differences(function: Callable[[Array], Array], x: Array) -> Array:
-    """Return the derivatives of a function by central differences; near the edge of real bodies by smaller ones."""
-    columns = []
-    for n, value in enumerate(x):
-        step = 1e-5 * max(abs(value), 1e-2 * float(np.abs(x[4:]).max()))
-        while True:
-            moved = np.zeros(len(x))
-            moved[n] = step
-            with np.errstate(invalid="ignore"):
-                column = (function(x + moved) - function(x - moved)) / (2 * step)
-            if np.isfinite(column).all() or step < 1e-14:
-                break
-            step /= 10
-        columns.append(np.nan_to_num(column, posinf=0.0, neginf=0.0))
-    return np.column_stack(columns)
+def _log_differences(values: Array) -> Array:
+    """Return the difference quotients of the logarithm between eigenvalues: its derivative, in their frame."""
+    one, other = values[:, None], values[None, :]
+    is_near = np.abs(one - other) < 1e-6 * (one + other)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        quotients = np.log(one / other) / (one - other)
+    return np.where(is_near, 2 / (one + other), quotients)
 
 
 def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Array, alike: Array) -> Fit:
@@ -200,28 +225,30 @@ def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Ar
     measured = np.concatenate([np.zeros(count), target_at(0.0)[:-1], [0.0]])
     least, solution = _MODEL_ERROR * evidence.roots(measured), evidence.linear_fit(count) @ target_at(0.0)
     roots = evidence.roots(np.concatenate([solution, -target_at(0.0)]))
+    freed, freed_places = list[str](), set[int]()
     for _ in range(_ROUNDS):
         rows, late = evidence.stacked(np.hypot(roots, least) * np.sqrt(alike)), float(x[-1])
         slope = rows[:, count:] @ [*shift_slopes(late), 0.0]
         matrix, goal = np.column_stack([rows[:, :count], -slope]), rows[:, count:] @ target_at(late) - late * slope
-        chosen = _determined(matrix @ problem.slopes(problem.start) * sizes, _order(problem, fitted))
-        freed = list[str]()
+        determined = _determined(matrix @ problem.slopes(problem.start) * sizes, _order(problem, fitted))
+        chosen = sorted({*determined, *freed_places})
         while True:
             x, jacobian = solve(problem, matrix, goal, sizes, chosen, x)
             logarithms = problem.distances(x).reshape(-1, 4, 4)
             far = np.abs(np.linalg.eigvalsh(logarithms)).max(axis=1) if len(logarithms) else []
             pushed = [k for k, each in enumerate(far) if each > _EDGE]
-            places = {10 * k + n for k in pushed for n in range(10)} & {*fitted}
-            if not places - {*chosen}:
+            freed_places |= {10 * k + n for k in pushed for n in range(10)} & {*fitted}
+            if freed_places <= {*chosen}:
                 break
             freed += [problem.bodies[k].name for k in pushed if problem.bodies[k].name not in freed]
-            chosen = sorted({*chosen, *places})
-        errors = np.zeros(count + 1)
-        errors[chosen] = np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian))) * sizes[chosen]
+            chosen = sorted({*chosen, *freed_places})
+        covariance = np.zeros((count + 1, count + 1))
+        units = np.outer(sizes[chosen], sizes[chosen])
+        covariance[np.ix_(chosen, chosen)] = np.linalg.inv(jacobian.T @ jacobian) * units
         unexplained = np.concatenate([problem.delta(x)[:-1], -target_at(x[-1])])
         roots = evidence.roots(unexplained, len(chosen) / max(1, int(np.count_nonzero(evidence.counts))))
     is_fitted = np.isin(np.arange(count + 1), chosen)
-    return Fit(problem.start, x, errors, is_fitted, tuple(freed), problem.delta(x)[:-1])
+    return Fit(x, covariance, is_fitted, tuple(freed), problem.delta(x)[:-1], matrix)
 
 
 def _order(problem: Problem, fitted: Collection[int]) -> list[int]:
@@ -269,4 +296,6 @@ def solve(
     if not np.isfinite(residuals(first_guess)).all():  # rounded over the edge
         first_guess = np.zeros(len(chosen))
     best = least_squares(residuals, first_guess, slopes, bounds=(lower, np.inf), max_nfev=_MOST_STEPS)
-    return start + unit @ best.x, slopes(best.x)
+    x, losses = start + unit @ best.x, slice(first, problem.count)
+    x[losses] = np.maximum(x[losses], 0.0)
+    return x, slopes(best.x)

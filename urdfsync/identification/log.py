@@ -1,4 +1,4 @@
-"""Reads a log of positions, velocities and efforts of joints piece by piece: CSV and Parquet.
+"""Reads a log of positions, velocities and efforts of joints piece by piece: CSV, Parquet, recordings of ROS 2.
 
 A piece has at most `ROWS` rows, however long the file is. Gaps and resets of the time end a piece.
 """
@@ -19,6 +19,7 @@ import numpy as np
 from urdfsync.diagnostics import ConfigError, SourceError
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, shown
+from urdfsync.identification.bag import SUFFIXES, Bag
 from urdfsync.identification.results import QUANTITIES, Array, Axis, IdentifyOptions
 from urdfsync.numerals import find_separator
 from urdfsync.simulation.motion import UNITS
@@ -36,6 +37,9 @@ _WORDS = {
     "effort": "effort efforts eff torque force tau f current",
 }
 _TIMES = ("time", "t", "timestamp", "stamp")
+_TIME_UNITS = {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+_SLOWEST = 0.2
+"""A greater usual step in s is no log of a motion, but another unit."""
 _UNITS = {
     ("rad", "position"): "rad",
     ("rad", "velocity"): "rad/s",
@@ -71,11 +75,18 @@ class Log:
         """Raises UrdfsyncError for a file without positions and efforts of a joint."""
         self.file, self._axes, self._options = file, axes, options
         self.dropped = Counter[str]()
-        if not file.is_file():
+        is_bag = (file / "metadata.yaml").is_file() or file.suffix.lower() in SUFFIXES
+        if not file.exists() or not (is_bag or file.is_file()):
             what = f"{kind_of(file.stat().st_mode)} is there" if file.exists() else "there is no such file"
-            _refuse(file, what, hint="name a CSV or Parquet file")
+            _refuse(file, what, hint="name a CSV or Parquet file, or a recording of ROS 2")
+        if options.topic and not is_bag:
+            raise ConfigError.of("log", "`--topic` is for recordings of ROS 2", shown(file))
+        self._bag = Bag(file, options.topic) if is_bag else None
         self._is_parquet = file.suffix.lower() in (".parquet", ".pq")
-        self.header = _parquet(file).schema_arrow.names if self._is_parquet else _header(file)
+        if self._bag:
+            self.header = self._bag.header
+        else:
+            self.header = _parquet(file).schema_arrow.names if self._is_parquet else _header(file)
         self.time, self.columns = self._find_columns()
         self.measured = [k for k in range(len(axes)) if {(k, "position"), (k, "effort")} <= self.columns.keys()]
         """The axes with positions and efforts, by number."""
@@ -101,7 +112,7 @@ class Log:
             name, unit = name_and_unit(cell)
             name = _plain(name).removeprefix("jointstates").removeprefix("robot")
             if name in _TIMES and time is None:
-                time = Column(place, {"ns": 1e-9, "us": 1e-6}.get(unit) or self._factor(cell, unit, "s"))
+                time = Column(place, _TIME_UNITS.get(unit) or self._factor(cell, unit, "s"))
             elif name in aliases:
                 k, quantity = aliases[name]
                 factor = self._factor(cell, unit, _UNITS[self._axes[k].unit, quantity])
@@ -143,7 +154,7 @@ class Log:
     def pieces(self) -> Iterator[Piece]:
         """Yield the pieces of the log. Raises SourceError for a row that can't be read, and for wrong units."""
         usual, last = 0.0, -math.inf
-        for rows in _parquet_rows(self.file) if self._is_parquet else _csv_rows(self.file, self.header):
+        for rows in self._rows():
             used = [self.time.place, *(column.place for column in self.columns.values())]
             whole = np.isfinite(rows[:, used]).all(axis=1)
             self.dropped["row without a number"] += int(np.count_nonzero(~whole))
@@ -151,6 +162,7 @@ class Log:
             times = self.time.factor * rows[:, self.time.place]
             steps = np.diff(times, prepend=last)
             usual = usual or (float(np.median(steps[1:][steps[1:] > 0])) if (steps[1:] > 0).any() else 0.0)
+            self._check_steps(usual)
             again = steps == 0
             self.dropped["row with the time of the row before"] += int(np.count_nonzero(again))
             rows, times, steps = rows[~again], times[~again], steps[~again]
@@ -164,6 +176,12 @@ class Log:
                 elif len(part):
                     self.dropped["row in a piece that is too short"] += len(part)
 
+    def _rows(self) -> Iterator[Array]:
+        """Yield the rows of the file, at most `ROWS` at a time."""
+        if self._bag:
+            return self._bag.rows(ROWS)
+        return _parquet_rows(self.file) if self._is_parquet else _csv_rows(self.file, self.header)
+
     def _piece(self, times: Array, rows: Array) -> Piece:
         shape = len(rows), len(self._axes)
         tables = {quantity: np.zeros(shape) for quantity in QUANTITIES}
@@ -175,6 +193,13 @@ class Log:
         moving = [k for k in range(shape[1]) if (k, "position") in self.columns]
         has_velocities = all((k, "velocity") in self.columns for k in moving)
         return Piece(times, tables["position"], tables["velocity"] if has_velocities else None, tables["effort"])
+
+    def _check_steps(self, usual: float) -> None:
+        """Refuse times in another unit than the header says."""
+        if usual > _SLOWEST:
+            units = [unit for unit in ("ms", "us", "ns") if usual * _TIME_UNITS[unit] <= _SLOWEST]
+            hint = f"write `time [{units[0]}]` if that is its unit" if units else ""
+            _refuse(self.file, f"the log has a row each {usual:.4g} s, too few for a motion", 1, hint)
 
     def _check_range(self, axis: Axis, values: Array) -> None:
         """Refuse positions that are degrees, or those of motors."""

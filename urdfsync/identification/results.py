@@ -100,6 +100,8 @@ class IdentifyOptions(msgspec.Struct, frozen=True):
     joints: tuple[str, ...] = ()
     columns: tuple[str, ...] = ()
     """Columns of the log, as `elbow.effort=current3*21.5`."""
+    topic: str = ""
+    """The topic of a recording of ROS 2; empty for the only one with joint states."""
     motor_side: bool = False
     """Whether the log has positions and efforts of motors, before the gears."""
     cutoff: float | None = None

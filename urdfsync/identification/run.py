@@ -35,6 +35,8 @@ from urdfsync.spelling import nearest
 _STORED = 3_000_000
 """So many numbers of samples remain in memory: for the plot, and to see how alike neighbouring residuals are."""
 
+_DOUBTFUL = 0.5
+"""The unexplained share of an effort from which on the log is hardly that of the robot."""
 _USUAL_DELAY = 0.005
 """In s: a longer delay needs evidence, since in slow motions damping looks much like a delay."""
 _USUAL_OFFSET = 0.02
@@ -61,15 +63,18 @@ class Measured:
             first = first if number else piece.times[0]
             total += len(piece.times)
             progress("reading the log", total, 0)
+            self.rate = self.rate or (len(piece.times) - 1) / (piece.times[-1] - piece.times[0])
+            if self.cutoff >= self.rate / 2:
+                message = f"a cut-off frequency of {self.cutoff:g} Hz is too high for {self.rate:.4g} rows per second"
+                raise ConfigError.of("log", message, shown(file), hint="leave `--cutoff` out")
             samples = signals.prepare(piece, regressor.axes, self.cutoff)
             if samples is None:
-                self.log.dropped["row in a piece that is too short"] += len(piece.times)
+                self.log.dropped["row in a piece that is too short for the filter"] += len(piece.times)
                 continue
-            self.rate = self.rate or (len(piece.times) - 1) / (piece.times[-1] - piece.times[0])
             self.seconds += piece.times[-1] - piece.times[0]
             self._add(samples, first + (np.inf if options.until is None else options.until))
         if not self.evidence.counts.any():
-            message = f"{shown(file)} has no sample in which a joint moves: {'; '.join(self.log.told()) or 'all rest'}"
+            message = f"{shown(file)} has no sample that can be fitted: {'; '.join(self.told()) or 'no rows'}"
             raise SourceError.of("log", message, hint="the joints have to move for a few seconds without a gap")
 
     def _add(self, samples: signals.Samples, end: float) -> None:
@@ -127,7 +132,7 @@ class Measured:
     def told(self) -> tuple[str, ...]:
         """Return what was left out of the log, in words."""
         held = self._left_out
-        words = f"{held} filtered samples of joints that stand still, or whose effort is at its limit"
+        words = f"{held} filtered samples of joints that stand still, or whose effort is constant or at its limit"
         return (*self.log.told(), *([words] if held else []))
 
 
@@ -143,6 +148,8 @@ def identify(
     result = _fitted(problem, measured, fitted)
     delay = float(result.after[-1])
     target = signals.target_at(delay)
+    joints = measured.joint_fits(measured.evidence, target, result.delta)
+    notes += [_unexplained(joint) for joint in joints if joint.after > _DOUBTFUL * joint.measured]
     numbers = _numbers(problem, result, fitted, records)
     written = records.write(numbers) if write else ()
     unexcited = dict[str, list[str]]()
@@ -157,7 +164,7 @@ def identify(
         rate=measured.rate,
         cutoff=measured.cutoff,
         delay=delay,
-        joints=measured.joint_fits(measured.evidence, target, result.delta),
+        joints=joints,
         numbers=numbers,
         unexcited=tuple(Unexcited(element, tuple(paths)) for element, paths in unexcited.items()),
         freed=tuple(result.freed),
@@ -167,6 +174,13 @@ def identify(
         diagnostics=(*notes, *records.notes),
         series=measured.series(target, result.delta),
     )
+
+
+def _unexplained(joint: JointFit) -> Diagnostic:
+    share = 100 * joint.after / joint.measured
+    message = f"{joint.element}: no numbers explain its effort, {share:.0f} % is left"
+    hint = "look for another sign, unit or joint in the log"
+    return Diagnostic(Severity.WARNING, "identify", message, hint=hint)
 
 
 def judge(config: Config, robot: RobotConfig, log: Path, options: IdentifyOptions, progress: Progress) -> Judgement:
@@ -215,7 +229,8 @@ def _problem(
     return Problem(bodies, regressor.losses, len(measured.axes)), fitted, notes
 
 
-def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
+def natural_sizes(problem: Problem, measured: Measured) -> Array:
+    """Return the natural size of each number: of losses, that with which they make up the whole effort."""
     nothing = np.zeros(len(problem.start) - 1)
     joints = measured.joint_fits(measured.evidence, signals.target_at(0.0), nothing)
     efforts = {joint.element: joint.measured for joint in joints}
@@ -226,7 +241,11 @@ def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
         for k, loss in enumerate(problem.losses)
     ]
     offsets = [_USUAL_OFFSET * efforts.get(f"joint {axis.name}", usual) for axis in measured.axes]
-    sizes = problem.sizes(np.array([*others, *offsets, _USUAL_DELAY]))
+    return problem.sizes(np.array([*others, *offsets, _USUAL_DELAY]))
+
+
+def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
+    sizes = natural_sizes(problem, measured)
     first = fit(problem, measured.evidence, fitted, sizes, np.ones(len(measured.axes)))
     series = measured.series(signals.target_at(first.after[-1]), first.delta)
     left = (series.measured - series.after).T
@@ -249,7 +268,7 @@ def _numbers(problem: Problem, result: Fit, fitted: Sequence[int], records: Reco
     for place in fitted:
         if result.is_fitted[place] and place < problem.count:
             element, path = _name(problem, place)
-            values = float(result.before[place]), float(result.after[place]), float(result.errors[place])
+            values = float(problem.start[place]), float(result.after[place]), float(result.errors[place])
             numbers.append(FittedNumber(element, path, *values, records.has(element, path)))
     return tuple(numbers)
 

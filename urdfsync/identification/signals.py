@@ -1,8 +1,10 @@
 """Filters and differentiates pieces of a log, and makes the samples that a fit uses.
 
-The filter has no phase: a Butterworth filter, forwards and backwards. It goes over positions and efforts, and over the
-model's efforts too, so that model and log lose the same. Splines through the filtered positions give velocities and
-accelerations. FIGAROH and FloBaRoID do this with central differences, at the full rate.
+Both filters have no phase. A Butterworth filter, forwards and backwards, goes over positions, since it leaves slow
+motions as they are. Splines through the filtered positions give velocities and accelerations. A Gaussian filter goes
+over efforts and over the model's efforts, so that both lose the same. It does not ring: dry friction jumps where a
+joint turns back, and the samples around the jump, which no model explains, are few. FIGAROH and FloBaRoID filter by
+Butterworth and differentiate by central differences, at the full rate.
 """
 
 from __future__ import annotations
@@ -18,13 +20,15 @@ from urdfsync.identification.results import Array, Axis
 SHIFTS = np.linspace(-0.1, 0.1, 21)
 """Times in s by which efforts are moved against positions, to find a delay."""
 _ORDER = 4
+_WIDER = 3
+"""The cut-off frequency of positions, in that of efforts: what it takes away from accelerations, efforts still have."""
 _PER_CUTOFF = 20
 """The model is computed so many times in each period of the cut-off frequency; the filter then takes away its jumps."""
 _KEPT = 4
 """So many samples remain in each period."""
 _OF_MOTION = 10
 """The cut-off frequency, in frequencies below which the positions have 99 % of their power."""
-_SLOW = 0.03
+_SLOW = 0.05
 """In rad/s or m/s · 10: below, dry friction holds a joint, and its effort has any value."""
 _HELD = 0.001
 """The greatest part that efforts without a meaning may have in a filtered sample."""
@@ -61,13 +65,13 @@ def find_cutoff(piece: Piece, measured: Sequence[int]) -> float:
 
 def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None:
     """Return the samples of a piece; None if it is shorter than the filter."""
-    from scipy.interpolate import CubicSpline  # their import takes 0.5 s
+    from scipy.interpolate import CubicSpline  # these imports take 0.5 s
     from scipy.signal import butter, sosfiltfilt
 
     count = len(piece.times)
     rate = (count - 1) / (piece.times[-1] - piece.times[0])
     times = np.linspace(piece.times[0], piece.times[-1], count)
-    sections = butter(_ORDER, cutoff, fs=rate, output="sos")
+    sections = butter(_ORDER, min(_WIDER * cutoff, 0.45 * rate), fs=rate, output="sos")
     border = SHIFTS[-1] + 1.5 / cutoff
     if times[-1] - times[0] < 4 * border or cutoff >= rate / 2:
         return None
@@ -80,9 +84,12 @@ def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None
     speeds = piece.velocity
     velocity = position.derivative() if speeds is None else CubicSpline(times, smooth(_at(times, piece.times, speeds)))
     raw = _at(times, piece.times, piece.effort)
-    effort, slow = CubicSpline(times, smooth(raw)), [_SLOW if axis.unit == "rad" else 0.1 * _SLOW for axis in axes]
+    effort, slow = (
+        CubicSpline(times, _blurred(raw, cutoff / rate)),
+        [_SLOW if axis.unit == "rad" else 0.1 * _SLOW for axis in axes],
+    )
     # the filter spreads an effort that has any value over its neighbours
-    held = np.abs(smooth((_saturated(raw, axes) | (np.abs(velocity(times)) < slow)).astype(float)))
+    held = _blurred((_saturated(raw, axes) | (np.abs(velocity(times)) < slow)).astype(float), cutoff / rate)
     even = min(rate, _PER_CUTOFF * cutoff)
     chosen = np.arange(times[0] + border / 3, times[-1] - border / 3, 1 / even)
     inside = np.clip(chosen[None, :] + SHIFTS[:, None], times[0], times[-1])
@@ -92,15 +99,17 @@ def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None
 
 def thinned(samples: Samples, cutoff: float, rows: Array, model: Array) -> tuple[np.ndarray, Array, Array]:
     """Return the places of the samples that remain, and the filtered rows of the model there."""
-    from scipy.signal import butter, sosfiltfilt
-
     border = round((SHIFTS[-1] + 1.5 / cutoff) * samples.rate)
     step = max(1, round(samples.rate / (_KEPT * cutoff)))
-    places = np.arange(border, len(samples.times) - border, step)
-    if cutoff >= 0.45 * samples.rate:
-        return places, rows[places], model[places]
-    sections = butter(_ORDER, cutoff, fs=samples.rate, output="sos")
-    return places, sosfiltfilt(sections, rows, axis=0)[places], sosfiltfilt(sections, model, axis=0)[places]
+    places, share = np.arange(border, len(samples.times) - border, step), cutoff / samples.rate
+    return places, _blurred(rows, share)[places], _blurred(model, share)[places]
+
+
+def _blurred(values: Array, cutoff: float) -> Array:
+    """Filter columns by a Gaussian that halves the cut-off frequency, which is in units of the sampling rate."""
+    from scipy.ndimage import gaussian_filter1d
+
+    return np.asarray(gaussian_filter1d(values, np.sqrt(2 * np.log(2)) / (2 * np.pi * cutoff), axis=0, truncate=5.0))
 
 
 def target_at(delay: float) -> Array:
@@ -141,8 +150,8 @@ def _at(times: Array, old: Array, values: Array) -> Array:
 
 
 def _saturated(efforts: Array, axes: Sequence[Axis]) -> np.ndarray:
-    """Return which efforts are at their limit, or on a flat top."""
+    """Return which efforts are at their limit, or on a flat top; all of a joint whose effort is always 0."""
     sizes = np.abs(efforts)
     tops = sizes >= sizes.max(axis=0) * (1 - 1e-9)
     runs = np.lib.stride_tricks.sliding_window_view(tops, _FLAT, axis=0).all(axis=-1).any(axis=0)
-    return np.asarray(((tops & runs) | (sizes >= [0.999 * axis.effort for axis in axes])) & (sizes > 0))
+    return np.asarray((tops & runs) | (sizes >= [0.999 * axis.effort for axis in axes]))
