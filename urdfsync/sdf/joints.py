@@ -19,8 +19,8 @@ FIXED = frozenset({"fixed", "screw", "gearbox"})
 """Types that do not move in a model."""
 _ENDLESS = 1e16
 """A limit of this size or more is none."""
-_MODEL_AXES = (1, 5)
-"""Older versions give axes in the frame of the model."""
+MODEL_AXES = "use_parent_model_frame"
+"""The element by which SDF 1.5 and 1.6 give an axis in the frame of the model; older versions always do."""
 
 
 class Axis(NamedTuple):
@@ -87,7 +87,7 @@ def _axis(frames: Frames, joint: Frame, tag: str) -> Axis:
     if xyz is not None and (word := xyz.get("expressed_in", "")):
         given_in = frames.look_up(joint.scope, word, xyz)
     elif element is not None and (
-        joint.scope.version < _MODEL_AXES or document.flag(element, "use_parent_model_frame")
+        joint.scope.version < (1, 5) or (joint.scope.version < (1, 7) and document.flag(element, MODEL_AXES))
     ):
         given_in = joint.scope.own
     if element is None:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from urdfsync.sdf.frames import Scope
-from urdfsync.sdf.joints import TAGS, Joint, names
+from urdfsync.sdf.joints import MODEL_AXES, TAGS, Joint, names
 from urdfsync.sdf.urdf import Urdf
 
 _MODEL = frozenset({"link", "joint", "frame", "model", "include", "pose", "static", "plugin"})
 _INCLUDE = frozenset({"uri", "name", "placement_frame"})
 _JOINT = frozenset({"parent", "child", "pose", *TAGS, "sensor"})
-_AXIS = frozenset({"xyz", "limit", "dynamics", "mimic", "use_parent_model_frame"})
+_AXIS = frozenset({"xyz", "limit", "dynamics", "mimic"})
 _LIMIT = frozenset({"lower", "upper", "effort", "velocity"})
 """Elements that are read: all others are counted."""
 _DOWN, _FEW = (0.0, 0.0, -9.8), 0.02
@@ -56,7 +56,7 @@ def _add_of_joint(urdf: Urdf, joint: Joint) -> None:
         if part.tag not in _JOINT:
             urdf.note(part, frame.name)
         for inner in part if part.tag in TAGS else ():
-            if inner.tag not in _AXIS:
+            if inner.tag not in _AXIS and not (inner.tag == MODEL_AXES and frame.scope.version < (1, 7)):
                 urdf.note(inner, frame.name)
             for number in inner if inner.tag == "limit" else ():
                 if number.tag not in _LIMIT:

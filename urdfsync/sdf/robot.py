@@ -9,14 +9,16 @@ from urdfsync.sdf.joints import Axis, Joint, names, read_joints
 from urdfsync.sdf.leftovers import add_leftovers
 from urdfsync.sdf.parts import add_link, add_sensor
 from urdfsync.sdf.tree import LOOP_KINDS, find_tree
-from urdfsync.sdf.urdf import Urdf
+from urdfsync.sdf.urdf import Urdf, turn
 from urdfsync.translation.writer import Node, free_name, rounded
-from urdfsync.urdf.kinematics.poses import IDENTITY, angles, moved
+from urdfsync.urdf.kinematics.poses import IDENTITY, moved
 from urdfsync.urdf.robot import Vector
 
 
 def translated(frames: Frames, model: Scope) -> Node:
     """Return the URDF of a model. Raises TranslationError."""
+    for part in (part for scope in model.each() for part in scope.parts):
+        frames.pose(part, frames.world)  # a fault counts even in a frame that nothing uses
     document, joints = frames.document, read_joints(frames, model.of_kind("joint"))
     tree = find_tree(frames.world, list(model.of_kind("link")), joints, frames.link_of(model.own))
     urdf, is_fixed = Urdf(frames, model, tree), tree.root is frames.world
@@ -99,7 +101,7 @@ def _add_loop(urdf: Urdf, joint: Joint) -> None:
     loop.add("parent", text=urdf.links[joint.parent])
     loop.add("child", text=urdf.links[joint.child])
     rotation, place = urdf.place(frame, joint.child)
-    loop.add("pose", text=_words((*rounded(place), *rounded(angles(rotation)))))
+    loop.add("pose", text=_words((*rounded(place), *turn(rotation))))
     for tag, axis in zip(("axis", "axis2"), joint.axes, strict=False):
         loop.add(tag).add("xyz", text=_words(rounded(_turned(urdf, axis, frame))))
 

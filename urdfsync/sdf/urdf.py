@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from xml.etree.ElementTree import Element
 
@@ -9,11 +10,24 @@ from urdfsync.sdf.frames import WORLD, Frame, Frames, Scope
 from urdfsync.sdf.joints import names
 from urdfsync.sdf.tree import Tree
 from urdfsync.translation.writer import Node, rounded
-from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, angles, compose
+from urdfsync.urdf.kinematics.poses import IDENTITY, Matrix, Pose, angles, compose
+from urdfsync.urdf.robot import Vector
 
 _TAGS = {"include": "model"} | {tag: f"{tag}-of-sdf" for tag in ("gazebo", "material", "ros2_control", "transmission")}
 """Tags that mean something else in URDF, by the tags that a note counts instead."""
 _OFF = frozenset({"", "0", "false"})
+
+
+def turn(rotation: Matrix) -> Vector:
+    """Return the angles of a rotation: of two possible triples the one that a user would write, such as 0 1.6 0."""
+    roll, pitch, yaw = angles(rotation)
+    other = (
+        roll - math.copysign(math.pi, roll),
+        math.copysign(math.pi, pitch) - pitch,
+        yaw - math.copysign(math.pi, yaw),
+    )
+    least = min((roll, pitch, yaw), other, key=lambda each: abs(each[0]) + abs(each[2]))
+    return rounded(least)  # type: ignore[return-value] # three numbers
 
 
 class Urdf:
@@ -42,7 +56,7 @@ class Urdf:
     def add_origin(self, holder: Node, pose: Pose) -> None:
         """Add a pose to an element of URDF."""
         rotation, place = pose
-        holder.add("origin", xyz=rounded(place), rpy=rounded(angles(rotation)))
+        holder.add("origin", xyz=rounded(place), rpy=turn(rotation))
 
     def leave_out(self, what: str, name: str, element: Element) -> None:
         """Tell of a part that acts on the robot, and that no model has."""
