@@ -10,7 +10,7 @@ frame, as libsdformat's `_merged__NAME__model__`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from xml.etree.ElementTree import Element
 
 from urdfsync.sdf.document import Document, Version
@@ -36,6 +36,8 @@ class Frame:
         """The model around it: names in its element are looked up there."""
         self.inner: Scope | None = None
         """The elements of a model."""
+        self.link: Frame | None = None
+        """The link, or the world, with which it moves, once this is known."""
         self.base: tuple[Frame, Pose] | None = None
         """The frame in which its pose is given, and the pose, once these are known."""
 
@@ -84,6 +86,8 @@ class Frames:
         self.top = Scope(holder, version)
         self.top.own = self.world = Frame("world", WORLD, holder, self.top)
         self._count, self._busy = 0, list[Frame]()
+        self._known = {self.world}
+        """Frames with a pose in the world."""
         self._read(self.top, (document.source,))
 
     def _add(self, scope: Scope, frame: Frame, name: str) -> None:
@@ -194,31 +198,28 @@ class Frames:
         """Return the link, or the world, with which a frame moves. Raises TranslationError."""
         if frame.kind in ("link", "world"):
             return frame
-        with_fault = f"the frame of {frame.kind} {frame.name!r} is attached to itself"
-        self._enter(frame, with_fault)
-        if frame.kind == "joint":
-            found = self.link_of(self.named(frame, "child"))
-        elif frame.kind == "frame":
-            name = frame.element.get("attached_to", "")
-            found = self.link_of(self.look_up(frame.scope, name or _MODEL, frame.element))
-        else:
-            found = self._canonical(frame)
-        self._busy.remove(frame)
-        return found
+        if frame.link is None:
+            self._enter(frame, f"the frame of {frame.kind} {frame.name!r} is attached to itself")
+            if frame.kind == "joint":
+                base = self.named(frame, "child")
+            elif frame.kind == "frame":
+                base = self.look_up(frame.scope, frame.element.get("attached_to", "") or _MODEL, frame.element)
+            else:
+                base = self._canonical(frame)
+            frame.link = self.link_of(base)
+            self._busy.remove(frame)
+        return frame.link
 
     def _canonical(self, frame: Frame) -> Frame:
-        """Return the canonical link of a model. Raises TranslationError."""
+        """Return the canonical link of a model, or a frame that moves with it. Raises TranslationError."""
         inner = frame.inner
-        if inner is None:
+        if inner is not None and (name := inner.element.get("canonical_link", "")):
+            return self.look_up(inner, name, inner.element)
+        links = [part for part in inner.parts if part.kind == "link"] if inner else []
+        models = [model.own for model in inner.models] if inner else []
+        if not links and not models:
             raise self.document.fault(frame.element, f"model {frame.name!r} has no link")
-        if name := inner.element.get("canonical_link", ""):
-            return self.link_of(self.look_up(inner, name, inner.element))
-        links = [part for part in inner.parts if part.kind == "link"]
-        if links or not inner.models:
-            if not links:
-                raise self.document.fault(frame.element, f"model {frame.name!r} has no link")
-            return links[0]
-        return self.link_of(inner.models[0].own)
+        return (*links, *models)[0]
 
     def _enter(self, frame: Frame, message: str) -> None:
         if frame in self._busy:
@@ -258,14 +259,18 @@ class Frames:
 
         Frames that both have in common are left out, so that numbers stay as written where one is given in the other.
         """
-        passed = self._climb(frame, base)
+        passed = self._climb(frame, (base,))
         if base in passed:
             return passed[base]
-        back = self._climb(base, *passed)
+        back = self._climb(base, passed)
         common = next(frame for frame in back if frame in passed)
         return compose(inverse(back[common]), passed[common])
 
-    def _climb(self, frame: Frame, *ends: Frame) -> dict[Frame, Pose]:
+    def check(self, frame: Frame) -> None:
+        """Raise TranslationError if a frame has no pose in the world, even if nothing uses it."""
+        self._known |= self._climb(frame, self._known).keys()
+
+    def _climb(self, frame: Frame, ends: Container[Frame]) -> dict[Frame, Pose]:
         """Return the pose of a frame in itself, in the frame in which it is given, and so on up to one of the ends.
 
         Without a way to an end, the last frame is the world. Raises TranslationError.

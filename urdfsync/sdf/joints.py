@@ -15,8 +15,8 @@ _AXES = {"revolute": 1, "continuous": 1, "prismatic": 1, "fixed": 0, "ball": 0, 
 """Types that become joints of URDF, with the number of their axes."""
 _OTHERS = ("screw", "gearbox")
 """Types that no model has. A screw counts as fixed, and a gearbox joins nothing."""
-FIXED = frozenset({"fixed", "screw", "gearbox"})
-"""Types that do not move in a model."""
+FIXED = frozenset({"fixed", "gearbox"})
+"""Types that move nothing."""
 _ENDLESS = 1e16
 """A limit of this size or more is none."""
 MODEL_AXES = "use_parent_model_frame"

@@ -18,7 +18,7 @@ from urdfsync.urdf.robot import Vector
 def translated(frames: Frames, model: Scope) -> Node:
     """Return the URDF of a model. Raises TranslationError."""
     for part in (part for scope in model.each() for part in scope.parts):
-        frames.pose(part, frames.world)  # a fault counts even in a frame that nothing uses
+        frames.check(part)
     document, joints = frames.document, read_joints(frames, model.of_kind("joint"))
     tree = find_tree(frames.world, list(model.of_kind("link")), joints, frames.link_of(model.own))
     urdf, is_fixed = Urdf(frames, model, tree), tree.root is frames.world
