@@ -96,8 +96,7 @@ def test_a_robot_of_a_world_is_chosen_by_an_argument(folder: Path, execute: Exec
     assert sorted('<link name="left_link"' in text for text in texts) == [False, True]
 
 
-def test_a_robot_in_two_formats_is_compared(project: Path, execute: Execute) -> None:
-    """A URDF without the numbers that the SDF adds by default differs in these numbers only."""
+def test_a_source_outside_of_a_project_is_compared(project: Path, execute: Execute) -> None:
     Path("new.sdf").write_text(ARM.replace("<mass>1.5", "<mass>1.75"))
     assert "1.75 → 1.5 kg" in execute("diff", "arm", "--against", "new.sdf", code=1).out
 
@@ -124,10 +123,10 @@ def test_a_hook_passes_a_commit_in_step(project: Path, execute: Execute, monkeyp
 def test_an_edited_file_is_kept(project: Path, execute: Execute) -> None:
     """An export that changes another number leaves the user's edit alone."""
     joint = Path("modelica/Arm/Joints/Elbow.mo")
-    joint.write_text(joint.read_text().replace("end Elbow;", "  parameter Real mine = 3;\nend Elbow;"))
+    joint.write_text(joint.read_text().replace("end Elbow;", "  // mine\nend Elbow;"))
     edit("<mass>1.5</mass>", "<mass>1.75</mass>")
     execute("build")
-    assert "parameter Real mine = 3;" in joint.read_text()
+    assert "// mine" in joint.read_text()
     assert "1.75" in RECORD.read_text()
 
 

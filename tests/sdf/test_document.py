@@ -72,6 +72,12 @@ def test_each_element_has_a_place() -> None:
     assert None not in files.hashes.values()
 
 
+def test_comments_are_those_of_gazebos_parser() -> None:
+    """Its examples begin with comments on command lines; XML allows no `--` in them."""
+    text = f"<!-- gz sim\n--verbose -->\n<?xml version='1.0'?>{arm('<inertial><mass>x</mass></inertial>')}"
+    assert problem(text).startswith("arm.sdf:4: <mass> 'x' is not a decimal number")
+
+
 def test_a_missing_file_is_recorded() -> None:
     files = Files({SOURCE: including("<uri>hand.sdf</uri>").encode()}, [FOLDER])
     with pytest.raises(TranslationError):

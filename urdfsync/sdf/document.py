@@ -45,7 +45,8 @@ class Document:
     def read(self, path: str, place: Place = ("", 0)) -> tuple[Element, Version]:
         """Return the root element of an SDF, and its version. Raises TranslationError."""
         if path not in self._roots:
-            self._roots[path], places = self.files.parse(path, place)
+            # libsdformat's parser accepts such comments, and 20 of Gazebo's own examples have them
+            self._roots[path], places = self.files.parse(path, place, has_any_comments=True)
             self.places |= places
         root = self._roots[path]
         if root.tag != "sdf":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -13,6 +14,8 @@ from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.engine.exchange import Problem
 from urdfsync.files import text_digest
 from urdfsync.urdf.parse.xml import ParseError, parse
+
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 
 Place = tuple[str, int]
 """A file, and a line in it."""
@@ -50,10 +53,18 @@ class Files:
         self.hashes[path] = text_digest(content)
         return content
 
-    def parse(self, path: str, place: Place = ("", 0)) -> tuple[Element, dict[Element, Place]]:
-        """Return the root element of an XML file, and the place of each element. Raises TranslationError."""
+    def parse(
+        self, path: str, place: Place = ("", 0), *, has_any_comments: bool = False
+    ) -> tuple[Element, dict[Element, Place]]:
+        """Return the root element of an XML file, and the place of each element. Raises TranslationError.
+
+        With `has_any_comments`, comments may contain `--`, and may stand above the XML declaration.
+        """
+        content = self.read(path, place)
+        if has_any_comments:
+            content = _COMMENT.sub(lambda comment: b"\n" * comment[0].count(b"\n"), content)
         try:
-            document = parse(self.read(path, place))
+            document = parse(content)
         except ParseError as error:
             fault = error.diagnostic
             raise TranslationError(fault.message, (path, fault.line), fault.hint, fault.code) from None
