@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
 from xml.etree.ElementTree import Element
-
-import numpy as np
-from numpy.typing import NDArray
 
 from urdfsync.sdf.document import Document
 from urdfsync.sdf.frames import Frame, Frames
-from urdfsync.urdf.kinematics.poses import Pose, compose
+from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, moved, turned_inertia
+from urdfsync.urdf.robot import Inertia
 
-_Array: TypeAlias = NDArray[np.float64]
 _WATER = 1000.0
 """The density of a shape that states none, in kg/m³."""
 _UNIT = (1.0, 1.0, 1.0)
+_PLACES = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+_DECIMALS = 15
 
 
 def automatic_inertia(frames: Frames, link: Frame, inertial: Element) -> tuple[float, Pose, dict[str, float]]:
@@ -25,25 +23,27 @@ def automatic_inertia(frames: Frames, link: Frame, inertial: Element) -> tuple[f
     With a `<mass>`, the inertia is scaled to it.
     """
     document, usual = frames.document, frames.document.number(inertial, "density", _WATER)
-    total, moment, tensor = 0.0, np.zeros(3), np.zeros((3, 3))
+    total, centre = 0.0, [0.0, 0.0, 0.0]
+    # the integrals of x·x, x·y and so on add up; the inertia follows from their sum
+    products = dict.fromkeys(_PLACES.values(), 0.0)
     for collision in link.element.iterfind("collision"):
         given_in = frames.given_in(link.scope, collision, link)
-        rotation, place = map(np.array, compose(frames.pose(given_in, link), document.pose(collision)))
-        volume, squares, height = _shape(document, collision)
-        mass = volume * document.number(collision, "density", usual)
-        centre = place + rotation @ (0.0, 0.0, height)
-        # the integral of x·xᵀ: it adds up, and the inertia is its trace minus itself
-        tensor += mass * (rotation @ np.diag(squares) @ rotation.T + np.outer(centre, centre))
-        total, moment = total + mass, moment + mass * centre
+        pose = compose(frames.pose(given_in, link), document.pose(collision))
+        volume, (xx, yy, zz), height = _shape(document, collision)
+        mass, place = volume * document.number(collision, "density", usual), moved(pose, (0.0, 0.0, height))
+        squares = turned_inertia(pose[0], Inertia(xx, iyy=yy, izz=zz))
+        total += mass
+        centre = [sum_ + mass * value for sum_, value in zip(centre, place, strict=True)]
+        for i, j in products:
+            products[i, j] += mass * (squares[i][j] + place[i] * place[j])
     if total <= 0.0:
         raise document.fault(inertial, f"link {link.name!r} has no collision with a volume to compute its inertia from")
-    centre, given = moment / total, document.number(inertial, "mass", total)
-    about_centre: _Array = (tensor - total * np.outer(centre, centre)) * given / total
-    inertia = np.trace(about_centre) * np.eye(3) - about_centre
-    places = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    x, y, z = map(float, centre)
-    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    return given, (axes, (x, y, z)), {name: round(float(inertia[place]), 15) for name, place in places.items()}
+    x, y, z = (value / total for value in centre)
+    given, middle = document.number(inertial, "mass", total), (x, y, z)
+    about = {(i, j): (value - total * middle[i] * middle[j]) * given / total for (i, j), value in products.items()}
+    trace = about[0, 0] + about[1, 1] + about[2, 2]
+    moments = {name: (trace if i == j else 0.0) - about[i, j] for name, (i, j) in _PLACES.items()}
+    return given, (IDENTITY[0], middle), {name: round(value, _DECIMALS) for name, value in moments.items()}
 
 
 def _shape(document: Document, collision: Element) -> tuple[float, tuple[float, float, float], float]:
