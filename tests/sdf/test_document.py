@@ -102,6 +102,12 @@ def test_scenery_may_be_missing() -> None:
     )
 
 
+def test_a_fault_in_scenery_is_told() -> None:
+    robot = arm()[arm().index("<model") : -6]
+    text = sdf(f'<world name="w"><include><uri>a.sdf</uri></include>{robot}</world>')
+    assert problem(text, {"a.sdf": "<sdf>\n<model></sdf>"}).startswith("a.sdf:2: this is not well-formed XML")
+
+
 @pytest.mark.parametrize(
     ("text", "files", "told"),
     [

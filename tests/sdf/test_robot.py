@@ -62,6 +62,15 @@ def test_two_axes_are_two_hinges(kind: str) -> None:
     assert link(robot, "turn_axis").inertial is None
 
 
+def test_numbers_of_drake() -> None:
+    own = "<drake:gear_ratio>10</drake:gear_ratio><drake:rotor_inertia>0.002</drake:rotor_inertia>"
+    limit = "<limit><drake:acceleration>8</drake:acceleration></limit>"
+    found = joint(read(arm(joint=f"<axis>{limit}</axis>{own}")))
+    assert found.dynamics is not None
+    assert found.dynamics.armature == 0.2
+    assert found.limit == Limit(acceleration=8)
+
+
 def test_a_joint_follows_another_one() -> None:
     mimic = '<mimic joint="turn"><multiplier>2</multiplier><offset>0.5</offset><reference>0.1</reference></mimic>'
     more = '<link name="tip"/>' + hinge("bend", "part", "tip", numbers(mimic))

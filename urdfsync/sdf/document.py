@@ -108,7 +108,9 @@ class Document:
 
         Raises TranslationError.
         """
-        child = None if element is None else element.find(tag)
+        # the paths of ElementTree refuse a prefix without a namespace, such as drake:gear_ratio
+        children = (part for part in (() if element is None else element) if part.tag == tag)
+        child = next(children, None) if ":" in tag or element is None else element.find(tag)
         words = ((child.text if child is not None else "") or "").split()
         if child is None or not words:
             return tuple(default)

@@ -122,7 +122,8 @@ class Frames:
             try:
                 model, version, path = self._included(element, around)
             except TranslationError as error:
-                if outer is not self.top:
+                fault = error.problem("")  # a fault inside of the file counts always
+                if outer is not self.top or (fault.file, fault.line) != self.document.places[element]:
                     raise
                 self.missing.append(error)
                 return

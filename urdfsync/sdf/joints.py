@@ -33,8 +33,10 @@ class Axis(NamedTuple):
     range: tuple[float, float] | None = None
     effort: float | None = None
     velocity: float | None = None
+    acceleration: float | None = None
     damping: float = 0.0
     friction: float = 0.0
+    armature: float | None = None
     stiffness: float = 0.0
     reference: float = 0.0
     """The position without force of a spring with this `stiffness`."""
@@ -55,7 +57,7 @@ class Joint(NamedTuple):
     @property
     def has_numbers(self) -> bool:
         """Whether an axis has limits or losses, or follows another one."""
-        return any(axis[3:] != (None, None, None, 0.0, 0.0, 0.0, axis.reference, None) for axis in self.axes)
+        return any(axis._replace(reference=0.0) != Axis(*axis[:3]) for axis in self.axes)
 
 
 def read_joints(frames: Frames, parts: Iterable[Frame]) -> list[Joint]:
@@ -94,6 +96,8 @@ def _axis(frames: Frames, joint: Frame, tag: str) -> Axis:
         return Axis(None, (0.0, 0.0, 1.0), given_in)
     limit, dynamics = element.find("limit"), element.find("dynamics")
     lower, upper = (document.number(limit, name, end) for name, end in (("lower", -_ENDLESS), ("upper", _ENDLESS)))
+    rotor = document.number(joint.element, "drake:rotor_inertia", 0.0) if tag == TAGS[0] else 0.0
+    gear = document.number(joint.element, "drake:gear_ratio", 1.0)
     effort, velocity = (document.number(limit, name, -1) for name in ("effort", "velocity"))
     return Axis(
         element,
@@ -102,8 +106,10 @@ def _axis(frames: Frames, joint: Frame, tag: str) -> Axis:
         (max(lower, -_ENDLESS), min(upper, _ENDLESS)) if lower > -_ENDLESS or upper < _ENDLESS else None,
         effort if 0 <= effort < _ENDLESS else None,
         velocity if 0 <= velocity < _ENDLESS else None,
+        document.number(limit, "drake:acceleration", 0.0) or None,
         document.number(dynamics, "damping", 0.0),
         document.number(dynamics, "friction", 0.0),
+        gear * gear * rotor or None,
         document.number(dynamics, "spring_stiffness", 0.0),
         document.number(dynamics, "spring_reference", 0.0),
         _mimic(frames, joint, element),

@@ -10,9 +10,9 @@ from urdfsync.sdf.urdf import Urdf
 
 _MODEL = frozenset({"link", "joint", "frame", "model", "include", "pose", "static", "plugin"})
 _INCLUDE = frozenset({"uri", "name", "placement_frame"})
-_JOINT = frozenset({"parent", "child", "pose", *TAGS, "sensor"})
+_JOINT = frozenset({"parent", "child", "pose", *TAGS, "sensor", "drake:gear_ratio", "drake:rotor_inertia"})
 _AXIS = frozenset({"xyz", "limit", "dynamics", "mimic"})
-_LIMIT = frozenset({"lower", "upper", "effort", "velocity"})
+_LIMIT = frozenset({"lower", "upper", "effort", "velocity", "drake:acceleration"})
 """Elements that are read: all others are counted."""
 _DOWN, _FEW = (0.0, 0.0, -9.8), 0.02
 """The usual gravity, in m/s², and the greatest difference from it."""

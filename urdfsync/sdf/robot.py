@@ -75,10 +75,11 @@ def _add_axis(urdf: Urdf, node: Node, joint: Joint, axis: Axis) -> None:
     x, y, z = _turned(urdf, axis, joint.child)
     node.add("axis", xyz=rounded((-x, -y, -z) if joint.is_turned else (x, y, z)))
     lower, upper = axis.range if axis.range and node.attributes["type"] != "continuous" else (None, None)
-    if (lower, upper, axis.effort, axis.velocity) != (None,) * 4:
-        node.add("limit", lower=lower, upper=upper, effort=axis.effort, velocity=axis.velocity)
-    if axis.damping or axis.friction:
-        node.add("dynamics", damping=axis.damping, friction=axis.friction)
+    most = {"effort": axis.effort, "velocity": axis.velocity, "acceleration": axis.acceleration}
+    if {lower, upper, *most.values()} != {None}:
+        node.add("limit", lower=lower, upper=upper).attributes |= most
+    if axis.damping or axis.friction or axis.armature:
+        node.add("dynamics", damping=axis.damping, friction=axis.friction, armature=axis.armature)
     if axis.mimic:
         node.add("mimic", **axis.mimic)
 
