@@ -1,6 +1,6 @@
 """Translates SDF, the format of Gazebo, into URDF; only a process of its own loads this package.
 
-Of the libraries on PyPI, `rod` calls Gazebo's own program to resolve includes, and forgets lines; `drake` has the real
-libsdformat, but gives no elements with their lines, and is larger than urdfsync with all it needs. So this package
-reads the XML itself. `tests/sdf/test_drake.py` compares the results with Drake's.
+It reads the XML itself. Of the libraries on PyPI, `rod` 0.5 reads SDF 1.7 and newer, but neither includes nor lines.
+`drake` 1.51 has the real libsdformat, but shows no elements with their lines, refuses loops and five types of joints,
+and takes 170 MB. `sdformat` is another format. `tests/sdf/test_drake.py` compares the results with Drake's.
 """
