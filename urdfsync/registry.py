@@ -35,6 +35,16 @@ _TRANSLATORS = {
             ),
             compares=True,
         ),
+        Translator(
+            "sdf",
+            "urdfsync.sdf.worker",
+            {
+                "sdf": "correct it, then build again",
+                "sdf-limits": "look for models that include many others",
+            },
+            # an XML whose root element is <sdf>
+            re.compile(rb"(?s)\A(?:\xef\xbb\xbf)?\s*+(?>(?:<\?.*?\?>|<!--.*?-->)\s*+)*+<sdf\b"),
+        ),
     ),
 }
 """Translators of other formats, by the domain that reads what they write."""

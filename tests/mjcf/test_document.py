@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 from support.mjcfs import ARM, FOLDER, SOURCE, body, document, problem, read, world
 
-from urdfsync.mjcf.document import Files, read_document
+from urdfsync.mjcf.document import read_document
 from urdfsync.mjcf.urdf import translated
+from urdfsync.translation.files import Files
 
 LEG = '<mujocoinclude>\n\n<body name="leg"><joint name="hip"/><geom size="0.1"/></body></mujocoinclude>'
 GRIPPER = '<mujoco><worldbody>\n<body name="hand"><joint name="grip"/><geom size="0.1"/></body></worldbody></mujoco>'

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from urdfsync.diagnostics import Severity
-from urdfsync.mjcf.document import Document, Files, TranslationError, read_document
+from urdfsync.mjcf.document import Document, read_document
 from urdfsync.mjcf.urdf import translated
+from urdfsync.translation.files import Files, TranslationError
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import Joint, Link, Robot
@@ -111,6 +112,6 @@ def problem(text: str, files: Mapping[str, str | bytes] | None = None, robot: st
     """Return the fault for which there is no robot: file, line, message and hint."""
     with pytest.raises(TranslationError) as error:
         urdf(text, files, robot)
-    found = error.value.problem
+    found = error.value.problem("mjcf")
     file = found.file.removeprefix(f"{FOLDER}/")
     return f"{file}:{found.line}: {found.message}{f'; {found.hint}' if found.hint else ''}".replace(f"{FOLDER}/", "")

@@ -11,16 +11,13 @@ As in MuJoCo, the name of an included file counts from the folder of the includi
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterator, Mapping
-from pathlib import Path, PurePosixPath
+from collections.abc import Iterator, Mapping
+from pathlib import PurePosixPath
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 from xml.sax.saxutils import quoteattr
 
-from urdfsync.dependencies.facts import read_unrecorded
-from urdfsync.engine.exchange import Problem
-from urdfsync.files import text_digest
-from urdfsync.urdf.parse.xml import ParseError, parse
+from urdfsync.translation.files import Files, Place, TranslationError
 
 _LEFT_OUT = ("texture", "hfield", "skin")
 """Elements that only draw, or are terrain."""
@@ -31,52 +28,6 @@ _OF_TEXTURES = ("texture", "texrepeat", "texuniform")
 _FOLDERS = ("meshdir", "texturedir", "assetdir", "strippath")
 _MOST_ELEMENTS = 20_000
 """The most elements of a model with its copies. The largest robots have 3,000; for 30,000 copies MuJoCo takes 20 s."""
-
-Place = tuple[str, int]
-"""A file, and a line in it."""
-
-
-class TranslationError(Exception):
-    """A fault for which there is no robot."""
-
-    def __init__(self, message: str, place: Place = ("", 0), hint: str = "", code: str = "mjcf") -> None:
-        super().__init__(message)
-        self.problem = Problem(code, message, *place, hint)
-
-
-class Files:
-    """Reads the files of a source, and records all of them."""
-
-    def __init__(self, contents: Mapping[str, bytes], folders: Collection[str]) -> None:
-        """`contents` of files override the disk. Included files are in one of the `folders`, or below it."""
-        self._contents, self._folders = contents, [os.path.realpath(folder) for folder in folders]
-        self.hashes: dict[str, str | None] = {}
-
-    def read(self, path: str, place: Place = ("", 0)) -> bytes:
-        """Return the content of a file that is named at `place`. Raises TranslationError."""
-        self.hashes[path] = None
-        try:
-            content = self._contents[path] if path in self._contents else read_unrecorded(path)
-        except (OSError, ValueError) as error:  # ValueError for a zero in the name
-            reason = getattr(error, "strerror", None) or str(error)
-            hint = "put the file there, or correct the name" if place[0] else ""
-            raise TranslationError(f"{path} can't be read: {reason}", place, hint) from None
-        self.hashes[path] = text_digest(content)
-        return content
-
-    def is_there(self, path: str) -> bool:
-        """Return whether a file exists; a missing one is recorded, since it would count if it came."""
-        is_there = path in self._contents or os.path.lexists(path)
-        if not is_there:
-            self.hashes[path] = None
-        return is_there
-
-    def check_inside(self, path: str, place: Place) -> None:
-        """Refuse a file outside of the folders. Raises TranslationError."""
-        real = Path(os.path.realpath(path))
-        if not any(real.is_relative_to(folder) for folder in self._folders):
-            hint = "move the file into the folder of the source, or of the configuration"
-            raise TranslationError(f"the included file {path} is outside of the project", place, hint)
 
 
 class Document(NamedTuple):
@@ -111,7 +62,7 @@ def _read_model(source: str, files: Files, shared: Document, place: Place, aroun
     """Return the document of a model; its meshes and models are added to those of `shared`."""
     if source in around:
         raise TranslationError("the model attaches itself", place)
-    root, places = _parse(source, files, place)
+    root, places = files.parse(source, place)
     if root.tag != "mujoco":
         message = f"the root element is <{root.tag}> and not <mujoco>"
         raise TranslationError(message, places[root], "name the file that includes this one")
@@ -124,16 +75,6 @@ def _read_model(source: str, files: Files, shared: Document, place: Place, aroun
     text = "\n" * len(shared.places) + "\n".join(line for line, _ in lines)
     shared.places.extend(place for _, place in lines)
     return shared._replace(text=text)
-
-
-def _parse(path: str, files: Files, place: Place) -> tuple[Element, dict[Element, Place]]:
-    """Return the root element of a file, and the place of each element. Raises TranslationError."""
-    try:
-        document = parse(files.read(path, place))
-    except ParseError as error:
-        fault = error.diagnostic
-        raise TranslationError(fault.message, (path, fault.line), fault.hint, fault.code) from None
-    return document.root, {element: (path, line) for element, line in document.lines.items()}
 
 
 def _include(
@@ -157,7 +98,7 @@ def _include(
         files.check_inside(path, place)
         if path in around:
             raise TranslationError(f"{path} includes itself", place, "take one <include> out")
-        root, inner = _parse(path, files, place)
+        root, inner = files.parse(path, place)
         places |= inner
         _include(root, path, main, files, places, (*around, path))
         children += root

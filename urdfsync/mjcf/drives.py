@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import mujoco
 
 from urdfsync.mjcf.scene import Scene
-from urdfsync.mjcf.writer import Node, rounded
+from urdfsync.translation.writer import Node, rounded
 from urdfsync.urdf.robot import Command
 
 _HOME = "home"

@@ -10,7 +10,7 @@ import numpy as np
 
 from urdfsync.mjcf.drives import Drives, Part
 from urdfsync.mjcf.scene import Scene
-from urdfsync.mjcf.writer import Node
+from urdfsync.translation.writer import Node
 
 _GRAVITY = (0.0, 0.0, -9.81)
 _SWITCHES = ("GRAVITY", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION")

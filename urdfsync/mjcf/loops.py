@@ -11,7 +11,7 @@ import numpy as np
 from urdfsync.mjcf.drives import Drives
 from urdfsync.mjcf.robot import Links
 from urdfsync.mjcf.turns import rpy
-from urdfsync.mjcf.writer import Node
+from urdfsync.translation.writer import Node
 
 _KINDS = {mujoco.mjtEq.mjEQ_CONNECT: "connect", mujoco.mjtEq.mjEQ_WELD: "weld"}
 _POINT, _PLACE, _TURN = slice(0, 3), slice(3, 6), slice(6, 10)

@@ -13,10 +13,10 @@ import mujoco
 import numpy as np
 
 from urdfsync.mjcf.drives import Drives
-from urdfsync.mjcf.scene import Scene, free_name
+from urdfsync.mjcf.scene import Scene
 from urdfsync.mjcf.shapes import add_shapes
 from urdfsync.mjcf.turns import Vector, rpy, turned
-from urdfsync.mjcf.writer import Node, rounded
+from urdfsync.translation.writer import Node, free_name, rounded
 
 _TYPES = {
     mujoco.mjtJoint.mjJNT_FREE: "floating",

@@ -8,8 +8,10 @@ from typing import Any
 
 import mujoco
 
-from urdfsync.mjcf.document import Document, TranslationError
+from urdfsync.mjcf.document import Document
 from urdfsync.spelling import nearest
+from urdfsync.translation.files import TranslationError
+from urdfsync.translation.writer import free_name
 
 WORLD = "world"
 _MOST_BODIES = 2_000
@@ -161,15 +163,6 @@ def _in_words(document: Document, text: str) -> TranslationError:
         words = words.replace(f"'{name}'", path)
     hint = f"correct it, or install a newer MuJoCo than {mujoco.__version__}" if "Schema violation" in text else ""
     return TranslationError(f"MuJoCo: {words}", document.place(int(found[1]) if found else 0), hint)
-
-
-def free_name(name: str, taken: set[str]) -> str:
-    """Return a name that is not taken, perhaps with a number, and take it."""
-    number, free = 2, name
-    while free in taken:
-        number, free = number + 1, f"{name}_{number}"
-    taken.add(free)
-    return free
 
 
 def _listed(names: Sequence[str]) -> str:

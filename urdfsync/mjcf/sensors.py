@@ -6,7 +6,7 @@ import mujoco
 
 from urdfsync.mjcf.robot import Links
 from urdfsync.mjcf.turns import rpy
-from urdfsync.mjcf.writer import Node
+from urdfsync.translation.writer import Node
 
 _KINDS = {mujoco.mjtSensor.mjSENS_ACCELEROMETER: "accelerometer", mujoco.mjtSensor.mjSENS_GYRO: "gyroscope"}
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from urdfsync.mjcf.scene import Scene
 from urdfsync.mjcf.turns import Vector, inverse, product, rpy, turned
-from urdfsync.mjcf.writer import Node, rounded
+from urdfsync.translation.writer import Node, rounded
 
 _SHOWN = 2
 """The last group of geoms that viewers show."""

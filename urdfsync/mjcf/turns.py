@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfsync.mjcf.writer import rounded
+from urdfsync.translation.writer import rounded
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 
 Vector: TypeAlias = NDArray[np.float64]

@@ -11,7 +11,7 @@ from urdfsync.mjcf.loops import add_loops
 from urdfsync.mjcf.robot import Links
 from urdfsync.mjcf.scene import read_scene
 from urdfsync.mjcf.sensors import add_sensors
-from urdfsync.mjcf.writer import Node, write
+from urdfsync.translation.writer import Node, write
 
 _NO_NAME = "MuJoCo Model"
 """MuJoCo's name of a model without a name."""
@@ -34,4 +34,4 @@ def translated(document: Document, body: str = "") -> tuple[str, tuple[tuple[int
     add_sensors(robot, links)
     find_left_out(scene, drives)
     add_leftovers(robot, scene, drives)
-    return write(robot, document)
+    return write(robot, document.places)

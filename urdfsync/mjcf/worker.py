@@ -12,8 +12,9 @@ import sys
 import msgspec
 
 from urdfsync.engine.exchange import Answer, Problem, Request, encode
-from urdfsync.mjcf.document import Document, Files, TranslationError, read_document
+from urdfsync.mjcf.document import Document, read_document
 from urdfsync.processes import limits, reserve_stdout
+from urdfsync.translation.files import Files, TranslationError
 
 _COMPILED = b"1\xd4\0\0"
 """The first bytes of a compiled model (MJB)."""
@@ -39,7 +40,7 @@ def translate(request: Request) -> Answer:
                 text, places = urdf.translated(document, body)
                 answer = Answer(text, places)
     except TranslationError as error:
-        problem = error.problem
+        problem = error.problem("mjcf")
     except MemoryError:
         problem = Problem("mjcf-limits", "")
     except RecursionError:

@@ -62,6 +62,21 @@ def compose(outer: Pose, inner: Pose) -> Pose:
     return (turned(row_x), turned(row_y), turned(row_z)), moved(outer, place)
 
 
+def inverse(of: Pose) -> Pose:
+    """Return the pose of the outer frame in the inner one."""
+    rotation, place = of
+    turned: Matrix = tuple(zip(*rotation, strict=True))  # type: ignore[assignment]
+    return turned, tuple(-dot(row, place) for row in turned)  # type: ignore[return-value]
+
+
+def angles(rotation: Matrix) -> Vector:
+    """Return the roll, pitch and yaw of a rotation, precise even at a pitch of ±π/2, as `roll_pitch_yaw` is."""
+    (xx, xy, xz), (yx, yy, yz), (zx, _, _) = rotation
+    yaw = math.atan2(yx, xx)
+    s, c = math.sin(yaw), math.cos(yaw)
+    return math.atan2(s * xz - c * yz, c * yy - s * xy), math.atan2(-zx, c * xx + s * yx), yaw
+
+
 def moved(place: Pose, point: Vector) -> Vector:
     """Return a point, given in the frame of a pose, in the frame of the pose's origin."""
     (row_x, row_y, row_z), (x, y, z) = place

@@ -15,7 +15,6 @@ parts of a URDF. MuJoCo documents only `<compiler>`, `<option>` and `<size>` as 
 from __future__ import annotations
 
 import itertools
-import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
@@ -24,7 +23,7 @@ import msgspec
 from msgspec.structs import replace
 
 from urdfsync.urdf import validate
-from urdfsync.urdf.kinematics.poses import Matrix, Pose, across, compose, link_poses, pose
+from urdfsync.urdf.kinematics.poses import Pose, across, angles, compose, inverse, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LoopFrame, LoopOption, Options
 from urdfsync.urdf.parse.closures import Closures
@@ -251,7 +250,7 @@ def _read_ends(reader: Reader, element: Element, path: str, poses: Mapping[str, 
     own = element.find("child_origin")
     if own is not None and "rpy" not in own.attrib and {parent.link, child.link} <= poses.keys():
         held = compose(poses[parent.link], pose(Origin(parent.xyz, parent.rpy)))
-        frames[1] = replace(child, rpy=_origin(compose(_inverse(poses[child.link]), held)).rpy)
+        frames[1] = replace(child, rpy=_origin(compose(inverse(poses[child.link]), held)).rpy)
     return frames
 
 
@@ -297,25 +296,14 @@ def _read_joint(
         known = kind is None or not (parent and child)
         return None if known else Loop(name, kind or "ball", parent, child)  # validate reports a missing link
     child_origin = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
-    origin = _origin(compose(_inverse(poses[parent]), compose(poses[child], pose(child_origin))))
+    origin = _origin(compose(inverse(poses[parent]), compose(poses[child], pose(child_origin))))
     return Loop(name, kind, parent, child, origin, child_origin, axis, second or _second_axis(axis))
-
-
-def _inverse(of: Pose) -> Pose:
-    rotation, place = of
-    turned: Matrix = tuple(zip(*rotation, strict=True))  # type: ignore[assignment]
-    return turned, tuple(-sum(a * b for a, b in zip(row, place, strict=True)) for row in turned)  # type: ignore[return-value]
 
 
 def _origin(of: Pose) -> Origin:
     """Return a pose as place and angles; rounding makes the numbers equal on all machines."""
-    (r, place) = of
-    angles = (
-        math.atan2(r[2][1], r[2][2]),
-        math.atan2(-r[2][0], math.hypot(r[0][0], r[1][0])),
-        math.atan2(r[1][0], r[0][0]),
-    )
-    xyz, rpy = (tuple(round(value, _DIGITS) + 0.0 for value in values) for values in (place, angles))
+    rotation, place = of
+    xyz, rpy = (tuple(round(value, _DIGITS) + 0.0 for value in values) for values in (place, angles(rotation)))
     return Origin(xyz, rpy)  # type: ignore[arg-type]
 
 

@@ -1,12 +1,12 @@
-"""Writes the URDF of a robot; each element has a line of its own, and the line of the MJCF that it comes from."""
+"""Writes the URDF of a robot; each element has a line of its own, and the place in the source that it comes from."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
-from xml.sax.saxutils import quoteattr
+from xml.sax.saxutils import escape, quoteattr
 
-from urdfsync.mjcf.document import Document, Place
+from urdfsync.translation.files import Place
 
 _DECIMALS = 15
 """Decimals of computed numbers: later digits are rounding errors."""
@@ -16,7 +16,7 @@ class Node:
     """An element of the URDF."""
 
     def __init__(self, tag: str, line: int | Place, /, text: str = "", **attributes: Any) -> None:
-        """`line` is the line in the text of the MJCF, or its place, or 0 for that of the element around this one."""
+        """`line` is a number of a place, or the place itself, or 0 for that of the element around this one."""
         self.tag, self.line, self.text, self.attributes = tag, line, text, attributes
         self.children: list[Node] = []
 
@@ -26,12 +26,12 @@ class Node:
         return child
 
     def lines(self, line: int | Place = 1, depth: int = 0) -> Iterator[tuple[str, int | Place]]:
-        """Yield the lines of the text, each with its line or place in the MJCF."""
+        """Yield the lines of the text, each with its place, or the number of its place."""
         line, indent = self.line or line, "  " * depth
         written = {name: _text(value) for name, value in self.attributes.items() if value is not None}
         head = f"{indent}<{self.tag}" + "".join(f" {name}={quoteattr(value)}" for name, value in written.items())
         if not self.children:
-            yield f"{head}>{self.text}</{self.tag}>" if self.text else f"{head}/>", line
+            yield f"{head}>{escape(self.text)}</{self.tag}>" if self.text else f"{head}/>", line
             return
         yield f"{head}>", line
         for child in self.children:
@@ -39,13 +39,27 @@ class Node:
         yield f"{indent}</{self.tag}>", line
 
 
-def write(robot: Node, document: Document) -> tuple[str, tuple[tuple[int, str, int], ...]]:
-    """Return the text of a URDF, and each of its lines that begins another place in the files of the MJCF."""
+def write(robot: Node, numbered: Sequence[Place] = ()) -> tuple[str, tuple[tuple[int, str, int], ...]]:
+    """Return the text of a URDF, and each of its lines that begins another place in the files of the source.
+
+    `numbered` has the places of the numbers 1, 2, …; any other number stands for the first place.
+    """
     lines = list(robot.lines())
-    places = [line if isinstance(line, tuple) else document.place(line) for _, line in lines]
+    places = [
+        line if isinstance(line, tuple) else numbered[line - 1 if 0 < line <= len(numbered) else 0] for _, line in lines
+    ]
     # a place holds until the next one
     changes = [number for number, place in enumerate(places) if not number or place != places[number - 1]]
     return "\n".join([*(text for text, _ in lines), ""]), tuple((number + 1, *places[number]) for number in changes)
+
+
+def free_name(name: str, taken: set[str]) -> str:
+    """Return a name that is not taken, perhaps with a number, and take it."""
+    number, free = 2, name
+    while free in taken:
+        number, free = number + 1, f"{name}_{number}"
+    taken.add(free)
+    return free
 
 
 def rounded(numbers: Iterable[float]) -> tuple[float, ...]:

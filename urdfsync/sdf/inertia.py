@@ -1,0 +1,77 @@
+"""Computes the mass and the inertia of a link from its collisions, as `<inertial auto="true">` asks for."""
+
+from __future__ import annotations
+
+import math
+from xml.etree.ElementTree import Element
+
+from urdfsync.sdf.document import Document
+from urdfsync.sdf.frames import Frame, Frames
+from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, moved, turned_inertia
+from urdfsync.urdf.robot import Inertia
+
+_WATER = 1000.0
+"""The density of a shape that states none, in kg/m³."""
+_UNIT = (1.0, 1.0, 1.0)
+_PLACES = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+_DECIMALS = 15
+
+
+def automatic_inertia(frames: Frames, link: Frame, inertial: Element) -> tuple[float, Pose, dict[str, float]]:
+    """Return mass, pose of the centre of mass in the link, and inertia in the link's axes. Raises TranslationError.
+
+    With a `<mass>`, the inertia is scaled to it.
+    """
+    document, usual = frames.document, frames.document.number(inertial, "density", _WATER)
+    total, centre = 0.0, [0.0, 0.0, 0.0]
+    # the integrals of x·x, x·y and so on add up; the inertia follows from their sum
+    products = dict.fromkeys(_PLACES.values(), 0.0)
+    for collision in link.element.iterfind("collision"):
+        given_in = frames.given_in(link.scope, collision, link)
+        pose = compose(frames.pose(given_in, link), document.pose(collision))
+        volume, (xx, yy, zz), height = _shape(document, collision)
+        mass, place = volume * document.number(collision, "density", usual), moved(pose, (0.0, 0.0, height))
+        squares = turned_inertia(pose[0], Inertia(xx, iyy=yy, izz=zz))
+        total += mass
+        centre = [sum_ + mass * value for sum_, value in zip(centre, place, strict=True)]
+        for i, j in products:
+            products[i, j] += mass * (squares[i][j] + place[i] * place[j])
+    if total <= 0.0:
+        raise document.fault(inertial, f"link {link.name!r} has no collision with a volume to compute its inertia from")
+    x, y, z = (value / total for value in centre)
+    given, middle = document.number(inertial, "mass", total), (x, y, z)
+    about = {(i, j): (value - total * middle[i] * middle[j]) * given / total for (i, j), value in products.items()}
+    trace = about[0, 0] + about[1, 1] + about[2, 2]
+    moments = {name: (trace if i == j else 0.0) - about[i, j] for name, (i, j) in _PLACES.items()}
+    return given, (IDENTITY[0], middle), {name: round(value, _DECIMALS) for name, value in moments.items()}
+
+
+def _shape(document: Document, collision: Element) -> tuple[float, tuple[float, float, float], float]:
+    """Return volume, mean squares of x, y and z about the centre of mass, and the height of this centre."""
+    geometry = collision.find("geometry")
+    shape = next(iter(geometry if geometry is not None else ()), collision)
+    r, h = (
+        document.number(shape, "radius", 0.5 if shape.tag == "capsule" else 1.0),
+        document.number(shape, "length", 1.0),
+    )
+    match shape.tag:
+        case "box":
+            x, y, z = document.vector(shape, "size", _UNIT)
+            return x * y * z, (x * x / 12, y * y / 12, z * z / 12), 0.0
+        case "sphere":
+            return 4 / 3 * math.pi * r**3, (r * r / 5,) * 3, 0.0
+        case "ellipsoid":
+            x, y, z = document.vector(shape, "radii", _UNIT)
+            return 4 / 3 * math.pi * x * y * z, (x * x / 5, y * y / 5, z * z / 5), 0.0
+        case "cylinder":
+            return math.pi * r * r * h, (r * r / 4, r * r / 4, h * h / 12), 0.0
+        case "cone":  # its centre of mass is a quarter of its height above its base
+            return math.pi * r * r * h / 3, (3 / 20 * r * r, 3 / 20 * r * r, 3 / 80 * h * h), -h / 4
+        case "capsule":
+            tube, ball = math.pi * r * r * h, 4 / 3 * math.pi * r**3
+            across = (tube * r * r / 4 + ball * r * r / 5) / (tube + ball)
+            along = (tube * h * h / 12 + ball * (r * r / 5 + h * h / 4 + 3 / 8 * h * r)) / (tube + ball)
+            return tube + ball, (across, across, along), 0.0
+    raise document.fault(
+        shape, f"the inertia of a <{shape.tag}> is not computed", "write the link's <mass> and <inertia>"
+    )

@@ -1,0 +1,131 @@
+"""Reads the joints of an SDF with their axes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+from xml.etree.ElementTree import Element
+
+from urdfsync.sdf.frames import Frame, Frames
+from urdfsync.spelling import nearest
+from urdfsync.urdf.robot import Vector
+
+TAGS = ("axis", "axis2")
+_AXES = {"revolute": 1, "continuous": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2}
+"""Types that become joints of URDF, with the number of their axes."""
+_OTHERS = ("screw", "gearbox")
+"""Types that no model has. A screw counts as fixed, and a gearbox joins nothing."""
+FIXED = frozenset({"fixed", "gearbox"})
+"""Types that move nothing."""
+_ENDLESS = 1e16
+"""A limit of this size or more is none."""
+MODEL_AXES = "use_parent_model_frame"
+"""The element by which SDF 1.5 and 1.6 give an axis in the frame of the model; older versions always do."""
+
+
+class Axis(NamedTuple):
+    """An axis of a joint, with its numbers as URDF has them."""
+
+    element: Element | None
+    vector: Vector
+    given_in: Frame
+    """The frame of the vector."""
+    range: tuple[float, float] | None = None
+    effort: float | None = None
+    velocity: float | None = None
+    acceleration: float | None = None
+    damping: float = 0.0
+    friction: float = 0.0
+    armature: float | None = None
+    stiffness: float = 0.0
+    reference: float = 0.0
+    """The position without force of a spring with this `stiffness`."""
+    mimic: Mapping[str, Any] | None = None
+
+
+class Joint(NamedTuple):
+    """A joint between two links."""
+
+    frame: Frame
+    kind: str
+    parent: Frame
+    child: Frame
+    axes: tuple[Axis, ...]
+    is_turned: bool = False
+    """Whether `parent` is the child in the source: the root of the tree is on that side."""
+
+    @property
+    def has_numbers(self) -> bool:
+        """Whether an axis has limits or losses, or follows another one."""
+        return any(axis._replace(reference=0.0) != Axis(*axis[:3]) for axis in self.axes)
+
+
+def read_joints(frames: Frames, parts: Iterable[Frame]) -> list[Joint]:
+    """Return the joints of a model. Raises TranslationError."""
+    joints, document = list[Joint](), frames.document
+    for frame in parts:
+        kind, types = frame.element.get("type", ""), (*_AXES, *_OTHERS)
+        if kind not in types:
+            near = nearest(kind, types)
+            hint = f"perhaps {near!r} is meant" if near else f"use one of {', '.join(types)}"
+            raise document.fault(frame.element, f"joint {frame.name!r} has the unknown type {kind!r}", hint)
+        parent, child = (frames.link_of(frames.named(frame, tag)) for tag in ("parent", "child"))
+        if parent is child:
+            raise document.fault(frame.element, f"joint {frame.name!r} joins {parent.name!r} with itself")
+        axes = tuple(_axis(frames, frame, tag) for tag in TAGS[: _AXES.get(kind, 0)])
+        joints.append(Joint(frame, kind, parent, child, axes))
+    return joints
+
+
+def names(joint: Joint) -> Iterator[str]:
+    """Yield the names of a joint's parts in URDF: one for each axis."""
+    yield from [joint.frame.name] if len(joint.axes) < 2 else [f"{joint.frame.name}_{tag}" for tag in TAGS]
+
+
+def _axis(frames: Frames, joint: Frame, tag: str) -> Axis:
+    document, element = frames.document, joint.element.find(tag)
+    xyz = None if element is None else element.find("xyz")
+    given_in = joint
+    if xyz is not None and (word := xyz.get("expressed_in", "")):
+        given_in = frames.look_up(joint.scope, word, xyz)
+    elif element is not None and (
+        joint.scope.version < (1, 5) or (joint.scope.version < (1, 7) and document.flag(element, MODEL_AXES))
+    ):
+        given_in = joint.scope.own
+    if element is None:
+        return Axis(None, (0.0, 0.0, 1.0), given_in)
+    limit, dynamics = element.find("limit"), element.find("dynamics")
+    lower, upper = (document.number(limit, name, end) for name, end in (("lower", -_ENDLESS), ("upper", _ENDLESS)))
+    rotor = document.number(joint.element, "drake:rotor_inertia", 0.0) if tag == TAGS[0] else 0.0
+    gear = document.number(joint.element, "drake:gear_ratio", 1.0)
+    effort, velocity = (document.number(limit, name, -1) for name in ("effort", "velocity"))
+    return Axis(
+        element,
+        document.vector(element, "xyz", (0.0, 0.0, 1.0)),
+        given_in,
+        (max(lower, -_ENDLESS), min(upper, _ENDLESS)) if lower > -_ENDLESS or upper < _ENDLESS else None,
+        effort if 0 <= effort < _ENDLESS else None,
+        velocity if 0 <= velocity < _ENDLESS else None,
+        document.number(limit, "drake:acceleration", 0.0) or None,
+        document.number(dynamics, "damping", 0.0),
+        document.number(dynamics, "friction", 0.0),
+        gear * gear * rotor or None,
+        document.number(dynamics, "spring_stiffness", 0.0),
+        document.number(dynamics, "spring_reference", 0.0),
+        _mimic(frames, joint, element),
+    )
+
+
+def _mimic(frames: Frames, joint: Frame, axis: Element) -> Mapping[str, Any] | None:
+    """Return the coupling of an axis as URDF has it: position = multiplier · (leader - reference) + offset."""
+    element, document = axis.find("mimic"), frames.document
+    if element is None:
+        return None
+    leader = frames.look_up(joint.scope, element.get("joint", ""), element)
+    if leader.kind != "joint":
+        raise document.fault(element, f"<mimic> names the {leader.kind} {leader.name!r}, which is no joint")
+    has_two = _AXES.get(leader.element.get("type", ""), 0) == len(TAGS)
+    name = f"{leader.name}_{element.get('axis', 'axis')}" if has_two else leader.name
+    multiplier = document.number(element, "multiplier", 1.0)
+    offset = document.number(element, "offset", 0.0) - multiplier * document.number(element, "reference", 0.0)
+    return {"joint": name, "multiplier": multiplier, "offset": offset}

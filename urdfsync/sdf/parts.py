@@ -1,0 +1,135 @@
+"""Makes masses, shapes and sensors of the links of an SDF."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+from xml.etree.ElementTree import Element
+
+from urdfsync.sdf.document import Document
+from urdfsync.sdf.frames import Frame
+from urdfsync.sdf.inertia import automatic_inertia
+from urdfsync.sdf.urdf import Urdf
+from urdfsync.translation.writer import Node
+from urdfsync.urdf.kinematics.poses import IDENTITY
+from urdfsync.urdf.robot import SENSOR_KINDS
+
+_SENSORS = {word for kind, model in SENSOR_KINDS.items() for word in (kind, *model.types)}
+_MOMENTS = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
+"""The inertia of a link that states none."""
+_LINK = frozenset({"pose", "inertial", "visual", "collision", "sensor", "gravity", "kinematic", "velocity_decay"})
+_VISUAL = frozenset({"pose", "geometry", "material", "transparency"})
+_COLLISION = frozenset({"pose", "geometry", "surface", "density", "auto_inertia_params"})
+"""Elements that are read: a note counts all others."""
+
+
+def add_link(urdf: Urdf, frame: Frame) -> None:
+    """Add a link with its mass, shapes and sensors."""
+    document, element = urdf.document, frame.element
+    link = urdf.root.add("link", document.places[element], name=urdf.links[frame])
+    _add_inertial(urdf, link, frame)
+    for tag in ("visual", "collision"):
+        for shape in element.iterfind(tag):
+            _add_shape(urdf, link, frame, shape)
+    for sensor in element.iterfind("sensor"):
+        add_sensor(urdf, sensor, frame, {"link": urdf.links[frame]}, frame)
+    if not document.flag(element, "gravity", default=True):
+        urdf.leave_out("gravity off", frame.name, element)
+    if document.flag(element, "kinematic"):
+        urdf.leave_out("kinematic link", frame.name, element)
+    if any(document.number(element, f"velocity_decay/{name}", 0.0) for name in ("linear", "angular")):
+        urdf.leave_out("velocity_decay", frame.name, element)
+    for part in element:
+        if part.tag not in _LINK:
+            urdf.note(part, frame.name)
+
+
+def _add_inertial(urdf: Urdf, link: Node, frame: Frame) -> None:
+    """Add mass and inertia: without numbers, 1 kg and 1 kg·m² about each axis."""
+    document, element = urdf.document, frame.element.find("inertial")
+    inertial = link.add("inertial", document.places[frame.element if element is None else element])
+    if element is not None and element.get("auto", "").strip().lower() in ("true", "1"):
+        mass, pose, moments = automatic_inertia(urdf.frames, frame, element)
+    else:
+        mass, pose = document.number(element, "mass", 1.0), IDENTITY if element is None else document.pose(element)
+        inertia = None if element is None else element.find("inertia")
+        moments = {name: document.number(inertia, name, usual) for name, usual in _MOMENTS.items()}
+    inertial.add("mass", value=mass)
+    urdf.add_origin(inertial, urdf.place(frame, frame, pose))
+    inertial.add("inertia").attributes |= moments
+    added = None if element is None else element.find("fluid_added_mass")
+    if added is not None and any(document.number(added, part.tag, 0.0) for part in added):
+        urdf.leave_out("fluid_added_mass", frame.name, added)
+
+
+def _add_shape(urdf: Urdf, link: Node, frame: Frame, element: Element) -> None:
+    """Add a visual or a collision."""
+    document, geometry = urdf.document, element.find("geometry")
+    shape = link.add(element.tag, document.places[element], name=element.get("name") or None)
+    given_in = urdf.frames.given_in(frame.scope, element, frame)
+    urdf.add_origin(shape, urdf.place(given_in, frame, document.pose(element)))
+    holder = shape.add("geometry")
+    for kind in geometry if geometry is not None else ():
+        tag, attributes = _geometry(document, kind)
+        holder.add(tag, document.places[kind]).attributes |= attributes
+    if element.tag == "visual" and (color := _color(document, element)):
+        shape.add("material", name="").add("color", rgba=color)
+    surface = element.find("surface") if element.tag == "collision" else None
+    if surface is not None and len(surface):  # in Gazebo's words, which URDF has, too
+        line = document.places[surface]
+        urdf.copy(urdf.root.add("gazebo", line, reference=urdf.links[frame]).add("collision", line), surface)
+    for part in element:
+        if part.tag not in (_VISUAL if element.tag == "visual" else _COLLISION):
+            urdf.note(part, element.get("name", ""))
+
+
+def _geometry(document: Document, element: Element) -> tuple[str, dict[str, Any]]:
+    """Return tag and attributes of a shape in URDF. The reader of URDF tells of a shape that it lacks."""
+    match element.tag:
+        case "box":
+            return "box", {"size": document.vector(element, "size", (1.0, 1.0, 1.0))}
+        case "sphere":
+            return "sphere", {"radius": document.number(element, "radius", 1.0)}
+        case "cylinder" | "capsule":
+            radius = document.number(element, "radius", 0.5 if element.tag == "capsule" else 1.0)
+            return element.tag, {"radius": radius, "length": document.number(element, "length", 1.0)}
+        case "mesh" if element.find("submesh") is None:
+            scale = document.vector(element, "scale", (1.0, 1.0, 1.0))
+            return "mesh", {"filename": _filename(document, element), "scale": scale}
+    return "submesh" if element.tag == "mesh" else element.tag, {}
+
+
+def _filename(document: Document, mesh: Element) -> str:
+    """Return the name of a mesh; a relative one counts from the folder of the source."""
+    uri = mesh.findtext("uri", "").strip()
+    folder, source = (os.path.dirname(file) for file in (document.places[mesh][0], document.source))  # noqa: PTH120
+    if not uri or "://" in uri or folder == source:
+        return uri
+    return os.path.relpath(os.path.join(folder, uri), source).replace(os.sep, "/")  # noqa: PTH118
+
+
+def _color(document: Document, visual: Element) -> tuple[float, ...]:
+    """Return the colour of a visual; empty for none."""
+    material = visual.find("material")
+    for tag in ("diffuse", "ambient"):
+        child = None if material is None else material.find(tag)
+        if child is not None:
+            count = len((child.text or "").split())
+            red, green, blue, *rest = document.numbers(material, tag, (0.0, 0.0, 0.0, 1.0)[: max(3, count)])
+            return red, green, blue, (rest or [1.0])[0] * (1.0 - document.number(visual, "transparency", 0.0))
+    return ()
+
+
+def add_sensor(urdf: Urdf, element: Element, link: Frame, parent: dict[str, str], default: Frame) -> None:
+    """Add a sensor of a kind that the package models; a note counts the others."""
+    kind, line = element.get("type", ""), urdf.document.places[element]
+    if kind not in _SENSORS:
+        urdf.root.add(f"sensor-{kind}", line, name=element.get("name") or None)
+        return
+    sensor = urdf.root.add("sensor", line, name=element.get("name", ""), type=kind)
+    sensor.add("parent").attributes |= parent
+    given_in = urdf.frames.given_in(link.scope, element, default)
+    urdf.add_origin(sensor, urdf.place(given_in, link, urdf.document.pose(element)))
+    for part in element:
+        if part.tag != "pose":
+            urdf.copy(sensor, part)

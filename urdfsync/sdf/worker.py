@@ -1,0 +1,86 @@
+"""The program that translates one SDF into URDF, within limits; `engine.expansion` starts it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+
+import msgspec
+
+from urdfsync.engine.exchange import Answer, Problem, Request, encode
+from urdfsync.processes import limits, reserve_stdout
+from urdfsync.sdf.document import Document
+from urdfsync.sdf.frames import Frames, Scope
+from urdfsync.sdf.joints import FIXED
+from urdfsync.sdf.robot import translated
+from urdfsync.spelling import nearest
+from urdfsync.translation.files import Files, TranslationError
+from urdfsync.translation.writer import write
+
+_ARGUMENTS = ("model",)
+
+
+def translate(request: Request) -> Answer:
+    """Translate a file."""
+    folders = (request.folder, os.path.dirname(request.source), *request.package_paths)  # noqa: PTH120
+    files = Files(request.contents, folders)
+    document = Document(request.source, files, request.package_paths)
+    unknown = tuple(name for name in request.arguments if name not in _ARGUMENTS)
+    text, places, problem = "", tuple[tuple[int, str, int], ...](), None
+    try:
+        with limits(request.seconds, request.memory):
+            frames = Frames(document)
+            model = choose_model(frames, request.arguments.get("model", ""))
+            text, places = write(translated(frames, model))
+    except TranslationError as error:
+        problem = error.problem("sdf")
+    except MemoryError:
+        problem = Problem("sdf-limits", "")
+    except RecursionError:
+        problem = Problem("sdf", "its models or frames are nested too deep", request.source)
+    return Answer(text, places, files.hashes, packages=document.packages, unknown=unknown, problem=problem)
+
+
+def choose_model(frames: Frames, name: str) -> Scope:
+    """Return the model with a name; without one, the only model with a joint that moves. Raises TranslationError."""
+    document, top = frames.document, frames.top
+    models = {model.own.name: model for model in top.models}
+    if name:
+        if name not in models:
+            near = nearest(name, list(models))
+            hint = f"perhaps {near!r} is meant" if near else f"choose one of {_listed(list(models))}"
+            raise document.fault(top.element, f"there is no model {name!r}", hint)
+        return models[name]
+    moving = [
+        key
+        for key, model in models.items()
+        if any(part.element.get("type") not in FIXED for part in model.of_kind("joint"))
+    ]
+    robots = [key for key in moving if not document.flag(models[key].holder, "static")] or moving
+    if len(robots) == 1:
+        return models[robots[0]]
+    if robots:
+        message = f"the file has {len(robots)} robots: {_listed(robots)}"
+        hint = f'choose one by `arguments = {{ model = "{robots[0]}" }}` (`init FILE model:={robots[0]}`)'
+        raise document.fault(top.element, message, hint)
+    if frames.missing:
+        raise frames.missing[0]
+    what = "no model has a joint that moves" if len(models) > 1 else "the model has no joint: nothing in it moves"
+    raise document.fault(top.element, what if models else "the file has no model", "name the file that has the robot")
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Return names in quotes, the first eight of them."""
+    return ", ".join(map(repr, names[:8])) + (", …" if len(names) > 8 else "")
+
+
+def main() -> None:
+    """Translate the file that stdin names."""
+    request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
+    with reserve_stdout() as answers:
+        answers.write(encode(translate(request), "sdf"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Code that the translators of other formats into URDF share."""

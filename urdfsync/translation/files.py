@@ -1,0 +1,85 @@
+"""Reads the files of a source within limits, and records all of them."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+from msgspec.structs import replace
+
+from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.engine.exchange import Problem
+from urdfsync.files import text_digest
+from urdfsync.urdf.parse.xml import ParseError, parse
+
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+
+Place = tuple[str, int]
+"""A file, and a line in it."""
+
+
+class TranslationError(Exception):
+    """A fault for which there is no robot."""
+
+    def __init__(self, message: str, place: Place = ("", 0), hint: str = "", code: str = "") -> None:
+        super().__init__(message)
+        self._problem = Problem(code, message, *place, hint)
+
+    def problem(self, code: str) -> Problem:
+        """Return the fault; `code` counts unless the fault has a code of its own."""
+        return replace(self._problem, code=self._problem.code or code)
+
+
+class Files:
+    """Reads the files of a source, and records all of them."""
+
+    def __init__(self, contents: Mapping[str, bytes], folders: Collection[str]) -> None:
+        """`contents` of files override the disk. Included files are in one of the `folders`, or below it."""
+        self._contents, self._folders = contents, [os.path.realpath(folder) for folder in folders]
+        self.hashes: dict[str, str | None] = {}
+
+    def read(self, path: str, place: Place = ("", 0)) -> bytes:
+        """Return the content of a file that is named at `place`. Raises TranslationError."""
+        self.hashes[path] = None
+        try:
+            content = self._contents[path] if path in self._contents else read_unrecorded(path)
+        except (OSError, ValueError) as error:  # ValueError for a zero in the name
+            reason = getattr(error, "strerror", None) or str(error)
+            hint = "put the file there, or correct the name" if place[0] else ""
+            raise TranslationError(f"{path} can't be read: {reason}", place, hint) from None
+        self.hashes[path] = text_digest(content)
+        return content
+
+    def parse(
+        self, path: str, place: Place = ("", 0), *, has_any_comments: bool = False
+    ) -> tuple[Element, dict[Element, Place]]:
+        """Return the root element of an XML file, and the place of each element. Raises TranslationError.
+
+        With `has_any_comments`, comments may contain `--`, and may stand above the XML declaration.
+        """
+        content = self.read(path, place)
+        if has_any_comments:
+            content = _COMMENT.sub(lambda comment: b"\n" * comment[0].count(b"\n"), content)
+        try:
+            document = parse(content)
+        except ParseError as error:
+            fault = error.diagnostic
+            raise TranslationError(fault.message, (path, fault.line), fault.hint, fault.code) from None
+        return document.root, {element: (path, line) for element, line in document.lines.items()}
+
+    def is_there(self, path: str) -> bool:
+        """Return whether a file exists; a missing one is recorded, since it would count if it came."""
+        is_there = path in self._contents or os.path.lexists(path)
+        if not is_there:
+            self.hashes[path] = None
+        return is_there
+
+    def check_inside(self, path: str, place: Place) -> None:
+        """Refuse a file outside of the folders. Raises TranslationError."""
+        real = Path(os.path.realpath(path))
+        if not any(real.is_relative_to(folder) for folder in self._folders):
+            hint = "move the file into the folder of the source, or of the configuration"
+            raise TranslationError(f"the included file {path} is outside of the project", place, hint)
