@@ -12,6 +12,10 @@ ROBOTS = {
     "several joints": body(
         '<joint type="slide" pos="1 1 1" ref="0.1"/><joint pos="0.1 0.2 0.3" axis="1 1 0" ref="9"/>'
     ),
+    "springs": body(
+        '<joint type="slide" ref="0.1" stiffness="30" springref="0.3"/>'
+        '<joint axis="0 1 0" ref="20" stiffness="2" springref="-5"/>'
+    ),
     "ball": body('<joint type="ball" pos="0.1 0 0.2"/><body pos="1 0 0"><joint pos="0 1 0"/><geom size="0.1"/></body>'),
     "floating": body('<freejoint/><body name="leg" euler="10 20 30"><joint damping="1"/><geom size="0.1"/></body>'),
     "left out": body(
@@ -39,6 +43,8 @@ def test_a_translation_agrees_with_its_source(name: str) -> None:
         ('iyy="0.02"', 'iyy="0.020001"', {"mass matrix"}),
         ('damping="2.0"', 'damping="2.1"', {"damping"}),
         ('armature="0.1"', 'armature="0.11"', {"mass matrix"}),
+        ('spring_stiffness="4.0"', 'spring_stiffness="4.1"', {"spring force"}),
+        ('spring_reference="0.0"', 'spring_reference="0.1"', {"spring force"}),
         (
             'axis xyz="0.0 1.0 0.0"',
             'axis xyz="0.0 -1.0 0.0"',

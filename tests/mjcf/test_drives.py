@@ -77,6 +77,13 @@ def test_the_key_home_gives_the_starts() -> None:
     assert (joint(robot, "a").start, joint(robot, "d").start) == (0.5, 0.5)
 
 
+def test_a_spring_counts_from_the_pose_as_written() -> None:
+    spring = 'name="d" stiffness="3" springref="0.5"'
+    dynamics = joint(read(PAIR.replace('name="d"', spring)), "d").dynamics
+    assert dynamics is not None
+    assert (dynamics.spring_stiffness, dynamics.spring_reference) == (3.0, pytest.approx(0.3))
+
+
 def test_a_linear_equality_is_a_coupling() -> None:
     """Both positions count from the pose as written, so `ref` has no effect."""
     equality = '<equality><joint joint1="d" joint2="a" polycoef="0.1 2 0 0 0"/></equality>'

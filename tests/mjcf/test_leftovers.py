@@ -11,7 +11,8 @@ SITES = '<site name="s" pos="0 0 1"/><site name="t"/>'
 @pytest.mark.parametrize(
     ("inside", "outside", "what"),
     [
-        ('<joint name="j" stiffness="3"/>', "", "spring j"),
+        ('<joint name="j" type="ball" stiffness="3"/>', "", "spring j"),
+        ('<joint name="j" stiffness="3"/>', '<option><flag spring="disable"/></option>', "disabled flag spring"),
         ('<joint name="j" type="ball" range="0 1"/>', "", "range, armature or friction of a ball j"),
         ('<joint name="j" type="ball" armature="1"/>', "", "range, armature or friction of a ball j"),
         ('<joint name="j" type="free" damping="1"/>', "", "losses of a free joint j"),

@@ -1,8 +1,8 @@
 """Compares the URDF of a robot with its MJCF: MuJoCo reads both, and says how they move at random states.
 
-MuJoCo's own reader of URDF shares no code with the translation. It knows no armature, so the attribute is added to its
-model; it merges links, and reads shapes from files, unless it is told otherwise. Constraints, motors, springs and
-tendons are in neither mass matrix nor bias: the couplings and loops of the URDF are not compared.
+MuJoCo's own reader of URDF shares no code with the translation. It knows neither armature nor springs, so these numbers
+are added to its model; it merges links, and reads shapes from files, unless it is told otherwise. Constraints, motors
+and tendons are in none of the compared forces: the couplings and loops of the URDF are not compared.
 """
 
 from __future__ import annotations
@@ -75,8 +75,14 @@ def _leave_out(scene: Scene) -> None:
     for joint in range(model.njnt):
         _, velocity = _places(model, joint)
         if velocity.stop - velocity.start > 1:  # a free joint or a ball
-            model.dof_armature[velocity] = 0.0
-    for name in ("actuator_armature", "tendon_armature"):
+            model.dof_armature[velocity], model.jnt_stiffness[joint] = 0.0, 0.0
+    for name in (
+        "actuator_armature",
+        "tendon_armature",
+        "jnt_stiffnesspoly",
+        "tendon_stiffness",
+        "tendon_stiffnesspoly",
+    ):
         if hasattr(model, name):  # newer versions have it
             getattr(model, name)[:] = 0.0
     # a random state may have more contacts than MuJoCo has memory for
@@ -123,7 +129,7 @@ def _places(model: Any, joint: int) -> tuple[slice, slice]:
 
 
 def _constants(scene: Scene, urdf: Any, joints: list[_Joint], root: Element) -> Iterator[_Numbers]:
-    """Yield masses, losses and ranges; add the armature of the URDF to its model."""
+    """Yield masses, losses and ranges; add armatures and springs of the URDF to its model."""
     model = scene.model
     for body in scene.bodies:
         if body and (body != scene.bodies[0] or scene.is_floating):
@@ -131,10 +137,14 @@ def _constants(scene: Scene, urdf: Any, joints: list[_Joint], root: Element) -> 
             yield _Numbers("mass", f"link {scene.links[body]}", np.array([mass]), urdf.body(scene.links[body]).mass)
     written = {joint.get("name", ""): joint.find("dynamics") for joint in root.findall("joint")}
     for name, (_, at), (_, to) in joints:
-        dynamics = written.get(name)
-        urdf.dof_armature[to] = 0.0 if dynamics is None else float(dynamics.get("armature", "0"))
         if name == _FREE:
             continue
+        numbers = {} if (dynamics := written.get(name)) is None else dynamics.attrib
+        urdf.dof_armature[to] = float(numbers.get("armature", "0"))
+        if to.stop == to.start + 1:
+            same = int(urdf.dof_jntid[to.start])
+            urdf.jnt_stiffness[same] = float(numbers.get("spring_stiffness", "0"))
+            urdf.qpos_spring[urdf.jnt_qposadr[same]] = float(numbers.get("spring_reference", "0"))
         yield _Numbers("damping", f"joint {name}", model.dof_damping[at], urdf.dof_damping[to])
         yield _Numbers("friction", f"joint {name}", model.dof_frictionloss[at], urdf.dof_frictionloss[to])
         first, second = int(model.dof_jntid[at.start]), int(urdf.dof_jntid[to.start])
@@ -172,6 +182,7 @@ def _motion(scene: Scene, urdf: Any, joints: list[_Joint], random: np.random.Gen
     rows, columns = _dofs([joint.source[1] for joint in joints]), _dofs([joint.urdf[1] for joint in joints])
     weight = float(np.linalg.norm(model.opt.gravity) * sum(model.body_mass[body] for body in scene.bodies))
     yield _Numbers("bias", "the robot", source.qfrc_bias[rows], other.qfrc_bias[columns], max(weight, 1e-9))
+    yield _Numbers("spring force", "the robot", source.qfrc_spring[rows], other.qfrc_spring[columns])
     yield _Numbers("mass matrix", "the robot", _mass(model, source, rows), _mass(urdf, other, columns))
 
 

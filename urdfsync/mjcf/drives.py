@@ -1,7 +1,8 @@
 """Reads the numbers of joints, their couplings and their motors from a compiled model.
 
 MuJoCo counts the position of a joint from `ref`, URDF from the pose in which the model is written: so `ref` is
-subtracted from limits and starts. A motor's gear is a reduction: the joint has `gear` times the motor's effort.
+subtracted from limits, starts and references of springs. A motor's gear is a reduction: the joint has `gear` times the
+motor's effort.
 """
 
 from __future__ import annotations
@@ -171,9 +172,15 @@ class Drives:
             if effort is not None or lower is not None:
                 joint.add("limit", lower=lower, upper=upper, effort=effort)
         damping, friction, armature = model.dof_damping[dof], model.dof_frictionloss[dof], model.dof_armature[dof]
-        if kind != "floating" and (damping or friction or armature):
+        stiffness = model.jnt_stiffness[number] if kind != "ball" else 0.0
+        if kind != "floating" and (damping or friction or armature or stiffness):
             friction, armature = (None if kind == "ball" else value or None for value in (friction, armature))
-            joint.add("dynamics", damping=damping, friction=friction, armature=armature)
+            spring = dict[str, float]()
+            if stiffness:
+                place = model.jnt_qposadr[number]
+                (reference,) = rounded([model.qpos_spring[place] - model.qpos0[place]])
+                spring = {"spring_stiffness": stiffness, "spring_reference": reference}
+            joint.add("dynamics", damping=damping, friction=friction, armature=armature, **spring)
         if number in self.followers:
             leader, multiplier, offset = self.followers[number]
             joint.add("mimic", joint=self.scene.joints[leader], multiplier=multiplier, offset=offset)

@@ -13,8 +13,8 @@ from urdfsync.mjcf.scene import Scene
 from urdfsync.mjcf.writer import Node
 
 _GRAVITY = (0.0, 0.0, -9.81)
-_SWITCHES = ("GRAVITY", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION")
-"""What the flags of an option may switch off for all joints, as MuJoCo names it."""
+_SWITCHES = ("GRAVITY", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION", "PASSIVE", "SPRING", "DAMPER")
+"""What the flags of an option may switch off for all joints, as versions of MuJoCo name it."""
 _SOLREF, _SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
 """MuJoCo's usual softness of a constraint."""
 _FREE, _BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
@@ -25,7 +25,9 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
     model = scene.model
     for joint in drives.joints:
         kind, dof = model.jnt_type[joint], model.jnt_dofadr[joint]
-        if model.jnt_stiffness[joint] or _any(model, "jnt_stiffnesspoly", joint):
+        if _any(model, "jnt_stiffnesspoly", joint):
+            drives.leave_out("spring that is not linear", "joint", joint, scene.joints[joint])
+        elif model.jnt_stiffness[joint] and int(kind) in (_FREE, _BALL):
             drives.leave_out("spring", "joint", joint, scene.joints[joint])
         if _any(model, "dof_dampingpoly", dof):
             drives.leave_out("damping that is not linear", "joint", joint, scene.joints[joint])
@@ -58,7 +60,7 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
 def _find_global(model: Any, drives: Drives) -> None:
     """Add what acts on all bodies: switches, another gravity, or a fluid."""
     for name in _SWITCHES:
-        if model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}"):
+        if model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0):
             drives.left_out.append(Part("disabled flag", name.lower(), 0))
     if not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
         words = " ".join(f"{value:g}" for value in model.opt.gravity)
