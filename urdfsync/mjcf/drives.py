@@ -175,11 +175,11 @@ class Drives:
         stiffness = model.jnt_stiffness[number] if kind != "ball" else 0.0
         if kind != "floating" and (damping or friction or armature or stiffness):
             friction, armature = (None if kind == "ball" else value or None for value in (friction, armature))
-            spring = dict[str, float]()
+            spring: dict[str, Any] = {}
             if stiffness:
                 place = model.jnt_qposadr[number]
                 (reference,) = rounded([model.qpos_spring[place] - model.qpos0[place]])
-                spring = {"spring_stiffness": stiffness, "spring_reference": reference}
+                spring = {"spring_stiffness": stiffness} | ({"spring_reference": reference} if reference else {})
             joint.add("dynamics", damping=damping, friction=friction, armature=armature, **spring)
         if number in self.followers:
             leader, multiplier, offset = self.followers[number]
