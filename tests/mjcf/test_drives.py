@@ -47,6 +47,21 @@ def test_an_actuator_gives_a_command_and_a_limit(motor: str, command: str | None
     assert found.actuated == (None if "damper" in motor else True)
 
 
+@pytest.mark.parametrize(
+    ("motor", "words"),
+    [
+        ('<motor joint="a" gear="3" ctrlrange="-1 1"/>', ""),
+        ('<position joint="a" kp="50"/>', "1 <feedback>"),
+        ('<velocity joint="a" kv="5"/>', "1 <feedback>"),
+        ('<general joint="a" biastype="affine" biasprm="2 0 0"/>', "1 <feedback>"),
+        ('<general joint="a" dyntype="filter" dynprm="0.1"/>', "1 <activation>"),
+    ],
+)
+def test_the_law_of_an_actuator_is_noted(motor: str, words: str) -> None:
+    """Run moves a joint exactly as commanded."""
+    assert noted(with_motor(motor)) == (f"not modelled: {words}" if words else "")
+
+
 def test_a_joint_limits_the_effort_of_its_motors() -> None:
     text = with_motor('<motor joint="a" ctrlrange="-9 9"/>').replace('name="a"', 'name="a" actuatorfrcrange="-3 4"')
     limit = joint(read(text), "a").limit
@@ -59,7 +74,7 @@ def test_the_first_motor_of_a_joint_commands_it_and_all_limit_its_effort() -> No
     found = joint(read(text), "a")
     assert found.limit is not None
     assert (found.command, found.limit.effort) == (None, 7)
-    assert noted(text) == "not modelled: 1 <motor>"
+    assert noted(text) == "not modelled: 1 <feedback>, 1 <motor>"
 
 
 def test_a_gear_is_a_reduction() -> None:

@@ -81,7 +81,7 @@ class Drives:
                 continue
             offset, multiplier, *higher = map(float, model.eq_data[number][:5])
             is_linear = self._has_axis(first) and self._has_axis(second) and multiplier and not any(higher)
-            if is_linear and first not in self.followers and self._leader(second)[0] != first:
+            if is_linear and first not in self.followers and self.leader(second)[0] != first:
                 self.followers[first] = Follower(second, multiplier, offset)
             else:
                 self.leave_out("equality of joints", "equality", number, self._pair(first, second))
@@ -89,7 +89,7 @@ class Drives:
     def _pair(self, *joints: int) -> str:
         return " and ".join(self.scene.joints[joint] for joint in joints if joint >= 0)
 
-    def _leader(self, joint: int) -> tuple[int, float]:
+    def leader(self, joint: int) -> tuple[int, float]:
         """Return the joint that moves a joint by couplings, perhaps itself, and the multiplier."""
         multiplier = 1.0
         while joint in self.followers:
@@ -113,7 +113,7 @@ class Drives:
         else:
             pulls = []
         for joint, factor in pulls:
-            leader, multiplier = self._leader(joint)
+            leader, multiplier = self.leader(joint)
             moved[leader] = moved.get(leader, 0.0) + factor * multiplier
         command = self._command(number)
         if command is None or len(moved) != 1 or not self._has_axis(joint := next(iter(moved))):

@@ -17,6 +17,8 @@ _SWITCHES = ("GRAVITY", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION", "PASSI
 """What the flags of an option may switch off for all joints, as versions of MuJoCo name it."""
 _SOLREF, _SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
 """MuJoCo's usual softness of a constraint."""
+_AT_ONCE = (mujoco.mjtDyn.mjDYN_NONE, mujoco.mjtDyn.mjDYN_INTEGRATOR)
+"""Dynamics of actuators without a delay: an integrator of a velocity is a command of the velocity."""
 _FREE, _BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
 
 
@@ -110,6 +112,12 @@ def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
         if model.body_parentid[top] == 0 and top not in scene.bodies:
             robot.add("body", scene.line("body", top), name=scene.links[top])
     for motors in drives.motors.values():
+        first = motors[0].actuator
+        line, name = scene.line("actuator", first), scene.name("actuator", first)
+        if model.actuator_biasprm[first].any():  # Run moves the joint exactly, or pushes it as commanded
+            robot.add("feedback", line, name=name or None)
+        if int(model.actuator_dyntype[first]) not in _AT_ONCE:
+            robot.add("activation", line, name=name or None)
         for motor in motors[1:]:  # the first one commands the joint, and all of them limit its effort
             line, name = scene.line("actuator", motor.actuator), scene.name("actuator", motor.actuator)
             robot.add("motor", line, name=name or None)
