@@ -24,6 +24,7 @@ ROBOTS = {
         "</mujoco>",
         '<actuator><motor joint="j" armature="2"/></actuator><option><flag gravity="disable"/></option></mujoco>',
     ),
+    "ball with friction": body('<joint type="ball" frictionloss="1" stiffness="2"/>', '<size memory="3G"/>'),
     "massless": body('<joint/><body name="hand" pos="0 0 1" quat="1 1 0 0"/><site name="tip" pos="1 0 0"/>'),
 }
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from support.mjcfs import joint, left_out, noted, read, world
 
 from urdfsync.urdf.drives import passive_joints
+from urdfsync.urdf.named_poses import named_poses
 from urdfsync.urdf.robot import Mimic, Transmission
 
 PAIR = world(
@@ -90,6 +93,14 @@ def test_the_key_home_gives_the_starts() -> None:
     keys = '<keyframe><key name="other" qpos="9 9"/><key name="home" qpos="0.5 0.7"/></keyframe>'
     robot = read(with_parts(keys))
     assert (joint(robot, "a").start, joint(robot, "d").start) == (0.5, 0.5)
+
+
+def test_other_keys_are_named_poses() -> None:
+    """Their positions count from the pose as written."""
+    keys = '<keyframe><key name="up" qpos="0.5 0.7"/><key qpos="1 1.2"/><key name="home" qpos="0 0.2"/></keyframe>'
+    poses, faults = named_poses(Path("/nowhere/arm.xml"), read(with_parts(keys)))
+    assert poses == {"up": {"joint a": 0.5, "joint d": 0.5}, "key 2": {"joint a": 1.0, "joint d": 1.0}}
+    assert faults == []
 
 
 def test_a_spring_counts_from_the_pose_as_written() -> None:

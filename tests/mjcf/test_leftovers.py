@@ -64,7 +64,7 @@ def test_what_only_draws_is_noted() -> None:
     keys = '<keyframe><key name="other" qpos="1"/></keyframe>'
     text = body('<joint/><light pos="0 0 1"/><camera name="eye"/><geom size="0.1" material="m"/>', assets)
     text = text.replace("</mujoco>", f"{keys}</mujoco>")
-    assert noted(text) == "not modelled: 1 <texture>, 1 <skin>, 1 <light>, 1 <camera>, 1 <key>"
+    assert noted(text) == "not modelled: 1 <texture>, 1 <skin>, 1 <light>, 1 <camera>, 1 <group_state>"
 
 
 def test_terrain_is_noted() -> None:

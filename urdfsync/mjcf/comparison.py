@@ -80,7 +80,8 @@ def _leave_out(scene: Scene) -> None:
     for joint in range(model.njnt):
         _, velocity = _places(model, joint)
         if velocity.stop - velocity.start > 1:  # a free joint or a ball
-            model.dof_armature[velocity], model.jnt_stiffness[joint] = 0.0, 0.0
+            model.dof_armature[velocity], model.dof_frictionloss[velocity] = 0.0, 0.0
+            model.jnt_stiffness[joint] = 0.0
     for name in (
         "actuator_armature",
         "tendon_armature",

@@ -212,12 +212,14 @@ class Drives:
 
     def _starts(self) -> dict[int, float]:
         """Return the positions of the joints at the key `home`."""
+        home = next((key for key in range(self.scene.model.nkey) if self.scene.name("key", key) == _HOME), None)
+        return {} if home is None else self.positions(home)
+
+    def positions(self, key: int) -> dict[int, float]:
+        """Return the positions of the joints at a key."""
         model = self.scene.model
-        home = next((key for key in range(model.nkey) if self.scene.name("key", key) == _HOME), None)
-        if home is None:
-            return {}
         places = {joint: model.jnt_qposadr[joint] for joint in self.joints if self._has_axis(joint)}
-        return {joint: rounded([model.key_qpos[home][at] - model.qpos0[at]])[0] for joint, at in places.items()}
+        return {joint: rounded([model.key_qpos[key][at] - model.qpos0[at]])[0] for joint, at in places.items()}
 
 
 def _greatest(limits: Any) -> float:

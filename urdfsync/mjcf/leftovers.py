@@ -124,4 +124,6 @@ def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
     _add_soft(robot, scene, drives)
     for key in range(model.nkey):
         if scene.name("key", key) != "home":
-            robot.add("key", scene.line("key", key), name=scene.name("key", key) or None)
+            pose = robot.add("group_state", scene.line("key", key), name=scene.name("key", key) or f"key {key + 1}")
+            for joint, position in drives.positions(key).items():
+                pose.add("joint", name=scene.joints[joint], value=position)
