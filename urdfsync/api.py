@@ -169,11 +169,11 @@ def diff(
     folder, options = configuration.working_folder(), BuildOptions(**given)
     is_near = any((place / configuration.FILE_NAME).is_file() for place in (folder, *folder.parents))
     loaded = load(config) if is_near or config or not sources else None
-    older = comparison.older_beside(sources, loaded, folder) if against is None else None
+    older = comparison.older_of_pair(sources, loaded, folder) if against is None else None
     chosen_sources, other = (sources[1:], older) if older else (sources, against)
     pairs = list(comparison.select_sources(chosen_sources, other, loaded, folder))
     compared = (
-        comparison.compare_sources(chosen, other, known, options, folder, is_beside=older is not None)
+        comparison.compare_sources(chosen, other, known, options, folder, is_pair=older is not None)
         for known, chosen in pairs
     )
     all_compared = (each for group in compared for each in group)

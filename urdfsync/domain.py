@@ -314,7 +314,7 @@ class Domain(Protocol):
         """Return an old model in the order of the new one, for a domain whose artifacts follow an unrecorded order."""
         return old
 
-    def beside(
+    def in_common_frames(
         self,
         old: Snapshot,
         new: Snapshot,

@@ -38,7 +38,8 @@ def find_matching(
 
 def _is_foreign(before: Elements, after: Elements, matching: Matching) -> bool:
     """Return whether fewer than half of the elements match: the new version may be of another format."""
-    return 2 * len(_pairs(before, after, matching)) < min(len(before), len(after))
+    has_names = before.keys() == after.keys()
+    return not has_names and 2 * len(_pairs(before, after, matching)) < min(len(before), len(after))
 
 
 def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[ElementKey, ElementKey]:

@@ -143,15 +143,15 @@ class UrdfDomain(Domain):
 
     def coarse_features(self, snapshot: Robot) -> Mapping[ElementKey, Features]:
         """Return features of links and joints that do not depend on frames and shapes."""
-        from urdfsync.urdf.diff.beside import coarse_features  # NumPy takes a while to load
+        from urdfsync.urdf.diff.common_frames import coarse_features  # NumPy takes a while to load
 
         return coarse_features(snapshot)
 
-    def beside(self, old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> tuple[Robot, Robot]:
+    def in_common_frames(self, old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> tuple[Robot, Robot]:
         """Return what differs in motion, in the frames of the old robot."""
-        from urdfsync.urdf.diff.beside import beside  # NumPy takes a while to load
+        from urdfsync.urdf.diff.common_frames import in_common_frames  # NumPy takes a while to load
 
-        return beside(old, new, renames)
+        return in_common_frames(old, new, renames)
 
     features, numbered = staticmethod(find_features), staticmethod(find_shapes)
 

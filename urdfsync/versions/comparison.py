@@ -69,7 +69,7 @@ class Comparison(msgspec.Struct, frozen=True):
     """Why there is no older version; empty if there is an older version."""
     effects: tuple[Effect, ...] = ()
     """Properties of the whole model that changed."""
-    is_beside: bool = False
+    is_pair: bool = False
     """Whether two sources stand side by side: only their motion is compared, and no file."""
     versions: tuple[Contents, ...] = ()
     """The older and the new version; empty for the last build, or after an error."""
@@ -95,9 +95,9 @@ class Comparison(msgspec.Struct, frozen=True):
         if self.missing:
             return self.missing
         since = f"since {'the last build' if self.against is None else self.against}"
-        since = f"against {self.against}" if self.is_beside else since
+        since = f"against {self.against}" if self.is_pair else since
         changes = self.result.changes
-        if changes is None and self.is_beside:
+        if changes is None and self.is_pair:
             return f"no difference in motion {since}"
         if changes is None:
             return f"nothing changed {since}{'' if self.in_step else ', but files are out of step'}"
@@ -140,7 +140,7 @@ def select_sources(
     yield None, [robot_of_file(place) for place in alone.values()]
 
 
-def older_beside(sources: Sequence[str], config: Config | None, folder: Path) -> str | None:
+def older_of_pair(sources: Sequence[str], config: Config | None, folder: Path) -> str | None:
     """Return the first of two sources that stand side by side; None if the arguments name robots.
 
     Two files stand side by side unless both are sources of robots: then each has a last build.
@@ -175,11 +175,11 @@ def compare_sources(
     options: BuildOptions,
     folder: Path,
     *,
-    is_beside: bool = False,
+    is_pair: bool = False,
 ) -> Iterator[Comparison]:
     """Compare each source with the last build, or with `against`: a git revision, or a path from `folder`.
 
-    If `is_beside`, `against` is another source, and only the motion is compared.
+    If `is_pair`, `against` is another source, and only the motion is compared.
 
     A failure does not stop the others. Without a configuration, `against` is required.
     """
@@ -190,7 +190,7 @@ def compare_sources(
         options.progress(robot.name, count, len(robots))
         try:
             if against is not None:
-                yield _with_version(robot, against, config, options, folder, is_beside=is_beside)
+                yield _with_version(robot, against, config, options, folder, is_pair=is_pair)
             elif config is not None and result is not None:
                 yield _with_last_build(robot, config, options, result)
         except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
@@ -250,14 +250,14 @@ class _VersionedSource(NamedTuple):
 
 
 def _with_version(
-    robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path, *, is_beside: bool
+    robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path, *, is_pair: bool
 ) -> Comparison:
     """Compare a source with another version; the actions ignore edits of the package."""
     domain, result = registry.domain(robot.domain), _result(robot, config)
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
         source = robot.source
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
-        if is_beside or _is_file(against, source, folder):
+        if is_pair or _is_file(against, source, folder):
             file = folder / against
             text = source_files.read_file_source(domain, file, arguments, folders, robot.options)
             other = _VersionedSource(source_files.with_named_companions(config, robot, text), (file, source))
@@ -277,16 +277,16 @@ def _with_version(
         old, imported_before, _, told_before = _read(domain, robot, other, imported, options)
     known = {(finding.code, finding.message) for finding in told_before}
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
-    if is_beside:
-        old, new = map(Version, domain.beside(old.snapshot, new.snapshot, matching.renames))
+    if is_pair:
+        old, new = map(Version, domain.in_common_frames(old.snapshot, new.snapshot, matching.renames))
         matching = Matching(matching.renames)  # no file has the name of a doubtful element
     differences = changes.compare(old, new, domain, robot.options, matching)
-    if is_beside:
+    if is_pair:
         told = tuple(robot.without_ignored(finding for finding in told if (finding.code, finding.message) not in known))
         result = msgspec.structs.replace(result, diagnostics=told, changes=differences if differences.changes else None)
         asked: Effects | None = domain.effects
         effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
-        return Comparison(result, shown(robot.source), against, effects=effects, is_beside=True)
+        return Comparison(result, shown(robot.source), against, effects=effects, is_pair=True)
     judged = judge(domain, new, reading, current.text.name, old, differences)
     judged += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
     new_findings = [current.text.locate(finding) for finding in judged if finding.is_new]

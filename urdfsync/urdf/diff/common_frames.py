@@ -41,23 +41,24 @@ _NEAR = 0.01
 _DIGITS = 9
 
 
-def beside(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> tuple[Robot, Robot]:
+def in_common_frames(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> tuple[Robot, Robot]:
     """Return the parts of two robots that matter for their motion, the second in the frames of the first."""
     gone = displaced(renames)
     links, joints = (
         {renames.get((kind, name), name): name for name in names if (kind, name) not in gone}
         for kind, names in (("link", [each.name for each in old.links]), ("joint", [each.name for each in old.joints]))
     )
-    old = _moving(old, {name for new_name, name in links.items() if any(each.name == new_name for each in new.links)})
+    there = {link.name for link in new.links}
+    old = _in_link_axes(_moving(old, {name for new_name, name in links.items() if new_name in there}))
     new = replace(_moving(new, {*links}), name=old.name)
-    old = _in_link_axes(old)
     return old, _Frames(old, new, links, joints).moved()
 
 
 def coarse_features(robot: Robot) -> Mapping[ElementKey, Features]:
     """Return masses with principal moments, and ranges, of the robot without frames that have neither mass nor freedom.
 
-    They have four digits: formats write numbers with different precision.
+    They have four digits: formats write numbers with different precision. In a model that git has merged, a joint may
+    name a missing link.
     """
     moving, features = _moving(robot, set()), dict[ElementKey, Features]()
     above = {joint.child: joint.name for joint in moving.joints}
@@ -69,7 +70,8 @@ def coarse_features(robot: Robot) -> Mapping[ElementKey, Features]:
         limit = joint.limit if joint.type != "continuous" else None
         contents = {"limits": [_coarse(limit.lower), _coarse(limit.upper)]} if limit else {}
         ends = {"child": ("link", joint.child), "parent": ("link", joint.parent)}
-        features["joint", joint.name] = Features(contents, ends)
+        existing = {relation: end for relation, end in ends.items() if end in features}
+        features["joint", joint.name] = Features(contents, existing)
     return features
 
 
@@ -77,7 +79,11 @@ def _body(inertial: Inertial) -> list[float]:
     """Return mass and principal moments."""
     i = inertial.inertia
     tensor = [[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]]
-    return [inertial.mass, *map(float, np.linalg.eigvalsh(tensor))]
+    try:
+        moments = np.linalg.eigvalsh(tensor)
+    except np.linalg.LinAlgError:  # of absurd numbers
+        moments = np.zeros(3)
+    return [inertial.mass, *map(float, moments)]
 
 
 def _coarse(number: float) -> float:
