@@ -105,6 +105,10 @@ CHANGED = {
     "dynamics damping": ('damping="0.5"', 'damping="0.55"'),
     "dynamics friction": ('friction="0.6"', 'friction="0.65"'),
     "dynamics armature": ('armature="0.03"', 'armature="0.04"'),
+    **{
+        f"gazebo {name}": ("</robot>", f'<gazebo reference="spin"><{name}>0.4</{name}></gazebo></robot>')
+        for name in ("springStiffness", "springReference")
+    },
     "mimic joint": ('mimic joint="turn"', 'mimic joint="grip"'),
     "mimic multiplier": ('multiplier="8"', 'multiplier="-8"'),
     "mimic offset": ('offset="9"', 'offset="0"'),

@@ -159,7 +159,8 @@ def diff(
 ) -> Results[Comparison]:
     """Return the changes of sources since the last build, or since the version `against`: a git revision, else a file.
 
-    `sources` are files or robots; without any, all sources are compared. Comparing a file with `against` needs no
+    `sources` are files or robots; without any, all sources are compared. Of two files that are not both sources of
+    robots, the motion is compared, the first as the older version. Comparing a file with `against` needs no
     configuration. Raises UrdfsyncError if there is nothing to compare. If a version can't be read, the `result` of its
     comparison has `failed`.
     """
@@ -168,8 +169,13 @@ def diff(
     folder, options = configuration.working_folder(), BuildOptions(**given)
     is_near = any((place / configuration.FILE_NAME).is_file() for place in (folder, *folder.parents))
     loaded = load(config) if is_near or config or not sources else None
-    pairs = list(comparison.select_sources(sources, against, loaded, folder))
-    compared = (comparison.compare_sources(chosen, against, known, options, folder) for known, chosen in pairs)
+    older = comparison.older_of_pair(sources, loaded, folder) if against is None else None
+    chosen_sources, other = (sources[1:], older) if older else (sources, against)
+    pairs = list(comparison.select_sources(chosen_sources, other, loaded, folder))
+    compared = (
+        comparison.compare_sources(chosen, other, known, options, folder, is_pair=older is not None)
+        for known, chosen in pairs
+    )
     all_compared = (each for group in compared for each in group)
     return Results(all_compared, lambda each: text(report.to_section(each, verbose=False)), on_result)
 

@@ -42,11 +42,15 @@ EACH_SENSOR = "".join(
     for kind, model in SENSOR_KINDS.items()
 )
 """A sensor of each kind, each at a place of its own."""
+PULLED = {"spring_stiffness": 30.0, "spring_reference": 0.25}
+PULL = (
+    '<gazebo reference="grip"><springStiffness>200</springStiffness><springReference>-0.05</springReference></gazebo>'
+)
 SPEED_UP = limit(0.2, 2, 3, 90).replace("/>", ' drake:acceleration="5"/>')
 SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, every_loss(0.5, 0.4)]),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, every_loss(0.5, 0.4, **PULLED)]),
     joint(
         "elbow",
         "continuous",
@@ -58,7 +62,7 @@ SOURCE = robot(
     joint(
         "grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-0.1, 0.15)]
     ),
-    *(GEAR, IMU, EYE, LOAD, EACH_SENSOR),
+    *(GEAR, IMU, EYE, LOAD, EACH_SENSOR, PULL),
 )
 
 
@@ -88,6 +92,9 @@ PACKAGE: Mapping[str, Fault] = {
     "sign of an inertia off the diagonal": Fault(B, HAND, "I_21 = I[2, 1]", "I_21 = -I[2, 1]"),
     "rotor without its reduction": Fault(B, ELBOW, "rotorInertia*parameters.transmission.reduction^2", "rotorInertia"),
     **{f"no {name}": Fault(L, "Joints/ShoulderParameters.mo", f"{name} = 0", f"{name} = 0*0") for name in LOSSES},
+    "sign of a spring": Fault(B, SHOULDER, "c = parameters", "c = -parameters"),
+    "reference of a spring that a joint turns": Fault(B, SHOULDER, "phi_rel0 = p", "phi_rel0 = -p"),
+    "reference of a spring that a joint shifts": Fault(B, GRIP, "s_rel0 = p", "s_rel0 = -p"),
     "reduction": Fault(L, "Joints/ElbowParameters.mo", "reduction = 50", "reduction = 5"),
     "multiplier of a mimic": Fault(B, "Joints/GripParameters.mo", "multiplier = 0.1", "multiplier = -0.1"),
     "offset of a mimic": Fault(B, "Joints/GripParameters.mo", "offset = 0.02", "offset = 0"),

@@ -43,7 +43,7 @@ def without_mujoco(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_init_guesses_the_options(folder: Path, execute: Execute) -> None:
-    spring = '<body name="toe" pos="0 0 1"><joint stiffness="3"/><geom size="0.1"/></body>'
+    spring = '<body name="toe" pos="0 0 1"><joint type="ball" stiffness="3"/><geom size="0.1"/></body>'
     Path("arm.xml").write_text(ARM)
     Path("leg.xml").write_text(body(f"<freejoint/>{spring}"))
     printed = execute("init", "arm.xml", "leg.xml")
@@ -53,8 +53,8 @@ def test_init_guesses_the_options(folder: Path, execute: Execute) -> None:
     assert "leg.xml:2: warning: spring toe_joint: this acts on the robot, but no model has it" in printed.err
 
 
-def test_a_spring_stops_a_build_unless_it_is_allowed(project: Path, execute: Execute) -> None:
-    edit('name="elbow"', 'name="elbow" stiffness="3"')
+def test_a_spring_of_a_ball_stops_a_build_unless_it_is_allowed(project: Path, execute: Execute) -> None:
+    edit('name="elbow" axis="0 1 0"', 'name="elbow" type="ball" stiffness="3"')
     with unchanged(project):
         told = execute("build", code=2).err
     assert "mjcf/arm.xml:7: error: spring elbow: this acts on the robot, but no model has it" in told

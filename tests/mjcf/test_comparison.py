@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from support.mjcfs import ARM, body, document, urdf
+from support.mjcfs import ARM, body, document, urdf, world
 
 from urdfsync.mjcf.comparison import compare
 
@@ -11,6 +11,10 @@ ROBOTS = {
     "arm": ARM,
     "several joints": body(
         '<joint type="slide" pos="1 1 1" ref="0.1"/><joint pos="0.1 0.2 0.3" axis="1 1 0" ref="9"/>'
+    ),
+    "springs": body(
+        '<joint type="slide" ref="0.1" stiffness="30" springref="0.3"/>'
+        '<joint axis="0 1 0" ref="20" stiffness="2" springref="-5"/>'
     ),
     "ball": body('<joint type="ball" pos="0.1 0 0.2"/><body pos="1 0 0"><joint pos="0 1 0"/><geom size="0.1"/></body>'),
     "floating": body('<freejoint/><body name="leg" euler="10 20 30"><joint damping="1"/><geom size="0.1"/></body>'),
@@ -20,6 +24,7 @@ ROBOTS = {
         "</mujoco>",
         '<actuator><motor joint="j" armature="2"/></actuator><option><flag gravity="disable"/></option></mujoco>',
     ),
+    "ball with friction": body('<joint type="ball" frictionloss="1" stiffness="2"/>', '<size memory="3G"/>'),
     "massless": body('<joint/><body name="hand" pos="0 0 1" quat="1 1 0 0"/><site name="tip" pos="1 0 0"/>'),
 }
 
@@ -31,6 +36,34 @@ def test_a_translation_agrees_with_its_source(name: str) -> None:
     assert differences == ()
 
 
+PAIR = '<body name="b"><joint name="a"/>{}<body name="c"><joint name="d" axis="0 1 0"/>{}</body></body>'
+FOLLOWING = '<equality><joint joint1="d" joint2="a" polycoef="0 2 0 0 0"/></equality>'
+TENDON = '<tendon><fixed name="t"><joint joint="a" coef="0.5"/><joint joint="d" coef="0.5"/></fixed></tendon>'
+
+
+@pytest.mark.parametrize(
+    ("motors", "effort"),
+    [
+        ('<motor joint="a" ctrlrange="-2 3" gear="10"/>', "30.0"),
+        ('<motor joint="a" ctrlrange="-9 9" forcerange="-2 2" gear="-10"/>', "20.0"),
+        ('<position joint="a" kp="50" ctrlrange="-1 1" forcerange="-4 4"/>', "4.0"),
+        ('<intvelocity joint="a" kp="5" actrange="-1 1" forcerange="-3 3"/>', "3.0"),
+        ('<general joint="a" gainprm="40" biasprm="0 -40 -2" biastype="affine" forcerange="-7 7"/>', "7.0"),
+        ('<motor joint="a" ctrlrange="-2 2"/><motor joint="a" gear="-3" ctrlrange="-2 2"/>', "8.0"),
+        ('<motor tendon="t" forcerange="-4 4"/>', "6.0"),
+    ],
+)
+def test_the_greatest_effort_of_motors_is_compared(motors: str, effort: str) -> None:
+    """A motor of a tendon also pushes the joint that moves twice as far."""
+    geom = '<geom size="0.1"/>'
+    parts = f"{FOLLOWING}{TENDON}" if "tendon" in motors else ""
+    text = world(PAIR.format(geom, geom)).replace("</mujoco>", f"{parts}<actuator>{motors}</actuator></mujoco>")
+    written = urdf(text)
+    assert compare(document(text), written)[1] == ()
+    wrong = written.replace(f'effort="{effort}"', f'effort="{float(effort) * 1.001!r}"')
+    assert compare(document(text), wrong)[1] == ("greatest effort of joint a differs by 1.0e-03",)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "quantities"),
     [
@@ -39,6 +72,8 @@ def test_a_translation_agrees_with_its_source(name: str) -> None:
         ('iyy="0.02"', 'iyy="0.020001"', {"mass matrix"}),
         ('damping="2.0"', 'damping="2.1"', {"damping"}),
         ('armature="0.1"', 'armature="0.11"', {"mass matrix"}),
+        ('spring_stiffness="4.0"', 'spring_stiffness="4.1"', {"spring force"}),
+        ('spring_stiffness="4.0"', 'spring_stiffness="4.0" spring_reference="0.1"', {"spring force"}),
         (
             'axis xyz="0.0 1.0 0.0"',
             'axis xyz="0.0 -1.0 0.0"',

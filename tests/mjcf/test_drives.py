@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from support.mjcfs import joint, left_out, noted, read, world
 
 from urdfsync.urdf.drives import passive_joints
+from urdfsync.urdf.named_poses import named_poses
 from urdfsync.urdf.robot import Mimic, Transmission
 
 PAIR = world(
@@ -47,6 +50,21 @@ def test_an_actuator_gives_a_command_and_a_limit(motor: str, command: str | None
     assert found.actuated == (None if "damper" in motor else True)
 
 
+@pytest.mark.parametrize(
+    ("motor", "words"),
+    [
+        ('<motor joint="a" gear="3" ctrlrange="-1 1"/>', ""),
+        ('<position joint="a" kp="50"/>', "1 <feedback>"),
+        ('<velocity joint="a" kv="5"/>', "1 <feedback>"),
+        ('<general joint="a" biastype="affine" biasprm="2 0 0"/>', "1 <feedback>"),
+        ('<general joint="a" dyntype="filter" dynprm="0.1"/>', "1 <activation>"),
+    ],
+)
+def test_the_law_of_an_actuator_is_noted(motor: str, words: str) -> None:
+    """Run moves a joint exactly as commanded."""
+    assert noted(with_motor(motor)) == (f"not modelled: {words}" if words else "")
+
+
 def test_a_joint_limits_the_effort_of_its_motors() -> None:
     text = with_motor('<motor joint="a" ctrlrange="-9 9"/>').replace('name="a"', 'name="a" actuatorfrcrange="-3 4"')
     limit = joint(read(text), "a").limit
@@ -59,7 +77,7 @@ def test_the_first_motor_of_a_joint_commands_it_and_all_limit_its_effort() -> No
     found = joint(read(text), "a")
     assert found.limit is not None
     assert (found.command, found.limit.effort) == (None, 7)
-    assert noted(text) == "not modelled: 1 <motor>"
+    assert noted(text) == "not modelled: 1 <feedback>, 1 <motor>"
 
 
 def test_a_gear_is_a_reduction() -> None:
@@ -75,6 +93,22 @@ def test_the_key_home_gives_the_starts() -> None:
     keys = '<keyframe><key name="other" qpos="9 9"/><key name="home" qpos="0.5 0.7"/></keyframe>'
     robot = read(with_parts(keys))
     assert (joint(robot, "a").start, joint(robot, "d").start) == (0.5, 0.5)
+
+
+def test_other_keys_are_named_poses() -> None:
+    """Their positions count from the pose as written."""
+    keys = '<keyframe><key name="up" qpos="0.5 0.7"/><key qpos="1 1.2"/><key name="home" qpos="0 0.2"/></keyframe>'
+    poses, faults = named_poses(Path("/nowhere/arm.xml"), read(with_parts(keys)))
+    assert poses == {"up": {"joint a": 0.5, "joint d": 0.5}, "key 2": {"joint a": 1.0, "joint d": 1.0}}
+    assert faults == []
+
+
+def test_a_spring_counts_from_the_pose_as_written() -> None:
+    spring = 'name="d" stiffness="3" springref="0.5"'
+    dynamics = joint(read(PAIR.replace('name="d"', spring)), "d").dynamics
+    assert dynamics is not None
+    assert dynamics.spring_stiffness == 3.0
+    assert dynamics.spring_reference == pytest.approx(0.3)
 
 
 def test_a_linear_equality_is_a_coupling() -> None:

@@ -11,7 +11,8 @@ SITES = '<site name="s" pos="0 0 1"/><site name="t"/>'
 @pytest.mark.parametrize(
     ("inside", "outside", "what"),
     [
-        ('<joint name="j" stiffness="3"/>', "", "spring j"),
+        ('<joint name="j" type="ball" stiffness="3"/>', "", "spring j"),
+        ('<joint name="j" stiffness="3"/>', '<option><flag spring="disable"/></option>', "disabled flag spring"),
         ('<joint name="j" type="ball" range="0 1"/>', "", "range, armature or friction of a ball j"),
         ('<joint name="j" type="ball" armature="1"/>', "", "range, armature or friction of a ball j"),
         ('<joint name="j" type="free" damping="1"/>', "", "losses of a free joint j"),
@@ -63,7 +64,7 @@ def test_what_only_draws_is_noted() -> None:
     keys = '<keyframe><key name="other" qpos="1"/></keyframe>'
     text = body('<joint/><light pos="0 0 1"/><camera name="eye"/><geom size="0.1" material="m"/>', assets)
     text = text.replace("</mujoco>", f"{keys}</mujoco>")
-    assert noted(text) == "not modelled: 1 <texture>, 1 <skin>, 1 <light>, 1 <camera>, 1 <key>"
+    assert noted(text) == "not modelled: 1 <texture>, 1 <skin>, 1 <light>, 1 <camera>, 1 <group_state>"
 
 
 def test_terrain_is_noted() -> None:

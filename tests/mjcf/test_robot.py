@@ -22,7 +22,7 @@ def test_bodies_and_joints_are_links_and_joints() -> None:
     assert shoulder.axis == (0, 1, 0)
     assert shoulder.limit == Limit(-math.pi / 2, math.pi / 2)
     assert shoulder.dynamics == Dynamics(2.0)
-    assert elbow.dynamics == Dynamics(armature=0.1)
+    assert elbow.dynamics == Dynamics(armature=0.1, spring_stiffness=4.0)
     assert elbow.origin.rpy == pytest.approx((0, 0, math.pi / 6), abs=1e-15)
 
 

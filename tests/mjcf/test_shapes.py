@@ -5,11 +5,11 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 import pytest
-from support.mjcfs import CORNERS, body, document, link, read, reading, stl
+from support.mjcfs import CORNERS, body, document, link, noted, read, reading, stl
 
 from urdfsync.mjcf.scene import read_scene
 from urdfsync.urdf.kinematics.poses import pose
-from urdfsync.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere, Visual
+from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Mesh, Sphere, Visual
 
 
 @pytest.mark.parametrize(
@@ -47,6 +47,26 @@ def test_a_material_gives_its_colour_to_a_geom_without_one() -> None:
 
     visuals = link(read(body(f"<joint/>{geoms}", asset)), "part").visuals
     assert [color(visual) for visual in visuals] == [(1, 0, 0, 1), (0, 0, 1, 1), (0.5, 0.5, 0.5, 1)]
+
+
+@pytest.mark.parametrize(
+    ("frictions", "expected", "words"),
+    [
+        ((), 1.0, ""),
+        (("0.7",), 0.7, ""),
+        (("0.7", "0.7 0.1"), 0.7, ""),
+        (("0.7", "0.5"), 0.7, "not modelled: 1 <friction>"),
+    ],
+)
+def test_the_friction_of_geoms_is_that_of_a_link_on_the_ground(
+    frictions: tuple[str, ...], expected: float, words: str
+) -> None:
+    geoms = [f'<geom size="0.1" friction="{friction}"/>' for friction in frictions] or ['<geom size="0.1"/>']
+    hidden = '<geom size="0.1" friction="9" contype="0" conaffinity="0"/>'
+    text = body(f"<freejoint/>{''.join(geoms)}{hidden}")
+    assert link(read(text), "part").contact == Contact(mu=expected)
+    assert noted(text) == words
+    assert link(read(text.replace("<freejoint/>", "<joint/>")), "part").contact is None
 
 
 def test_the_ground_of_a_scene_is_no_part_of_the_robot() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from support import physics, recorded_omc
-from support.modelica import DRIVES, Run, Task, bench, simulate
+from support.modelica import DRIVES, GRAVITY, Run, Task, bench, simulate
 from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
@@ -300,3 +300,29 @@ def test_a_caster_turns_by_itself_in_test(modelica_library: Path, tmp_path: Path
     assert fallen.max() > 1
     assert torque.max() == 0
     assert driven[-1] > 1e-3
+
+
+SWING = robot(
+    link("base", 1.0),
+    '<link name="bob"><inertial><origin xyz="0 0 -0.4"/><mass value="2"/>'
+    '<inertia ixx="0" ixy="0" ixz="0" iyy="0.05" iyz="0" izz="0"/></inertial></link>',
+    link("car", 3.0),
+    joint("pivot", "continuous", "base", "bob", axis="0 1 0", rpy="0 0 0", inside=[dynamics(0, 0, spring_stiffness=7)]),
+    joint("rail", "prismatic", "base", "car", axis="1 0 0", rpy="0 0 0"),
+    '<gazebo reference="rail"><springStiffness>48</springStiffness><springReference>0.5</springReference></gazebo>',
+)
+"""A pendulum with a spring, and a car on a spring."""
+
+
+def test_springs_swing_as_theory_says(modelica_library: Path, tmp_path: Path) -> None:
+    """A small swing of sqrt((k + m*g*l)/(J + m*l^2)), and one of sqrt(k/m) about the reference."""
+    package = generate(SWING.encode(), Target("Swing", "Swing"))
+    body = """Swing.Swing robot(pivot(phi_start = 1e-4), rail(s_start = 0.3));
+  equation
+    connect(world.frame_b, robot.frame_a);"""
+    runs = [Run(5.0, 0.05, tolerance=1e-10)]
+    values = ["robot.pivot.revolute.phi", "robot.rail.prismatic.s"]
+    (series,) = simulate(modelica_library, [package.write(tmp_path)], [bench(body, runs, values, packages=["Swing"])])
+    swing = np.sqrt((7 + 2 * GRAVITY * 0.4) / (0.05 + 2 * 0.4**2))
+    assert series.values[values[0]] == pytest.approx(1e-4 * np.cos(swing * series.times), abs=1e-9)
+    assert series.values[values[1]] == pytest.approx(0.5 - 0.2 * np.cos(4 * series.times), abs=1e-6)

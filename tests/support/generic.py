@@ -30,8 +30,22 @@ GRIPPER = robot(
     *(link(name, 1.5) for name in ("arm", "slide", "wheel", "finger", "thumb")),
     link("sensor", 0.3),
     joint("bolts", "fixed", "base", "plate"),
-    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[every_loss(0.4, 0.2, armature=0.6)]),
-    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[every_loss(3.0, 0.5, armature=1.1)]),
+    joint(
+        "shoulder",
+        "revolute",
+        "plate",
+        "arm",
+        axis="0.6 0 0.8",
+        inside=[every_loss(0.4, 0.2, armature=0.6, spring_stiffness=7.5)],
+    ),
+    joint(
+        "rail",
+        "prismatic",
+        "arm",
+        "slide",
+        axis="0 1 0",
+        inside=[every_loss(3.0, 0.5, armature=1.1, spring_stiffness=40, spring_reference=0.2)],
+    ),
     joint("mount", "fixed", "slide", "sensor"),
     joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
     joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3)]),
@@ -41,7 +55,10 @@ GRIPPER = robot(
         "slide",
         "finger",
         axis="1 0 0",
-        inside=[mimic("shoulder", 0.1, 0.02), dynamics(2, 0.4, armature=0.3)],
+        inside=[
+            mimic("shoulder", 0.1, 0.02),
+            dynamics(2, 0.4, armature=0.3, spring_stiffness=30, spring_reference=-0.1),
+        ],
     ),
 )
 """A chain with branches; press follows grip, which comes after it, and grip follows shoulder."""
@@ -58,7 +75,7 @@ LADDER = robot(
 
 STONE = robot(link("stone", 2.0))
 ROBOTS = {"gripper": GRIPPER, "ladder": LADDER}
-"""Two robots with all features: turning and sliding joints, branches, fixed and mimic joints, losses, armatures."""
+"""Two robots with all features: joints that turn, slide, follow or are fixed, branches, losses, armatures, springs."""
 CLASSES = ("PartialRecordRobot", "PartialGenericRobot", "GenericRobot")
 
 _FIXED = "equation connect(world.frame_b, robot.frame_a);"
@@ -152,22 +169,27 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
         v[:3], v[3:6] = axes.T @ velocity, axes.T @ turning
         free = np.hstack([np.eye(model.nv, 6), free])
 
-    def acceleration(q: Array, v: Array) -> Array:
-        load = pin.rnea(model, model.createData(), q, v, np.zeros(model.nv)) + reference.losses(v)
+    inverse, (stiffness, relaxed) = np.linalg.pinv(reference.projection), reference.springs
+
+    def acceleration(p: Array, q: Array, v: Array) -> Array:
+        pulled = stiffness * (at_rest(robot, p, speeds).positions - relaxed)
+        load = pin.rnea(model, model.createData(), q, v, np.zeros(model.nv)) + reference.losses(v) + pulled
         return np.asarray(free @ np.linalg.solve(free.T @ mass_matrix(reference, q) @ free, -free.T @ load))
+
+    def moved(way: Array) -> tuple[Array, Array]:
+        return p + inverse @ way, pin.integrate(model, q, way)
 
     h = stop / steps
     for _ in range(steps):
-        a1 = acceleration(q, v)
+        a1 = acceleration(p, q, v)
         v2 = v + h / 2 * a1
-        a2 = acceleration(pin.integrate(model, q, h / 2 * v), v2)
+        a2 = acceleration(*moved(h / 2 * v), v2)
         v3 = v + h / 2 * a2
-        a3 = acceleration(pin.integrate(model, q, h / 2 * v2), v3)
+        a3 = acceleration(*moved(h / 2 * v2), v3)
         v4 = v + h * a3
-        a4 = acceleration(pin.integrate(model, q, h * v3), v4)
-        way = h / 6 * (v + 2 * v2 + 2 * v3 + v4)
-        q, v = pin.integrate(model, q, way), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-        p = p + np.linalg.pinv(reference.projection) @ way
+        a4 = acceleration(*moved(h * v3), v4)
+        p, q = moved(h / 6 * (v + 2 * v2 + 2 * v3 + v4))
+        v = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
     turned = pin.Quaternion(q[3:7]).toRotationMatrix()
     return np.concatenate([p, q[:3], turned.ravel()]) if is_floating else np.asarray(p)
 

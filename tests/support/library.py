@@ -64,6 +64,7 @@ def library_artifacts() -> Iterator[Artifact | Order]:
             "motion": facts.motion,
             "is_endless": joint == "continuous",
             "inertia": facts.motion is not None,
+            "spring": facts.motion is not None,
             "motor": False,
             "sharing": None,
             "friction": "smooth",

@@ -26,7 +26,7 @@ ARM = """\
       <joint name="shoulder" axis="0 1 0" range="-90 90" damping="2"/>
       <inertial pos="0 0 0.2" mass="1.5" diaginertia="0.02 0.02 0.01"/>
       <body name="fore" pos="0 0 0.4" euler="0 0 30">
-        <joint name="elbow" axis="0 1 0" armature="0.1"/>
+        <joint name="elbow" axis="0 1 0" armature="0.1" stiffness="4"/>
         <geom type="box" size="0.1 0.2 0.3" mass="3"/>
       </body>
     </body>

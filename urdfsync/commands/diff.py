@@ -29,10 +29,12 @@ def add(commands: arguments.Commands) -> None:
         formats=True,
         help="show what changed in the sources since the last build",
         description="Show the changes of a source since the last build, or since another version of the source: "
-        "changed elements, effects on the whole model, and changed files. Nothing is written.",
+        "changed elements, effects on the whole model, and changed files. Two sources that are no robots of a "
+        "configuration stand side by side: then only differences in motion are shown. Nothing is written.",
         epilog="examples: urdfsync diff cad/arm.urdf\n"
         "          urdfsync diff arm --against HEAD~1\n"
         "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n"
+        "          urdfsync diff arm.urdf arm.xml\n"
         "          urdfsync diff --edits modelica/Arm/Links\n"
         "          urdfsync diff --edits --patch | git apply",
     )

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.domain import Domain, ElementKey, Snapshot, displaced
+from urdfsync.domain import Domain, ElementKey, Features, Snapshot, displaced
 from urdfsync.engine.inputs import Inputs
 from urdfsync.files import shown
-from urdfsync.matching import Doubt, Matching, match
+from urdfsync.matching import Doubt, Elements, Matching, match
 from urdfsync.spelling import nearest
 
 
@@ -31,7 +31,35 @@ def find_matching(
         for key, new in named.items()
         if before[key] == after.get(key) and not (is_pending and before[key].contents == after[new].contents)
     }
-    return match(before, after, {key: new for key, new in named.items() if key[0] not in done})
+    named = {key: new for key, new in named.items() if key[0] not in done}
+    matching = match(before, after, named)
+    return _matched_coarsely(domain, old, new, matching) if _is_foreign(before, after, matching) else matching
+
+
+def _is_foreign(before: Elements, after: Elements, matching: Matching) -> bool:
+    """Return whether fewer than half of the elements match: the new version may be of another format."""
+    has_names = before.keys() == after.keys()
+    return not has_names and 2 * len(_pairs(before, after, matching)) < min(len(before), len(after))
+
+
+def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[ElementKey, ElementKey]:
+    gone = displaced(matching.renames)
+    new = {key: (key[0], matching.renames.get(key, key[1])) for key in before if key not in gone}
+    return {key: to for key, to in new.items() if to in after}
+
+
+def _matched_coarsely(domain: Domain, old: Snapshot, new: Snapshot, matching: Matching) -> Matching:
+    """Return a matching with further pairs: by features that other formats have, too, then by unique places alone."""
+    before, after = domain.coarse_features(old), domain.coarse_features(new)
+    for has_contents in (True, False):
+        sides = [before, after]
+        if not has_contents:
+            sides = [{key: Features({}, each.neighbours) for key, each in side.items()} for side in sides]
+        further = match(sides[0], sides[1], _pairs(sides[0], sides[1], matching))
+        taken = {(kind, name) for (kind, _), name in matching.renames.items()}
+        added = {key: name for key, name in further.renames.items() if (key[0], name) not in taken}
+        matching = Matching({**added, **matching.renames}, matching.doubts)
+    return matching
 
 
 def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:

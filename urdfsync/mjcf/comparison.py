@@ -1,14 +1,15 @@
 """Compares the URDF of a robot with its MJCF: MuJoCo reads both, and says how they move at random states.
 
-MuJoCo's own reader of URDF shares no code with the translation. It knows no armature, so the attribute is added to its
-model; it merges links, and reads shapes from files, unless it is told otherwise. Constraints, motors, springs and
-tendons are in neither mass matrix nor bias: the couplings and loops of the URDF are not compared.
+MuJoCo's own reader of URDF shares no code with the translation. It knows neither armature nor springs, so these numbers
+are added to its model; it merges links, and reads shapes from files, unless it is told otherwise. Constraints and
+tendons are in none of the compared forces: the couplings and loops of the URDF are not compared. Of motors, the
+greatest effort is compared.
 """
 
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element, SubElement, tostring
 
@@ -16,6 +17,7 @@ import mujoco
 import numpy as np
 
 from urdfsync.mjcf.document import Document
+from urdfsync.mjcf.drives import Drives
 from urdfsync.mjcf.scene import WORLD, Scene, read_scene
 from urdfsync.urdf.parse.xml import parse
 
@@ -24,6 +26,8 @@ _TOLERANCE = 1e-9
 """The greatest difference that counts as agreement, relative to the greatest number of the kind."""
 _LEAST = "1e-14"
 """In kg and kg·m²: MuJoCo refuses links without mass that move."""
+_FAR = 1e9
+"""A position in rad or m, a velocity, and a command: each saturates an actuator with limits."""
 _FREE = " free"
 """The joint that moves a floating robot; no name in an MJCF begins so by chance."""
 _LENGTHS = {"free": (7, 6), "ball": (4, 3), "slide": (1, 1), "hinge": (1, 1)}
@@ -52,14 +56,15 @@ class _Joint(NamedTuple):
 def compare(document: Document, text: str, body: str = "") -> tuple[int, tuple[str, ...]]:
     """Return how many numbers were compared, and a line for each quantity that differs. Raises TranslationError."""
     scene = read_scene(document, body)
-    _leave_out(scene)
     root = parse(text.encode()).root
+    efforts = list(_efforts(scene, root))
+    _leave_out(scene)
     model = _read_urdf(root, scene.links[scene.root] if scene.is_floating else "")
     joints = list(_joints(scene, model))
     states = np.random.default_rng(0)
     total, worst = 0, dict[str, tuple[float, str]]()
     motion = (each for _ in range(_STATES) for each in _motion(scene, model, joints, states))
-    for numbers in (*_constants(scene, model, joints, root), *motion):
+    for numbers in (*efforts, *_constants(scene, model, joints, root), *motion):
         total += numbers.source.size
         size = max(numbers.least, float(np.abs(numbers.source).max(initial=0)))
         error = float(np.abs(numbers.source - numbers.urdf).max(initial=0)) / size
@@ -75,8 +80,15 @@ def _leave_out(scene: Scene) -> None:
     for joint in range(model.njnt):
         _, velocity = _places(model, joint)
         if velocity.stop - velocity.start > 1:  # a free joint or a ball
-            model.dof_armature[velocity] = 0.0
-    for name in ("actuator_armature", "tendon_armature"):
+            model.dof_armature[velocity], model.dof_frictionloss[velocity] = 0.0, 0.0
+            model.jnt_stiffness[joint] = 0.0
+    for name in (
+        "actuator_armature",
+        "tendon_armature",
+        "jnt_stiffnesspoly",
+        "tendon_stiffness",
+        "tendon_stiffnesspoly",
+    ):
         if hasattr(model, name):  # newer versions have it
             getattr(model, name)[:] = 0.0
     # a random state may have more contacts than MuJoCo has memory for
@@ -123,7 +135,7 @@ def _places(model: Any, joint: int) -> tuple[slice, slice]:
 
 
 def _constants(scene: Scene, urdf: Any, joints: list[_Joint], root: Element) -> Iterator[_Numbers]:
-    """Yield masses, losses and ranges; add the armature of the URDF to its model."""
+    """Yield masses, losses and ranges; add armatures and springs of the URDF to its model."""
     model = scene.model
     for body in scene.bodies:
         if body and (body != scene.bodies[0] or scene.is_floating):
@@ -131,10 +143,14 @@ def _constants(scene: Scene, urdf: Any, joints: list[_Joint], root: Element) -> 
             yield _Numbers("mass", f"link {scene.links[body]}", np.array([mass]), urdf.body(scene.links[body]).mass)
     written = {joint.get("name", ""): joint.find("dynamics") for joint in root.findall("joint")}
     for name, (_, at), (_, to) in joints:
-        dynamics = written.get(name)
-        urdf.dof_armature[to] = 0.0 if dynamics is None else float(dynamics.get("armature", "0"))
         if name == _FREE:
             continue
+        numbers = {} if (dynamics := written.get(name)) is None else dynamics.attrib
+        urdf.dof_armature[to] = float(numbers.get("armature", "0"))
+        if to.stop == to.start + 1:
+            same = int(urdf.dof_jntid[to.start])
+            urdf.jnt_stiffness[same] = float(numbers.get("spring_stiffness", "0"))
+            urdf.qpos_spring[urdf.jnt_qposadr[same]] = float(numbers.get("spring_reference", "0"))
         yield _Numbers("damping", f"joint {name}", model.dof_damping[at], urdf.dof_damping[to])
         yield _Numbers("friction", f"joint {name}", model.dof_frictionloss[at], urdf.dof_frictionloss[to])
         first, second = int(model.dof_jntid[at.start]), int(urdf.dof_jntid[to.start])
@@ -142,6 +158,46 @@ def _constants(scene: Scene, urdf: Any, joints: list[_Joint], root: Element) -> 
             expected = model.jnt_range[first] - model.qpos0[model.jnt_qposadr[first]]
             yield _Numbers("range", f"joint {name}", expected, urdf.jnt_range[second])
     mujoco.mj_setConst(urdf, mujoco.MjData(urdf))  # the mass matrix of a body that only slides is a constant
+
+
+def _efforts(scene: Scene, root: Element) -> Iterator[_Numbers]:
+    """Yield the greatest effort of the motors of each joint that has a limit of effort.
+
+    MuJoCo computes the force of each motor alone: position, velocity and command are far on the side where it pushes.
+    """
+    drives, model = Drives(scene), copy.copy(scene.model)
+    limits = {joint.get("name", ""): joint.find("limit[@effort]") for joint in root.findall("joint")}
+    model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
+    gains, biases = model.actuator_gainprm.copy(), model.actuator_biasprm.copy()
+    for leader, motors in drives.motors.items():
+        moved = {leader: 1.0} | {
+            joint: factor for joint in drives.followers for top, factor in [drives.leader(joint)] if top == leader
+        }
+        if (limit := limits.get(scene.joints[leader])) is None:
+            continue
+        total = 0.0
+        for motor in motors:
+            model.actuator_gainprm[:], model.actuator_biasprm[:] = 0.0, 0.0
+            model.actuator_gainprm[motor.actuator] = gains[motor.actuator]
+            model.actuator_biasprm[motor.actuator] = biases[motor.actuator]
+            total += max(abs(_effort(model, moved, side, motor.gear)) for side in (1, -1))
+        if model.jnt_actfrclimited[leader]:
+            total = min(total, float(np.abs(model.jnt_actfrcrange[leader]).max()))
+        written = np.array([float(limit.get("effort", "nan"))])
+        yield _Numbers("greatest effort", f"joint {scene.joints[leader]}", np.array([total]), written)
+
+
+def _effort(model: Any, moved: Mapping[int, float], side: int, gear: float) -> float:
+    """Return the effort of the only motor at the first of the `moved` joints, with those that follow it."""
+    data = mujoco.MjData(model)
+    for joint, factor in moved.items():
+        position, velocity = _places(model, joint)
+        data.qpos[position], data.qvel[velocity] = -side * factor * _FAR, -side * factor * _FAR
+    data.ctrl[:] = data.act[:] = side * np.sign(gear) * _FAR
+    for step in (mujoco.mj_fwdPosition, mujoco.mj_fwdVelocity, mujoco.mj_fwdActuation):
+        step(model, data)
+    efforts = (factor * data.qfrc_actuator[_places(model, joint)[1]] for joint, factor in moved.items())
+    return float(sum(each.item() for each in efforts))
 
 
 def _motion(scene: Scene, urdf: Any, joints: list[_Joint], random: np.random.Generator) -> Iterator[_Numbers]:
@@ -172,6 +228,7 @@ def _motion(scene: Scene, urdf: Any, joints: list[_Joint], random: np.random.Gen
     rows, columns = _dofs([joint.source[1] for joint in joints]), _dofs([joint.urdf[1] for joint in joints])
     weight = float(np.linalg.norm(model.opt.gravity) * sum(model.body_mass[body] for body in scene.bodies))
     yield _Numbers("bias", "the robot", source.qfrc_bias[rows], other.qfrc_bias[columns], max(weight, 1e-9))
+    yield _Numbers("spring force", "the robot", source.qfrc_spring[rows], other.qfrc_spring[columns])
     yield _Numbers("mass matrix", "the robot", _mass(model, source, rows), _mass(urdf, other, columns))
 
 

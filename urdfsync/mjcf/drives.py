@@ -1,7 +1,8 @@
 """Reads the numbers of joints, their couplings and their motors from a compiled model.
 
 MuJoCo counts the position of a joint from `ref`, URDF from the pose in which the model is written: so `ref` is
-subtracted from limits and starts. A motor's gear is a reduction: the joint has `gear` times the motor's effort.
+subtracted from limits, starts and references of springs. A motor's gear is a reduction: the joint has `gear` times the
+motor's effort.
 """
 
 from __future__ import annotations
@@ -80,7 +81,7 @@ class Drives:
                 continue
             offset, multiplier, *higher = map(float, model.eq_data[number][:5])
             is_linear = self._has_axis(first) and self._has_axis(second) and multiplier and not any(higher)
-            if is_linear and first not in self.followers and self._leader(second)[0] != first:
+            if is_linear and first not in self.followers and self.leader(second)[0] != first:
                 self.followers[first] = Follower(second, multiplier, offset)
             else:
                 self.leave_out("equality of joints", "equality", number, self._pair(first, second))
@@ -88,7 +89,7 @@ class Drives:
     def _pair(self, *joints: int) -> str:
         return " and ".join(self.scene.joints[joint] for joint in joints if joint >= 0)
 
-    def _leader(self, joint: int) -> tuple[int, float]:
+    def leader(self, joint: int) -> tuple[int, float]:
         """Return the joint that moves a joint by couplings, perhaps itself, and the multiplier."""
         multiplier = 1.0
         while joint in self.followers:
@@ -112,7 +113,7 @@ class Drives:
         else:
             pulls = []
         for joint, factor in pulls:
-            leader, multiplier = self._leader(joint)
+            leader, multiplier = self.leader(joint)
             moved[leader] = moved.get(leader, 0.0) + factor * multiplier
         command = self._command(number)
         if command is None or len(moved) != 1 or not self._has_axis(joint := next(iter(moved))):
@@ -171,9 +172,15 @@ class Drives:
             if effort is not None or lower is not None:
                 joint.add("limit", lower=lower, upper=upper, effort=effort)
         damping, friction, armature = model.dof_damping[dof], model.dof_frictionloss[dof], model.dof_armature[dof]
-        if kind != "floating" and (damping or friction or armature):
+        stiffness = model.jnt_stiffness[number] if kind != "ball" else 0.0
+        if kind != "floating" and (damping or friction or armature or stiffness):
             friction, armature = (None if kind == "ball" else value or None for value in (friction, armature))
-            joint.add("dynamics", damping=damping, friction=friction, armature=armature)
+            spring: dict[str, Any] = {}
+            if stiffness:
+                place = model.jnt_qposadr[number]
+                (reference,) = rounded([model.qpos_spring[place] - model.qpos0[place]])
+                spring = {"spring_stiffness": stiffness} | ({"spring_reference": reference} if reference else {})
+            joint.add("dynamics", damping=damping, friction=friction, armature=armature, **spring)
         if number in self.followers:
             leader, multiplier, offset = self.followers[number]
             joint.add("mimic", joint=self.scene.joints[leader], multiplier=multiplier, offset=offset)
@@ -205,12 +212,14 @@ class Drives:
 
     def _starts(self) -> dict[int, float]:
         """Return the positions of the joints at the key `home`."""
+        home = next((key for key in range(self.scene.model.nkey) if self.scene.name("key", key) == _HOME), None)
+        return {} if home is None else self.positions(home)
+
+    def positions(self, key: int) -> dict[int, float]:
+        """Return the positions of the joints at a key."""
         model = self.scene.model
-        home = next((key for key in range(model.nkey) if self.scene.name("key", key) == _HOME), None)
-        if home is None:
-            return {}
         places = {joint: model.jnt_qposadr[joint] for joint in self.joints if self._has_axis(joint)}
-        return {joint: rounded([model.key_qpos[home][at] - model.qpos0[at]])[0] for joint, at in places.items()}
+        return {joint: rounded([model.key_qpos[key][at] - model.qpos0[at]])[0] for joint, at in places.items()}
 
 
 def _greatest(limits: Any) -> float:

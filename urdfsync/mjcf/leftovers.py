@@ -13,10 +13,12 @@ from urdfsync.mjcf.scene import Scene
 from urdfsync.translation.writer import Node
 
 _GRAVITY = (0.0, 0.0, -9.81)
-_SWITCHES = ("GRAVITY", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION")
-"""What the flags of an option may switch off for all joints, as MuJoCo names it."""
+_SWITCHES = ("GRAVITY", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION", "PASSIVE", "SPRING", "DAMPER")
+"""What the flags of an option may switch off for all joints, as versions of MuJoCo name it."""
 _SOLREF, _SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
 """MuJoCo's usual softness of a constraint."""
+_AT_ONCE = (mujoco.mjtDyn.mjDYN_NONE, mujoco.mjtDyn.mjDYN_INTEGRATOR)
+"""Dynamics of actuators without a delay: an integrator of a velocity is a command of the velocity."""
 _FREE, _BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
 
 
@@ -25,7 +27,9 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
     model = scene.model
     for joint in drives.joints:
         kind, dof = model.jnt_type[joint], model.jnt_dofadr[joint]
-        if model.jnt_stiffness[joint] or _any(model, "jnt_stiffnesspoly", joint):
+        if _any(model, "jnt_stiffnesspoly", joint):
+            drives.leave_out("spring that is not linear", "joint", joint, scene.joints[joint])
+        elif model.jnt_stiffness[joint] and int(kind) in (_FREE, _BALL):
             drives.leave_out("spring", "joint", joint, scene.joints[joint])
         if _any(model, "dof_dampingpoly", dof):
             drives.leave_out("damping that is not linear", "joint", joint, scene.joints[joint])
@@ -58,7 +62,7 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
 def _find_global(model: Any, drives: Drives) -> None:
     """Add what acts on all bodies: switches, another gravity, or a fluid."""
     for name in _SWITCHES:
-        if model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}"):
+        if model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0):
             drives.left_out.append(Part("disabled flag", name.lower(), 0))
     if not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
         words = " ".join(f"{value:g}" for value in model.opt.gravity)
@@ -108,10 +112,18 @@ def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
         if model.body_parentid[top] == 0 and top not in scene.bodies:
             robot.add("body", scene.line("body", top), name=scene.links[top])
     for motors in drives.motors.values():
+        first = motors[0].actuator
+        line, name = scene.line("actuator", first), scene.name("actuator", first)
+        if model.actuator_biasprm[first].any():  # Run moves the joint exactly, or pushes it as commanded
+            robot.add("feedback", line, name=name or None)
+        if int(model.actuator_dyntype[first]) not in _AT_ONCE:
+            robot.add("activation", line, name=name or None)
         for motor in motors[1:]:  # the first one commands the joint, and all of them limit its effort
             line, name = scene.line("actuator", motor.actuator), scene.name("actuator", motor.actuator)
             robot.add("motor", line, name=name or None)
     _add_soft(robot, scene, drives)
     for key in range(model.nkey):
         if scene.name("key", key) != "home":
-            robot.add("key", scene.line("key", key), name=scene.name("key", key) or None)
+            pose = robot.add("group_state", scene.line("key", key), name=scene.name("key", key) or f"key {key + 1}")
+            for joint, position in drives.positions(key).items():
+                pose.add("joint", name=scene.joints[joint], value=position)

@@ -14,7 +14,7 @@ import numpy as np
 
 from urdfsync.mjcf.drives import Drives
 from urdfsync.mjcf.scene import Scene
-from urdfsync.mjcf.shapes import add_shapes
+from urdfsync.mjcf.shapes import add_friction, add_shapes
 from urdfsync.mjcf.turns import Vector, rpy, turned
 from urdfsync.translation.writer import Node, free_name, rounded
 
@@ -76,6 +76,8 @@ class Links:
             inertial.add("inertia", ixx=xx, ixy=xy, ixz=xz, iyy=yy, iyz=yz, izz=zz)
         if body or self.scene.root == 0:  # what stands in the world is scenery
             add_shapes(link, self.scene, body, self.offsets[body])
+        if body and self.scene.is_floating:  # other robots do not touch the ground
+            add_friction(link, self.scene, body)
 
     def _written_inertia(self, body: int) -> Any:
         """Return xx, yy, zz, xy, xz, yz as the file has them; None if it has none, or if MuJoCo changed them."""

@@ -148,6 +148,8 @@ def read_scene(document: Document, body: str = "") -> Scene:
         if (count := len(spec.bodies)) > _MOST_BODIES:
             message = f"the model has {count:,} bodies, and urdfsync reads up to {_MOST_BODIES:,}"
             raise TranslationError(message, document.place(0))
+        # a scene may ask for gigabytes, for contacts that this program does not compute
+        spec.memory = spec.njmax = spec.nconmax = -1
         model = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise _in_words(document, str(error)) from None

@@ -1,8 +1,15 @@
-"""Makes sensors of a robot from those of MuJoCo; sensors of other kinds are only noted."""
+"""Makes sensors of a robot from those of MuJoCo; sensors of other kinds are only noted.
+
+A force and a torque at one site become a force-torque sensor in the joint above the site's body: both measure what the
+parent exerts on the body, in the axes of the site. Its torque is about the joint, so it needs a site there.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import mujoco
+import numpy as np
 
 from urdfsync.mjcf.robot import Links
 from urdfsync.mjcf.turns import rpy
@@ -11,12 +18,44 @@ from urdfsync.translation.writer import Node
 _KINDS = {mujoco.mjtSensor.mjSENS_ACCELEROMETER: "accelerometer", mujoco.mjtSensor.mjSENS_GYRO: "gyroscope"}
 
 
+_LOADS = {mujoco.mjtSensor.mjSENS_FORCE: "force", mujoco.mjtSensor.mjSENS_TORQUE: "torque"}
+
+
+def _add_load(robot: Node, links: Links, number: int, joints: Mapping[str, str]) -> bool:
+    """Add a sensor of force and torque for a sensor of MuJoCo; return whether the package has such a sensor."""
+    scene, model = links.scene, links.scene.model
+    site = int(model.sensor_objid[number])
+    body, kind = int(model.site_bodyid[site]), mujoco.mjtSensor(model.sensor_type[number])
+    joint = joints.get(scene.links[body])
+    twins = [n for n in range(model.nsensor) if int(model.sensor_type[n]) in _LOADS and model.sensor_objid[n] == site]
+    is_at_joint = not np.any(links.place(body, model.site_pos[site]))
+    if joint is None or not (is_at_joint or kind == mujoco.mjtSensor.mjSENS_FORCE):
+        return False
+    if number == twins[0]:
+        at = robot.add("gazebo", scene.line("sensor", number), reference=joint)
+        sensor = at.add("sensor", name=scene.name("sensor", number) or f"{joint}_load", type="force_torque")
+        angles = " ".join(map(repr, rpy(model.site_quat[site])))
+        sensor.add("pose", text=f"0 0 0 {angles}")
+        axes = sensor.add("force_torque")
+        axes.add("frame", text="sensor")
+        axes.add("measure_direction", text="parent_to_child")
+    return True
+
+
 def add_sensors(robot: Node, links: Links) -> None:
     """Add the sensors of the robot; a note names the others."""
     scene, model = links.scene, links.scene.model
+    joints = {
+        str(child.attributes["link"]): str(joint.attributes["name"])
+        for joint in robot.children
+        for child in joint.children
+        if joint.tag == "joint" and child.tag == "child"
+    }
     for number in range(model.nsensor):
         line, name = scene.line("sensor", number), scene.name("sensor", number)
         kind, site = mujoco.mjtSensor(model.sensor_type[number]), int(model.sensor_objid[number])
+        if kind in _LOADS and int(model.site_bodyid[site]) in links.offsets and _add_load(robot, links, number, joints):
+            continue
         if kind not in _KINDS or int(model.site_bodyid[site]) not in links.offsets:
             word = kind.name.removeprefix("mjSENS_").lower()
             robot.add(f"sensor-{word}", line, name=name or None)

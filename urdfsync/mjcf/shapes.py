@@ -56,6 +56,22 @@ def add_shapes(link: Node, scene: Scene, body: int, offset: Vector) -> None:
                 element.add("material", name="").add("color", rgba=_color(scene, number))
 
 
+def add_friction(link: Node, scene: Scene, body: int) -> None:
+    """Add the sliding friction of the geoms that can touch others, and a note if they have several.
+
+    Of two geoms that touch, MuJoCo takes the greater friction: the greatest counts for the link.
+    """
+    model, first = scene.model, scene.model.body_geomadr[body]
+    solid = [
+        n for n in range(first, first + model.body_geomnum[body]) if model.geom_contype[n] | model.geom_conaffinity[n]
+    ]
+    if frictions := {float(model.geom_friction[number][0]) for number in solid}:
+        contact = link.add("contact", scene.line("geom", solid[0]))
+        contact.add("lateral_friction", value=max(frictions))
+        if len(frictions) > 1:
+            contact.add("friction")
+
+
 def _shape(scene: Scene, number: int) -> _Shape:
     """Return the shape of a geom, with its pose in the frame of the body."""
     model = scene.model

@@ -1,4 +1,7 @@
-"""Reads named poses from the SRDF files of MoveIt beside a URDF."""
+"""Reads named poses: those of the source itself, and those in SRDF files of MoveIt beside it.
+
+A translator writes the keys of an MJCF as SRDF would have them, into the URDF.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +24,7 @@ _MOST_FILES, _LARGEST = 20, 1_000_000
 def named_poses(source: Path, robot: Robot) -> tuple[dict[str, dict[str, float]], list[str]]:
     """Return the poses of a robot by name, and a line for each faulty file.
 
-    Only files with the name of the source or of the robot count.
+    The poses of files come first. Only files with the name of the source or of the robot count.
     """
     poses, faults = dict[str, dict[str, float]](), list[str]()
     is_free = {joint.name: can_be_driven(joint) for joint in robot.joints}
@@ -44,6 +47,11 @@ def named_poses(source: Path, robot: Robot) -> tuple[dict[str, dict[str, float]]
         if others:
             number, first = counted(len(others), "joint"), next(iter(others))
             faults.append(f"{shown(file)}: its poses name {number} that this robot lacks, such as {first}")
+    for text in robot.extensions.get("", {}).get("group_state", ()):
+        state = parse(text.encode()).root
+        values = dict(_values(state.iterfind("joint")))
+        if own := {f"joint {joint}": value for joint, value in values.items() if is_free.get(joint)}:
+            poses.setdefault(state.get("name", ""), own)
     return poses, faults
 
 

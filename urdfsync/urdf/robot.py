@@ -30,7 +30,7 @@ class Unit(NamedTuple):
 _NAME = operator.attrgetter("name")
 _LENGTH, _ANGLE, _INERTIA = Unit("m"), Unit("rad"), Unit("kg·m²")
 _POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad", "N·s/m")
-_ACCELERATION = Unit("rad/s²", "m/s²")
+_ACCELERATION, _STIFFNESS = Unit("rad/s²", "m/s²"), Unit("N·m/rad", "N/m")
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating", "ball"]
 SensorKind = Literal["imu", "accelerometer", "gyroscope", "force_torque", "camera", "lidar"]
@@ -248,12 +248,16 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
 
 
 class Dynamics(msgspec.Struct, frozen=True, gc=False):
-    """Losses of a joint: viscous `damping`, dry `friction`."""
+    """Losses of a joint: viscous `damping`, dry `friction`; its armature, and its spring."""
 
     damping: Annotated[float, _LOSS] = 0.0
     friction: Annotated[float, _LOAD] = 0.0
     armature: Annotated[float | None, Unit("kg·m²", "kg")] = None
     """Inertia that the drive adds at the joint, as in MuJoCo's `armature`."""
+    spring_stiffness: Annotated[float | None, _STIFFNESS] = None
+    """A spring pulls with `spring_stiffness` · (`spring_reference` - position), as in SDFormat."""
+    spring_reference: Annotated[float | None, _POSITION] = None
+    """Position at which the spring is relaxed; None stands for 0."""
 
 
 LOSSES: tuple[str, ...] = ("damping", "friction")

@@ -41,7 +41,7 @@ _COMPARED = 500
 _ENDLESS = 1000
 _MAGNITUDES = (
     ("negative-limit", "limit", ("effort", "velocity", "acceleration", "deceleration", "jerk")),
-    ("negative-dynamics", "dynamics", LOSSES),
+    ("negative-dynamics", "dynamics", (*LOSSES, "spring_stiffness")),
     ("negative-inertia", "dynamics", ("armature",)),
     ("negative-inertia", "transmission", ("rotor_inertia",)),
 )
@@ -121,6 +121,7 @@ _WARNINGS = {
     "missing-inertia": "add all six components of the inertia",
     "missing-gain": "add k_velocity=…",
     "bad-contact": "write a decimal number",
+    "bad-spring": "write a decimal number",
     "unknown-geometry": "use one of box, cylinder, capsule, sphere, mesh",
     "unknown-material": "define the material in the robot or in a visual",
     "material-redefined": "give each material a name of its own",
@@ -130,7 +131,7 @@ _WARNINGS = {
     "axis-not-unit": "write a unit vector",
     "negative-limit": "write the limit without a sign: only limits of position have signs",
     "negative-dynamics": "correct its sign",
-    "dynamics-without-effect": "remove these losses, or change the type of the joint",
+    "dynamics-without-effect": "remove these numbers, or change the type of the joint",
     "limit-without-effect": "remove the <limit>; a contact or a spring in a model of your own can hold the joint",
     "mimic-without-effect": "remove the mimic, or change the type",
     "mimic-of-fixed": "make the joint fixed, or let it mimic a joint that moves",
@@ -431,8 +432,11 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
     given, acting = joint.dynamics or Dynamics(), effect.dynamics or Dynamics()
     idle = [name for name in Dynamics.__struct_fields__ if getattr(given, name) != getattr(acting, name)]
     if idle:
-        message = f"{path}: {' and '.join(idle)} of <dynamics> can't act on a {joint.type} joint"
+        message = f"{path}: {' and '.join(idle).replace('_', ' ')} of <dynamics> can't act on a {joint.type} joint"
         yield Finding("dynamics-without-effect", f"{path} / dynamics", message)
+    if acting.spring_reference and not acting.spring_stiffness:
+        message = f"{path}: the spring reference {acting.spring_reference:g} has no effect without a stiffness"
+        yield Finding("dynamics-without-effect", f"{path} / dynamics", message, "state a stiffness, or remove it")
 
 
 def _check_mimics(numbered: Sequence[tuple[str, Joint]]) -> Iterator[Finding]:

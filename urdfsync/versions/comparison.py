@@ -40,6 +40,7 @@ from urdfsync.engine.translators import find_translator, is_xacro
 from urdfsync.engine.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
+from urdfsync.matching import Matching
 from urdfsync.modelica.names import class_name
 from urdfsync.output.phrases import change_counts, generator_change
 from urdfsync.state import expansion
@@ -68,6 +69,8 @@ class Comparison(msgspec.Struct, frozen=True):
     """Why there is no older version; empty if there is an older version."""
     effects: tuple[Effect, ...] = ()
     """Properties of the whole model that changed."""
+    is_pair: bool = False
+    """Whether two sources stand side by side: only their motion is compared, and no file."""
     versions: tuple[Contents, ...] = ()
     """The older and the new version; empty for the last build, or after an error."""
 
@@ -92,7 +95,10 @@ class Comparison(msgspec.Struct, frozen=True):
         if self.missing:
             return self.missing
         since = f"since {'the last build' if self.against is None else self.against}"
+        since = f"against {self.against}" if self.is_pair else since
         changes = self.result.changes
+        if changes is None and self.is_pair:
+            return f"no difference in motion {since}"
         if changes is None:
             return f"nothing changed {since}{'' if self.in_step else ', but files are out of step'}"
         return f"{change_counts(changes) if changes.changes else generator_change(changes)} {since}"
@@ -134,6 +140,19 @@ def select_sources(
     yield None, [robot_of_file(place) for place in alone.values()]
 
 
+def older_of_pair(sources: Sequence[str], config: Config | None, folder: Path) -> str | None:
+    """Return the first of two sources that stand side by side; None if the arguments name robots.
+
+    Two files stand side by side unless both are sources of robots: then each has a last build.
+    """
+    places = [Path(os.path.normpath(folder / text)) for text in sources]
+    if len(places) != 2 or not all(place.is_file() for place in places):
+        return None
+    known = {os.path.realpath(robot.source) for robot in config.robots} if config else set()
+    is_pair = any(os.path.realpath(place) not in known for place in places)
+    return sources[0] if is_pair else None
+
+
 def robot_of_file(path: Path) -> RobotConfig:
     """Return a robot for a source that no configuration names, with default settings and permissive options."""
     name = class_name(path.name.partition(".")[0])
@@ -150,9 +169,17 @@ def robot_of_file(path: Path) -> RobotConfig:
 
 
 def compare_sources(
-    robots: Sequence[RobotConfig], against: str | None, config: Config | None, options: BuildOptions, folder: Path
+    robots: Sequence[RobotConfig],
+    against: str | None,
+    config: Config | None,
+    options: BuildOptions,
+    folder: Path,
+    *,
+    is_pair: bool = False,
 ) -> Iterator[Comparison]:
     """Compare each source with the last build, or with `against`: a git revision, or a path from `folder`.
+
+    If `is_pair`, `against` is another source, and only the motion is compared.
 
     A failure does not stop the others. Without a configuration, `against` is required.
     """
@@ -163,7 +190,7 @@ def compare_sources(
         options.progress(robot.name, count, len(robots))
         try:
             if against is not None:
-                yield _with_version(robot, against, config, options, folder)
+                yield _with_version(robot, against, config, options, folder, is_pair=is_pair)
             elif config is not None and result is not None:
                 yield _with_last_build(robot, config, options, result)
         except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
@@ -223,14 +250,14 @@ class _VersionedSource(NamedTuple):
 
 
 def _with_version(
-    robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path
+    robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path, *, is_pair: bool
 ) -> Comparison:
     """Compare a source with another version; the actions ignore edits of the package."""
     domain, result = registry.domain(robot.domain), _result(robot, config)
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
         source = robot.source
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
-        if _is_file(against, source, folder):
+        if is_pair or _is_file(against, source, folder):
             file = folder / against
             text = source_files.read_file_source(domain, file, arguments, folders, robot.options)
             other = _VersionedSource(source_files.with_named_companions(config, robot, text), (file, source))
@@ -250,7 +277,16 @@ def _with_version(
         old, imported_before, _, told_before = _read(domain, robot, other, imported, options)
     known = {(finding.code, finding.message) for finding in told_before}
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
+    if is_pair:
+        old, new = map(Version, domain.in_common_frames(old.snapshot, new.snapshot, matching.renames))
+        matching = Matching(matching.renames)  # no file has the name of a doubtful element
     differences = changes.compare(old, new, domain, robot.options, matching)
+    if is_pair:
+        told = tuple(robot.without_ignored(finding for finding in told if (finding.code, finding.message) not in known))
+        result = msgspec.structs.replace(result, diagnostics=told, changes=differences if differences.changes else None)
+        asked = domain.effects
+        effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
+        return Comparison(result, shown(robot.source), against, effects=effects, is_pair=True)
     judged = judge(domain, new, reading, current.text.name, old, differences)
     judged += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
     new_findings = [current.text.locate(finding) for finding in judged if finding.is_new]

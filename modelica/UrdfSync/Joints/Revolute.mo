@@ -33,6 +33,12 @@ model Revolute "Revolute joint"
     "Damping and dry friction"
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 
+  Modelica.Mechanics.Rotational.Components.Spring spring(
+    c = parameters.dynamics.springStiffness,
+    phi_rel0 = parameters.dynamics.springReference)
+    "Pulls the joint to its reference"
+    annotation (Placement(transformation(extent={{2, 52}, {18, 68}})));
+
   Modelica.Mechanics.Rotational.Components.Inertia inertia(
     J = parameters.dynamics.armature + parameters.transmission.rotorInertia*parameters.transmission.reduction^2,
     stateSelect = StateSelect.avoid)
@@ -66,6 +72,10 @@ equation
     annotation (Line(points={{4, 10}, {4, 20}, {-14, 20}, {-14, 40}, {0, 40}}, color={0, 0, 0}));
   connect(revolute.axis, friction.flange_b)
     annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 40}, {20, 40}}, color={0, 0, 0}));
+  connect(revolute.support, spring.flange_a)
+    annotation (Line(points={{4, 10}, {4, 20}, {-14, 20}, {-14, 60}, {2, 60}}, color={0, 0, 0}));
+  connect(revolute.axis, spring.flange_b)
+    annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 60}, {18, 60}}, color={0, 0, 0}));
   connect(axis, inertia.flange_a)
     annotation (Line(points={{0, 100}, {0, 94}, {46, 94}, {46, 40}, {76, 40}}, color={0, 0, 0}));
 

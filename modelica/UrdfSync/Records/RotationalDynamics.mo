@@ -1,6 +1,6 @@
 within UrdfSync.Records;
 
-record RotationalDynamics "Losses of a turning joint"
+record RotationalDynamics "Losses and spring of a turning joint"
   extends UrdfSync.Icons.Parameters;
 
   Modelica.Units.SI.RotationalDampingConstant damping(min = 0) = 0
@@ -26,6 +26,12 @@ record RotationalDynamics "Losses of a turning joint"
 
   Modelica.Units.SI.Inertia armature = 0
     "Inertia that the drive adds at the joint";
+
+  Modelica.Units.SI.RotationalSpringConstant springStiffness(min = 0) = 0
+    "Stiffness of the spring of the joint";
+
+  Modelica.Units.SI.Angle springReference = 0
+    "Position at which the spring is relaxed";
 
   annotation (Documentation(info="<html>
 <p>

@@ -1,6 +1,6 @@
 within UrdfSync.Records;
 
-record SlidingLosses "Losses of all joints that slide"
+record SlidingLosses "Losses and springs of all joints that slide"
   extends UrdfSync.Icons.Parameters;
 
   Modelica.Units.SI.TranslationalDampingConstant damping[:] = fill(0, 0)
@@ -11,6 +11,12 @@ record SlidingLosses "Losses of all joints that slide"
 
   UrdfSync.Types.TranslationalSteepness steepness[:] = fill(0, 0)
     "How sharply the dry friction changes its sign around standstill";
+
+  Modelica.Units.SI.TranslationalSpringConstant springStiffness[:] = zeros(size(damping, 1))
+    "Stiffness of the springs";
+
+  Modelica.Units.SI.Position springReference[:] = zeros(size(damping, 1))
+    "Positions at which the springs are relaxed";
 
   annotation (Documentation(info="<html>
 <p>

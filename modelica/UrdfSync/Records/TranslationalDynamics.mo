@@ -1,6 +1,6 @@
 within UrdfSync.Records;
 
-record TranslationalDynamics "Losses of a sliding joint"
+record TranslationalDynamics "Losses and spring of a sliding joint"
   extends UrdfSync.Icons.Parameters;
 
   Modelica.Units.SI.TranslationalDampingConstant damping(min = 0) = 0
@@ -26,6 +26,12 @@ record TranslationalDynamics "Losses of a sliding joint"
 
   Modelica.Units.SI.Mass armature = 0
     "Mass that the drive adds at the joint";
+
+  Modelica.Units.SI.TranslationalSpringConstant springStiffness(min = 0) = 0
+    "Stiffness of the spring of the joint";
+
+  Modelica.Units.SI.Position springReference = 0
+    "Position at which the spring is relaxed";
 
   annotation (Documentation(info="<html>
 <p>

@@ -1,6 +1,6 @@
 within UrdfSync.Records;
 
-record TurningLosses "Losses of all joints that turn"
+record TurningLosses "Losses and springs of all joints that turn"
   extends UrdfSync.Icons.Parameters;
 
   Modelica.Units.SI.RotationalDampingConstant damping[:] = fill(0, 0)
@@ -11,6 +11,12 @@ record TurningLosses "Losses of all joints that turn"
 
   UrdfSync.Types.RotationalSteepness steepness[:] = fill(0, 0)
     "How sharply the dry friction changes its sign around standstill";
+
+  Modelica.Units.SI.RotationalSpringConstant springStiffness[:] = zeros(size(damping, 1))
+    "Stiffness of the springs";
+
+  Modelica.Units.SI.Angle springReference[:] = zeros(size(damping, 1))
+    "Positions at which the springs are relaxed";
 
   annotation (Documentation(info="<html>
 <p>

@@ -281,7 +281,7 @@ protected
     "Visuals of the links";
 
   UrdfSync.Types.JointEffort loss[n]
-    "Efforts that damping and dry friction take";
+    "Efforts that damping, dry friction and springs take";
 
   UrdfSync.Types.JointEffort followerLoad[nFollowers + 1]
     "Loads of the joints that follow others";
@@ -311,12 +311,14 @@ equation
 
   for k in 1:data.turningJoints loop
     loss[data.turning[k]] = data.turningLosses.damping[k]*v[data.turning[k]]
-      + data.turningLosses.friction[k]*tanh(0.5*data.turningLosses.steepness[k]*v[data.turning[k]]);
+      + data.turningLosses.friction[k]*tanh(0.5*data.turningLosses.steepness[k]*v[data.turning[k]])
+      + data.turningLosses.springStiffness[k]*(q[data.turning[k]] - data.turningLosses.springReference[k]);
   end for;
 
   for k in 1:data.slidingJoints loop
     loss[data.sliding[k]] = unitLength*(data.slidingLosses.damping[k]*unitLength*v[data.sliding[k]]
-      + data.slidingLosses.friction[k]*tanh(0.5*data.slidingLosses.steepness[k]*unitLength*v[data.sliding[k]]));
+      + data.slidingLosses.friction[k]*tanh(0.5*data.slidingLosses.steepness[k]*unitLength*v[data.sliding[k]])
+      + data.slidingLosses.springStiffness[k]*(unitLength*q[data.sliding[k]] - data.slidingLosses.springReference[k]));
   end for;
 
   for k in 1:data.rotationalAxes loop
@@ -372,7 +374,9 @@ stop for it: leave all shapes out by <code>animation = false</code>. Their numbe
 <i>Losses and mimic joints.</i> The equations of motion give <code>effort</code>, torque in N.m or force in N, of each joint. The drives have to give more:
 </p>
 <pre>
-load  = effort + d*v + f_d*tanh(s*v/2) + sum(k*load_follower)     d, f_d, s: damping, dry friction, steepness
+load  = effort + d*v + f_d*tanh(s*v/2) + c*(q - q_0) + sum(k*load_follower)
+                                                                  d, f_d, s: damping, dry friction, steepness
+                                                                  c, q_0: stiffness, reference of the spring
 q     = k*q_leader + c                                            of a joint that follows; k, c: multiplier, offset
 drive = load                                                      of a joint that does not follow
 </pre>

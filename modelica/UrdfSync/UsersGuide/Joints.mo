@@ -63,6 +63,16 @@ under load an axis creeps. <a href=\"modelica://UrdfSync.Friction\">Other laws</
 A planar joint has one component, with the same two numbers, per direction of motion.
 A <a href=\"modelica://UrdfSync.Friction.Ball\">ball</a> has damping against its relative angular velocity, and no dry friction.
 </p>
+<h4>Springs</h4>
+<p>
+Where the URDF states a <code>springStiffness</code> <code>c</code>, a spring sits between <code>support</code> and <code>axis</code>. It is relaxed at <code>springReference</code>:
+</p>
+<blockquote><pre>
+tau = -c*(phi - phi_0)
+</pre></blockquote>
+<p>
+The stiffness is in N&middot;m/rad for turning and N/m for sliding joints. A spring of a joint that follows acts back on the leader.
+</p>
 <h4>Mimic</h4>
 <p>
 A joint with a <code>&lt;mimic&gt;</code> element follows another joint, its leader. A

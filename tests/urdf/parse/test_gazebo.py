@@ -94,8 +94,8 @@ def read_notes(element: str) -> tuple[list[str], list[str]]:
      "link 'arm' has no weight in Gazebo, but has it in the model"),
     ("<gazebo reference='arm'><gravity value='0'/></gazebo>",
      "link 'arm' has no weight in Gazebo, but has it in the model"),
-    ("<gazebo reference='elbow'><springStiffness>5</springStiffness></gazebo>",
-     "springStiffness 5 of 'elbow' acts in Gazebo, but not in the model"),
+    ("<gazebo reference='elbow'><dampingFactor>5</dampingFactor></gazebo>",
+     "dampingFactor 5 of 'elbow' acts in Gazebo, but not in the model"),
     ("<force_element name='s'><torsional_spring/></force_element>",
      "<force_element> s acts between links in Gazebo, and is left out of the model"),
 ])  # fmt: skip
@@ -103,6 +103,52 @@ def test_what_changes_the_motion_is_a_warning(element: str, words: str) -> None:
     (warning,), notes = read_notes(element)
     assert warning.startswith(f"a.urdf:6: warning: {words}; ")
     assert len(notes) == 1, "with its line, as all that is in no model"
+
+
+SPRING = "<gazebo reference='elbow'><springStiffness>5</springStiffness>{}</gazebo>"
+
+
+@pytest.mark.parametrize(("inside", "elements", "expected"), [
+    ("", [SPRING.format("")], (5.0, None)),
+    ("", [SPRING.format("<springReference value='0.5'/>")], (5.0, 0.5)),
+    ("", [SPRING.format(""), "<gazebo reference='elbow'><springReference>-1</springReference></gazebo>"], (5.0, -1.0)),
+    ("<dynamics spring_stiffness='3' spring_reference='0.2'/>", [], (3.0, 0.2)),
+    ("<axis xyz='1 0 0'><dynamics><spring_stiffness>3</spring_stiffness></dynamics></axis>", [], (3.0, None)),
+])  # fmt: skip
+def test_a_spring_is_read(inside: str, elements: list[str], expected: tuple[float, float | None]) -> None:
+    elbow = joint("elbow", "continuous", "base", "arm", inside=[inside])
+    found = read_robot(robot(link("base"), link("arm", 1.0), elbow, *elements).encode(), "a.urdf")
+    assert found.robot is not None
+    dynamics = found.robot.joints[0].dynamics
+    assert dynamics is not None
+    assert (dynamics.spring_stiffness, dynamics.spring_reference) == expected
+    assert {entry.code for entry in found.diagnostics} <= {"sdf-spelling"}
+
+
+@pytest.mark.parametrize(("inside", "element", "code", "words"), [
+    ("<dynamics spring_stiffness='3'/>", SPRING.format(""), "duplicate-element",
+     "joint elbow: the spring_stiffness of its <dynamics> counts, not the <springStiffness> of <gazebo>"),
+    ("", SPRING.format("") + SPRING.replace("5", "6").format(""), "duplicate-element",
+     "joint elbow: springStiffness 6 contradicts 5, the first value, which counts"),
+    ("", SPRING.replace("5", "nan").format(""), "bad-spring",
+     "joint elbow: <springStiffness> 'nan' is not a decimal number"),
+    ("", SPRING.replace("5", "-5").format(""), "negative-dynamics",
+     "joint elbow: the spring stiffness -5 is negative"),
+    ("<dynamics spring_reference='0.5'/>", "", "dynamics-without-effect",
+     "joint elbow: the spring reference 0.5 has no effect without a stiffness"),
+])  # fmt: skip
+def test_a_spring_that_can_hardly_be_meant_is_told(inside: str, element: str, code: str, words: str) -> None:
+    elbow = joint("elbow", "continuous", "base", "arm", inside=[inside])
+    found = read_robot(robot(link("base"), link("arm", 1.0), elbow, element).encode(), "a.urdf")
+    assert [(entry.code, entry.message) for entry in found.diagnostics] == [(code, words)]
+
+
+@pytest.mark.parametrize("kind", ["fixed", "floating", "ball", "planar"])
+def test_a_spring_needs_a_joint_with_one_freedom(kind: str) -> None:
+    elbow = joint("elbow", kind, "base", "arm")
+    found = read_robot(robot(link("base"), link("arm", 1.0), elbow, SPRING.format("")).encode(), "a.urdf")
+    words = f"joint elbow: spring stiffness of <dynamics> can't act on a {kind} joint"
+    assert [entry.message for entry in found.diagnostics if entry.code == "dynamics-without-effect"] == [words]
 
 
 @pytest.mark.parametrize("part", [
@@ -114,7 +160,7 @@ def test_gravity_that_is_not_switched_off_is_modelled(part: str) -> None:
 
 @pytest.mark.parametrize("element", [
     "<gazebo reference='base'><turnGravityOff>true</turnGravityOff></gazebo>",
-    "<gazebo reference='elbow'><springStiffness>0</springStiffness></gazebo>",
+    "<gazebo reference='elbow'><dampingFactor>0</dampingFactor></gazebo>",
     "<gazebo reference='arm'><dampingFactor>none</dampingFactor></gazebo>",
     "<gazebo reference='arm'><material>Gazebo/Red</material></gazebo>",
 ])  # fmt: skip

@@ -122,7 +122,7 @@ LINES = {
     "components": ('<axis y="1"/>', "perhaps 'xyz' is meant"),
     "limits by other names": ('<limit lo="-1" effort="1" velocity="1"/>', "URDF has lower, upper, effort, velocity"),
     "a unit": ('<origin xyz="0 0 1" unit="mm"/>', "URDF has xyz, rpy there"),
-    "a spring": ('<dynamics damping="1" stiffness="3"/>', "URDF has damping, friction, armature"),
+    "a spring": ('<dynamics damping="1" stiffness="3"/>', "perhaps 'spring_stiffness' is meant"),
     "an element by another name": ('<losses damping="3"/>', "perhaps <dynamics> is meant"),
 }
 

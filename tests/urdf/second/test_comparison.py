@@ -82,14 +82,19 @@ GEAR = (
 GROUND = '<gazebo reference="arm"><mu1>0.8</mu1><mu2>0.3</mu2><kp>1000</kp><kd>20</kd></gazebo>'
 IMU = '<gazebo reference="hand"><sensor name="imu" type="imu"><pose>1 2 3 0.1 0.2 0.3</pose></sensor></gazebo>'
 WRENCH = '<gazebo reference="shoulder"><sensor name="force" type="force_torque"/></gazebo>'
+PULL = (
+    '<gazebo reference="slide"><springStiffness>90</springStiffness><springReference value="0.2"/>'
+    "<implicitSpringDamper>1</implicitSpringDamper></gazebo>"
+)
 SAFE = '<safety_controller k_velocity="5" k_position="6" soft_lower_limit="-0.5" soft_upper_limit="0.4"/>'
 URDF = urdf(
     *(link("base", 3.0), link("arm", 2.0).replace("</link>", f"{SHAPES}</link>"), link("hand", 0.7), link("tip", 0.1)),
     joint("shoulder", "revolute", "base", "arm", axis="0 1 0",
-          inside=[every_loss(0.5, 0.2, armature=0.01), limit(-1, 2, 3, 40), SAFE, '<calibration rising="0.3"/>']),
+          inside=[every_loss(0.5, 0.2, armature=0.01, spring_stiffness=7.5, spring_reference=0.3), limit(-1, 2, 3, 40),
+                  SAFE, '<calibration rising="0.3"/>']),
     joint("slide", "prismatic", "arm", "hand", axis="1 2 2", inside=[limit(0, 0.5, 0.6, 70)]),
     joint("twist", "revolute", "hand", "tip", axis="0 0 1", inside=[limit(-2, 3), mimic("shoulder", 0.5, 0.1)]),
-    *(CONTROL, GEAR, GROUND, IMU, WRENCH),
+    *(CONTROL, GEAR, GROUND, IMU, WRENCH, PULL),
 )  # fmt: skip
 
 

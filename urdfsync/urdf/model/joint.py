@@ -30,6 +30,7 @@ def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, An
         "dynamics": joint.dynamics is not None,
         "accelerations": limits_acceleration(joint),
         "inertia": inertia is not None,
+        "spring": joint.dynamics is not None and joint.dynamics.spring_stiffness is not None,
         "motor": with_motor,
         "sharing": sharing,
         "friction": friction_law(joint, options),

@@ -176,7 +176,8 @@ def _limits(joints: Sequence[_Named], has_accelerations: bool) -> dict[str, Any]
 
 def _losses(joints: Sequence[_Named]) -> dict[str, Any]:
     """Return the columns of the losses of joints: those of the laws, and those that a source gives."""
-    given = [name for name in LOSSES if any(getattr(one.joint.dynamics, name, None) is not None for one in joints)]
+    columns = (*LOSSES, "spring_stiffness", "spring_reference")
+    given = [name for name in columns if any(getattr(one.joint.dynamics, name, None) is not None for one in joints)]
     names = dict.fromkeys(("damping", "friction", "steepness", *map(camel, given))) if joints else ()
     return {name: _column(joints, f"dynamics.{name}", 8) for name in names}
 

@@ -1,4 +1,4 @@
-"""Reads the contact properties of links, and warns of elements that change the motion but are not modelled.
+"""Reads the contacts of links and the springs of joints, and warns of elements that only change the motion elsewhere.
 
 Gazebo, SDFormat and Bullet each have their own form of contact properties.
 """
@@ -22,6 +22,8 @@ _IN_GAZEBO = {
 }
 _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "kd": ("contact/damping",)}
 """Fields of `Contact`, with the paths of their elements in `<gazebo>` and in links."""
+_SPRINGS = {"spring_stiffness": "springStiffness", "spring_reference": "springReference"}
+"""Fields of `Dynamics`, with their elements in `<gazebo>`."""
 
 FORCES = re.compile("force|cable|spring|damper|bushing|tendon")
 """Elements of Drake and MuJoCo with forces between the links of a robot."""
@@ -66,6 +68,31 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
     return {name: Contact(**numbers) for name, numbers in contacts.items() if numbers}
 
 
+def read_springs(reader: Reader, root: Element) -> Mapping[str, Mapping[str, float]]:
+    """Return the springs that Gazebo's elements give to joints: fields of `Dynamics` by name of the joint.
+
+    The first number of each field counts. A faulty number is left out, with a warning.
+    """
+    stated = {joint.get("name", ""): joint.find("dynamics") for joint in root.iterfind("joint")}
+    springs = dict[str, dict[str, float]]()
+    for gazebo in root.iterfind("gazebo"):
+        if (name := gazebo.get("reference", "")) not in stated:
+            continue
+        for field, tag in _SPRINGS.items():
+            (number,) = reader.numbers(gazebo, (tag,), f"joint {name}", "bad-spring") or (None,)
+            dynamics = stated[name]
+            if number is None:
+                continue
+            if dynamics is not None and field in dynamics.attrib:
+                message = f"joint {name}: the {field} of its <dynamics> counts, not the <{tag}> of <gazebo>"
+                reader.add(gazebo, "duplicate-element", message)
+            elif springs.setdefault(name, {}).setdefault(field, number) != number:
+                first = springs[name][field]
+                message = f"joint {name}: {tag} {number:g} contradicts {first:g}, the first value, which counts"
+                reader.add(gazebo, "duplicate-element", message)
+    return springs
+
+
 def warn_of_left_out(reader: Reader, root: Element) -> None:
     """Add a warning for each element that changes the motion but is not modelled."""
     links = {link.get("name", ""): link for link in root.iterfind("link")}
@@ -79,7 +106,7 @@ def warn_of_left_out(reader: Reader, root: Element) -> None:
                     reader.used.add(part)
                 elif name in links and links[name].find("inertial") is not None:
                     reader.add(part, "gravity-off", f"link {name!r} has no weight in Gazebo, but has it in the model")
-            elif part.tag in ("springStiffness", "dampingFactor"):
+            elif part.tag == "dampingFactor":
                 with contextlib.suppress(ValueError):  # Gazebo also ignores a text that is no number
                     if float(text):
                         what = f"{part.tag} {text} of {name!r} acts in Gazebo, but not in the model"

@@ -25,11 +25,11 @@ from urdfsync.urdf.parse.closures import Closures, read_closures
 from urdfsync.urdf.parse.drives import Drive, configured_drives, read_drives, read_motors, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
-from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
+from urdfsync.urdf.parse.gazebo import read_contacts, read_springs, warn_of_left_out
 from urdfsync.urdf.parse.loops import TAGS, read_loops, tell_foreign_loops
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.parse.translated import TRANSLATED, read_translated
-from urdfsync.urdf.robot import Contact, Joint, Link, Material, Robot
+from urdfsync.urdf.robot import Contact, Dynamics, Joint, Link, Material, Robot
 
 _MODELLED = ("link", "joint", "material")
 _DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint"})
@@ -244,12 +244,20 @@ def _read_parts(
         read_link(reader, element, path, contacts.get(element.get("name", ""))) for element, path in elements("link")
     ]
     given = {name: row.cells.keys() for name, row in rows.items()}
+    springs = read_springs(reader, root)
     joints = [
         read_joint(reader, element, path, given.get(element.get("name", ""), ())) for element, path in elements("joint")
     ]
+    joints = [joint and _with_spring(joint, springs.get(joint.name, {})) for joint in joints]
     named_links, named_joints = [link for link in links if link.name], [each for each in joints if each and each.name]
     complete = len(named_links) == len(links) and len(named_joints) == len(joints)
     return _Parts(named_links, named_joints, drives, materials, complete)
+
+
+def _with_spring(joint: Joint, spring: Mapping[str, float]) -> Joint:
+    """Return a joint with numbers of its spring."""
+    dynamics = joint.dynamics or Dynamics()
+    return msgspec.structs.replace(joint, dynamics=msgspec.structs.replace(dynamics, **spring)) if spring else joint
 
 
 def _with_materials(

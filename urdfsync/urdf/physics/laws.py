@@ -86,11 +86,14 @@ def _declarations(k: int, model: str, joint: Element, laws: str) -> Iterator[str
     kind, q = ("Rotational", "phi") if is_turning else ("Translational", "s")
     light = 1e-4 * _DEFAULTS[is_turning]["stiffness"] if "spring" in laws else 1e-6
     own = ["checkLimits = false", f"fixedStart = {str(is_pushed).lower()}"]
+    changed = ["springStiffness = 0"] * ("dynamics.springStiffness" in joint.values)  # it stores energy, too
     if joint.friction in ("stiction", "lugre"):
         dry = joint.number("dynamics.friction")
-        own.append(f"parameters(dynamics(breakaway = {_BREAKAWAY * dry!r}))")
+        changed.append(f"breakaway = {_BREAKAWAY * dry!r}")
         yield f"UrdfSync.Records.{kind}Dynamics default{k}(friction = {dry!r})"
         light = _BREAKAWAY * dry if is_pushed else light
+    if changed:
+        own.append(f"parameters(dynamics({', '.join(changed)}))")
     if "saturated" in laws:
         effort, velocity = _limits(joint)
         stroke = velocity / 2 if 0 < velocity < _ENDLESS else stroke

@@ -50,6 +50,8 @@ class PinocchioRobot(NamedTuple):
     """Mimic relations by names of followers."""
     rotors: Array
     """The part of the rotors in the mass matrix: Pinocchio's `armature` can't couple two joints."""
+    springs: Array
+    """Stiffness and reference of the spring at each coordinate of the velocity: Pinocchio has no springs."""
 
 
 def read(
@@ -96,18 +98,20 @@ def read(
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
     model = _with_balls(pin, model, balls) if balls else model
     gears, rotors = read_gears(root, rows or {}), np.zeros((model.nv, model.nv))
+    springs = np.zeros((2, model.nv))
     for joint in root.findall("joint"):
-        name, armature = joint.get("name", ""), joint.find("dynamics[@armature]")
+        name = joint.get("name", "")
         if model.existJointName(name) and (coordinates := model.joints[model.getJointId(name)]).nv == 1:
-            gear = gears.get(name, Gear())
-            added = 0.0 if armature is None else float(armature.get("armature", "0"))
-            model.armature[coordinates.idx_v] = added
+            gear, stated = gears.get(name, Gear()), joint.find("dynamics")
+            attributes = ("armature", "spring_stiffness", "spring_reference")
+            for numbers, attribute in zip((model.armature, *springs), attributes, strict=True):
+                numbers[coordinates.idx_v] = 0.0 if stated is None else float(stated.get(attribute, "0"))
             ways = np.zeros(model.nv)
             ways[coordinates.idx_v] = gear.reduction
             if gear.joint:
                 ways[model.joints[model.getJointId(gear.joint)].idx_v] = gear.joint_reduction
             rotors += (gear.rotor or 0.0) * np.outer(ways, ways)
-    return PinocchioRobot(model, followers, rotors)
+    return PinocchioRobot(model, followers, rotors, springs)
 
 
 def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
@@ -160,7 +164,7 @@ class Reference:
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
         """The names of the independent joints. Ball joints come last, and turn about `motion.TURN_AXIS`."""
-        self.rotors = robot.rotors
+        self.rotors, self.springs = robot.rotors, robot.springs
         balls = [joint for joint in self.model.joints if joint.shortname() == "JointModelSpherical"]
         self._balls, self._scalars = [joint.idx_v + k for joint in balls for k in range(3)], len(axes) - len(balls)
         self.projection, self._offset = self._mimic(robot, self.axes)
@@ -246,8 +250,10 @@ class Reference:
         return np.asarray(self.pin.crba(self.model, self.model.createData(), q)) + self.rotors
 
     def load(self, data: Any, state: Configuration, a: Array) -> Array:
-        """Return the efforts of all coordinates, including losses, for a configuration with accelerations `a`."""
-        return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.rotors @ a + self.losses(state.v))
+        """Return the efforts of all coordinates, with losses and springs, for a state with accelerations `a`."""
+        stiffness, reference = self.springs
+        own = self.losses(state.v) + stiffness * (state.positions - reference)
+        return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.rotors @ a + own)
 
     @staticmethod
     def _solved(mass: Array, efforts: Array) -> Array:

@@ -6,6 +6,7 @@ the ten inertial parameters of each moving body; a link that is fixed to a body 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 from xml.etree.ElementTree import SubElement, tostring
@@ -73,6 +74,7 @@ def _edited(content: bytes, edits: Mapping[tuple[str, str], Mapping[str, tuple[f
             for tag in (_TAGS.get(place, place) for place in places):
                 child = element.find(tag)
                 element = SubElement(element, tag) if child is None else child
+            attribute = re.sub("[A-Z]", lambda capital: f"_{capital[0].lower()}", attribute)
             element.set(attribute, " ".join(map(repr, numbers)))
     return tostring(root)
 

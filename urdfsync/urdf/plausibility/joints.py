@@ -150,7 +150,8 @@ def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping
         x, y, z = moments[joint.parent]
         moments[joint.parent] = x + moment[0], y + moment[1], z + moment[2]
         effort = joint.limit.effort if joint.limit and not joint.mimic else None
-        if not effort or not (joint.actuated or not are_told):
+        has_spring = joint.dynamics is not None and joint.dynamics.spring_stiffness
+        if not effort or has_spring or not (joint.actuated or not are_told):  # a spring may carry the weight
             continue
         turns = MOTION_KINDS.get(joint.type) == "rotational"
         least = _least_load(joint, mass, moment, poses[joint.child], starts[joint.name])

@@ -19,7 +19,10 @@ from urdfsync.urdf.second.companions import PATHS, Companions
 
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
 """Elements whose text SDFormat uses instead of an attribute."""
-_NAMES = "xyz lower upper effort velocity damping friction multiplier offset ixx ixy ixz iyy iyz izz size radius length"
+_NAMES = (
+    "xyz lower upper effort velocity damping friction spring_stiffness spring_reference multiplier offset "
+    "ixx ixy ixz iyy iyz izz size radius length"
+)
 """Elements that SDFormat uses instead of an attribute of the parent element."""
 
 
@@ -77,6 +80,14 @@ def plain_root(content: bytes, joints: Collection[str] | None = None, companions
         for name, text in texts.items():
             if name not in element.attrib and (text or "").strip():
                 element.set(name, text.strip())
+    for number in root.xpath("gazebo/springStiffness | gazebo/springReference"):
+        field = f"spring_{number.tag.removeprefix('spring').lower()}"
+        for joint in root.xpath("joint[@name=$name]", name=number.getparent().get("reference", "")):
+            if (part := joint.find("dynamics")) is None:
+                part = etree.SubElement(joint, "dynamics")
+                part.sourceline = joint.sourceline
+            if field not in part.attrib:
+                part.set(field, (number.get("value") or number.text or "").strip())
     for name, row in companions.rows.items():
         for number, size in row.numbers.items():
             tag = PATHS[number].partition(".")[0].replace("limits", "limit")

@@ -38,6 +38,8 @@ _LOSSES = {
     "ball": ("damping",),
 }
 """Paths of damping and friction in the records, by type of joint."""
+_OF_DYNAMICS = {"armature": "armature", "springStiffness": "spring_stiffness", "springReference": "spring_reference"}
+"""Numbers of the records of axes that records leave out if the source does, with their attributes in `<dynamics>`."""
 _SHAPES = {"box": "size", "cylinder": "radius length", "capsule": "radius length", "sphere": "radius", "mesh": ""}
 _WHEEL = re.compile("(left|right)((Front|Rear)?Joint|_joint)")
 _SENSORS = {
@@ -379,8 +381,9 @@ def _put_axis(joint: Element, element: Any, version: tuple[int, ...]) -> None:
     for field in ("acceleration", "deceleration", "jerk"):
         if limit is not None and (numbers := _numbers(own.get(field))):
             joint.put(f"limits.{field}", numbers, at)
-    if (armature := _at(element, "dynamics@armature")) is not None:
-        joint.put("dynamics.armature", armature, element.find("dynamics"))
+    for field, attribute in _OF_DYNAMICS.items():
+        if (number := _at(element, f"dynamics@{attribute}")) is not None:
+            joint.put(f"dynamics.{field}", number, element.find("dynamics"))
     for tag, group, fields, default in (
         ("calibration", "calibration", "rising falling", INF),
         ("safety_controller", "safetyController", "k_velocity k_position soft_lower_limit soft_upper_limit", 0.0),
