@@ -54,7 +54,7 @@ def test_init_guesses_the_options(folder: Path, execute: Execute) -> None:
 
 
 def test_a_spring_of_a_ball_stops_a_build_unless_it_is_allowed(project: Path, execute: Execute) -> None:
-    edit('name="elbow" axis="0 1 0"', 'name="elbow" type="ball" stiffness="3"')
+    edit('name="elbow" axis="0 1 0" armature="0.1"', 'name="elbow" type="ball"')
     with unchanged(project):
         told = execute("build", code=2).err
     assert "mjcf/arm.xml:7: error: spring elbow: this acts on the robot, but no model has it" in told

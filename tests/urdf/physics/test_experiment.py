@@ -163,6 +163,13 @@ def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> No
     assert experiment(ARM).laws is None
 
 
+def test_a_law_is_tried_without_the_spring_of_its_joint() -> None:
+    """A spring stores energy, which the law of friction would seem to hand out."""
+    sources = [ARM, ARM.replace("<dynamics ", '<dynamics spring_stiffness="5" ')]
+    trials = [experiment(source, friction={"elbow": "lugre"}).laws for source in sources]
+    assert ["springStiffness = 0" in trial.probe.source for trial in trials if trial] == [False, True]
+
+
 @pytest.mark.parametrize("base", ["fixed", "floating"])
 def test_a_robot_with_loops_is_moved_by_its_states_and_its_loops_are_compared(base: str) -> None:
     one = experiment(to_urdf(FOUR_BAR), **to_options(FOUR_BAR), base=base, approach=("package", "record"))
