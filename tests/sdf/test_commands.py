@@ -32,15 +32,14 @@ def edit(old: str, new: str, file: str = "sdf/arm.sdf") -> None:
 
 
 def test_init_guesses_the_options(folder: Path, execute: Execute) -> None:
-    spring = "<axis><dynamics><spring_stiffness>3</spring_stiffness></dynamics></axis>"
     links = '<link name="base"/><link name="toe"><pose>0 0 1 0 0 0</pose></link>'
     Path("arm.sdf").write_text(ARM)
-    Path("leg.world").write_text(model(links + "\n" + hinge("ankle", "base", "toe", spring), name="leg"))
+    Path("leg.world").write_text(model(links + "\n" + hinge("ankle", "base", "toe", kind="screw"), name="leg"))
     printed = execute("init", "arm.sdf", "leg.world")
     assert 'base = "fixed"  guessed: its root link is named "world"' in printed.out
     assert 'base = "floating"  guessed: its root moves freely' in printed.out
     assert 'allow = ["part-left-out"]  guessed: the model leaves this part out' in printed.out
-    assert "leg.world:3: warning: spring ankle: this acts on the robot, but no model has it" in printed.err
+    assert "leg.world:3: warning: screw joint ankle: this acts on the robot, but no model has it" in printed.err
 
 
 def test_what_no_model_has_stops_a_build_unless_it_is_allowed(project: Path, execute: Execute) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from urdfsync.sdf.frames import Scope
-from urdfsync.sdf.joints import MODEL_AXES, TAGS, Joint, names
+from urdfsync.sdf.joints import MODEL_AXES, TAGS, Joint
 from urdfsync.sdf.urdf import Urdf
 
 _MODEL = frozenset({"link", "joint", "frame", "model", "include", "pose", "static", "plugin"})
@@ -49,9 +49,6 @@ def _add_of_joint(urdf: Urdf, joint: Joint) -> None:
     frame = joint.frame
     if joint.kind in ("screw", "gearbox"):
         urdf.leave_out(f"{joint.kind} joint", frame.name, frame.element)
-    for name, axis in zip(names(joint), joint.axes, strict=False):
-        if axis.stiffness:
-            urdf.leave_out("spring", name, frame.element)
     for part in frame.element:
         if part.tag not in _JOINT:
             urdf.note(part, frame.name)

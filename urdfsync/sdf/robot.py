@@ -78,8 +78,9 @@ def _add_axis(urdf: Urdf, node: Node, joint: Joint, axis: Axis) -> None:
     most = {"effort": axis.effort, "velocity": axis.velocity, "acceleration": axis.acceleration}
     if {lower, upper, *most.values()} != {None}:
         node.add("limit", lower=lower, upper=upper).attributes |= most
-    if axis.damping or axis.friction or axis.armature:
-        node.add("dynamics", damping=axis.damping, friction=axis.friction, armature=axis.armature)
+    spring = {"spring_stiffness": axis.stiffness, "spring_reference": axis.reference or None} if axis.stiffness else {}
+    if axis.damping or axis.friction or axis.armature or spring:
+        node.add("dynamics", damping=axis.damping, friction=axis.friction, armature=axis.armature).attributes |= spring
     if axis.mimic:
         node.add("mimic", **axis.mimic)
 
