@@ -19,7 +19,7 @@ from support.commands import Execute
 from support.documents import is_described
 
 from urdfsync import cli, config
-from urdfsync.checks.experiment import Deviation, Difference, Numbers, Part, Quantity
+from urdfsync.checks.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.checks.results import (
     CheckResult,
     CheckStatus,
@@ -39,7 +39,7 @@ from urdfsync.output.documents import JSON_VERSION
 from urdfsync.simulation import results as simulation
 from urdfsync.simulation.cases import Cases
 from urdfsync.simulation.export import Exported
-from urdfsync.simulation.fmu import Trial
+from urdfsync.simulation.fmu import FmuTrial
 from urdfsync.simulation.models import Input
 from urdfsync.simulation.outcomes import Extent, JointName, JointOutcome, Outcome, Study
 from urdfsync.simulation.results import SimulateResult
@@ -267,7 +267,7 @@ def checked() -> CheckResult:
     hand = Deviation(Quantity.POSITION, "link tip", math.inf, 0.5, 0.5, "m")
     swing = Deviation(Quantity.EFFORT, "joint hold", 0.025, 1.25, 1.25, "N·m")
     exact = msgspec.structs.replace(swing, difference=2.5e-16)
-    differing = Difference("joint hold", "limits.effort", "130", "150", "Joints/HoldParameters.mo", 12, "arm.urdf", 34)
+    differing = Mismatch("joint hold", "limits.effort", "130", "150", "Joints/HoldParameters.mo", 12, "arm.urdf", 34)
     return CheckResult(
         "arm",
         "Arm",
@@ -317,7 +317,7 @@ def simulated() -> SimulateResult:
     joint = simulation.JointResult("joint hold", "robot", position, speed, passed=(passed,))
     series = {"time": (0.0, 0.5, 1.0)}
     loop = simulation.LoopResult("loop pin", "robot", 1e-9, 12.0, 0.0)
-    difference = simulation.Difference("position", "rad", 0.25, 0.5, 0.0, 1.0)
+    difference = simulation.QuantityDifference("position", "rad", 0.25, 0.5, 0.0, 1.0)
     differing = simulation.JointDifference("joint hold", "robot", "joint grip", (difference,))
     against = simulation.Against("HEAD~1", (differing,), ("joint lift",))
     numbers = "arm", "Arm.ArmTest", 1.0, 0.5, 1e-6
@@ -369,7 +369,7 @@ def test_fmu(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) ->
     cli.main(["init", "arm.urdf"])
     inputs, tool = (Input("hold_phi", "rad"),), "OpenModelica 1.27.0"
     exported = Exported(b"1234", "Arm.ArmRun", "Arm_ArmRun", inputs, 1.0, 0.002, 1e-10, tool, (), 12.5)
-    trial = Trial((), {"me": 2.5e-9, "cs": 4e-8}, {"me": "hold_tau", "cs": "hold_tau"}, 3)
+    trial = FmuTrial((), {"me": 2.5e-9, "cs": 4e-8}, {"me": "hold_tau", "cs": "hold_tau"}, 3)
     monkeypatch.setattr("urdfsync.commands.fmu.export", lambda *_, **__: exported)
     monkeypatch.setattr("urdfsync.commands.fmu.try_out", lambda *_: trial)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
@@ -381,7 +381,7 @@ def test_library(folder: Path, execute: Execute) -> None:
 
 
 def test_values_that_are_one_of_a_few_are_all_named(execute: Execute) -> None:
-    few = (*Kind, *Role, *FileStatus, *ChangeKind, *ChangeClass, *CheckStatus, *Quantity, *Part)
+    few = (*Kind, *Role, *FileStatus, *ChangeKind, *ChangeClass, *CheckStatus, *Quantity, *Aspect)
     schemas = execute("schema", "build").out + execute("schema", "check").out
     assert all(f'"{word}"' in schemas for word in few)
     assert {f"`{word}`" for word in Checked} <= set(re.findall(r"`[\w -]+`", PAGE))

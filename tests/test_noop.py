@@ -146,7 +146,7 @@ def test_the_result_of_a_table_of_10_000_rows_is_remembered(folder: Path) -> Non
     """It has 20,000 actions, in 9 MB."""
     result = os.urandom(9_000_000)
     time.sleep(0.1)
-    record.Record("key", record.FactList(), ["in step"], result).save(".urdfsync", "motors.robot")
+    record.DependencyRecord("key", record.FactList(), ["in step"], result).save(".urdfsync", "motors.robot")
     found = record.load(".urdfsync", "motors.robot")
     assert found is not None
     assert found.result == result
@@ -301,7 +301,7 @@ def test_once_its_files_are_old_stat_values_tell(folder: Path, monkeypatch: pyte
     assert remembered_robot("leg")
 
 
-def loaded(robot: str) -> record.Record:
+def loaded(robot: str) -> record.DependencyRecord:
     found = record.load(".urdfsync", f"{robot}{noop.ROBOT}")
     assert found is not None
     return found

@@ -13,7 +13,7 @@ import sys
 
 from urdfsync import streams
 from urdfsync.dependencies import record
-from urdfsync.dependencies.record import FactList, Record
+from urdfsync.dependencies.record import DependencyRecord, FactList
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 25 ms
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ _STYLES = {"bold": "1", "dim": "2", "green": "32"}
 """What rich writes for these styles."""
 
 
-class Request:
+class CommandLine:
     """A command line that this module understands."""
 
     def __init__(self, arguments: Sequence[str]) -> None:
@@ -85,7 +85,7 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str, int]] | No
     Returns None if the command has to run.
     """
     try:
-        request, file = Request(arguments), find_config(arguments)
+        request, file = CommandLine(arguments), find_config(arguments)
     except ValueError:
         return None
     if file is None:
@@ -145,7 +145,7 @@ def answer(arguments: Sequence[str]) -> str | None:
     if sys.stdout is None or sys.stderr is None or (lines := find_lines(arguments)) is None:
         return None
     with streams.SafeStreams() as output:
-        if not Request(arguments).quiet:
+        if not CommandLine(arguments).quiet:
             marks = [("✓ ", "green")] if streams.has_marks(output) else []
             for robot, summary, findings, _ in lines if len(lines) <= MANY else ():
                 _write(output, *marks, (robot, "bold"), (f": {summary}", ""))
@@ -181,4 +181,5 @@ def remember(config_file: str, reads: Reads, keys: Mapping[str, str]) -> None:
     """Remember what reading a configuration without warnings has read, and the keys of its robots' records."""
     if reads.complete:
         words = [word for entry in keys.items() for word in entry]
-        Record(record.surroundings(), FactList.of(reads), words).save(_state_folder(config_file), _name(config_file))
+        made = DependencyRecord(record.surroundings(), FactList.of(reads), words)
+        made.save(_state_folder(config_file), _name(config_file))

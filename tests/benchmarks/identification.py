@@ -28,7 +28,7 @@ import urdfsync  # noqa: E402
 from urdfsync import cli  # noqa: E402
 from urdfsync.engine.options import no_progress  # noqa: E402
 from urdfsync.identification import run, signals  # noqa: E402
-from urdfsync.identification.fit import Fit, Problem, pseudo_inertia  # noqa: E402
+from urdfsync.identification.fit import Fit, LeastSquares, pseudo_inertia  # noqa: E402
 from urdfsync.identification.records import Records, read_records  # noqa: E402
 from urdfsync.identification.results import Array, IdentifyOptions  # noqa: E402
 
@@ -119,7 +119,7 @@ def _prediction_errors(other: run.Measured, delay: float, delta: Array) -> Array
     return np.array([joint.after for joint in fits])
 
 
-def _base_parameters(problem: Problem, found: run.Measured, fit: Fit) -> dict[str, Array]:
+def _base_parameters(problem: LeastSquares, found: run.Measured, fit: Fit) -> dict[str, Array]:
     """Return the combinations of parameters that a log determines, by the name of their first number.
 
     A column of the derivatives that is a combination of others joins theirs (Gautier 1991). Losses come first.

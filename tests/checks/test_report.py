@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.checks.experiment import Deviation, Difference, Numbers, Part, Quantity
+from urdfsync.checks.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.checks.report import closing_lines
 from urdfsync.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
 from urdfsync.commands.check import show_result
@@ -24,7 +24,7 @@ COMPILED = (CompiledModel("Arm", 1000), CompiledModel("ArmRun", 1204), CompiledM
 
 
 def load(element: str, difference: float, value: float, unit: str = "N·m") -> Deviation:
-    return Deviation(Quantity.EFFORT, element, difference, value, 60.0, unit, Part.LOSSES)
+    return Deviation(Quantity.EFFORT, element, difference, value, 60.0, unit, Aspect.LOSSES)
 
 
 AGREEING = (
@@ -34,9 +34,9 @@ AGREEING = (
     load("joint wrist", 4.2e-14, 2.0),
     Deviation(Quantity.MASS, "robot", 0.0, 25.0, 25.0, "kg"),
     Deviation(Quantity.CENTRE, "robot", 1.1e-16, 0.3, 0.3, "m"),
-    Deviation(Quantity.WARNING, "joint elbow", 0.0, 1.0, 1.0, "", Part.LIMITS, "is above its upper position limit"),
+    Deviation(Quantity.WARNING, "joint elbow", 0.0, 1.0, 1.0, "", Aspect.LIMITS, "is above its upper position limit"),
 )
-LIMIT = Difference("joint elbow", "limits.effort", "130", "150", "Joints/ElbowParameters.mo", 12, "arm.urdf", 34)
+LIMIT = Mismatch("joint elbow", "limits.effort", "130", "150", "Joints/ElbowParameters.mo", 12, "arm.urdf", 34)
 BROKEN = Diagnostic(
     Severity.ERROR, "syntax", "the file does not end with `end Wheel;`", "modelica/Cart/Joints/Wheel.mo", 14
 )
@@ -166,7 +166,7 @@ def test_one_robot_needs_no_tally(capsys: Capture) -> None:
 
 @pytest.mark.parametrize(("difference", "word"), [(0.5, "contacts plausible"), (2.0, "contacts differ (robot)")])
 def test_contacts_are_plausible_within_a_hundredth(capsys: Capture, difference: float, word: str) -> None:
-    ground = Deviation(Quantity.GROUND, "robot", difference, 100.0, 100.0, "N", Part.CONTACTS)
+    ground = Deviation(Quantity.GROUND, "robot", difference, 100.0, 100.0, "N", Aspect.CONTACTS)
     first, *others = shown(capsys, msgspec.structs.replace(RIGHT, tools=tools(deviations=(*AGREEING, ground))))
     assert f"; {word};" in first
     told = any("robot: ground force differs from its own numbers by 2 N" in line for line in others)
@@ -177,18 +177,18 @@ def test_contacts_are_plausible_within_a_hundredth(capsys: Capture, difference: 
     ("cause", "effect", "words"),
     [
         (
-            Deviation(Quantity.GRAVITY, "bench", 19.6, 9.81, 9.81, "m/s²", Part.BENCHES),
-            Deviation(Quantity.ACCELERATION, "joint elbow", 5.0, 1.0, 1.0, "rad/s²", Part.FREE_MOTION),
+            Deviation(Quantity.GRAVITY, "bench", 19.6, 9.81, 9.81, "m/s²", Aspect.BENCHES),
+            Deviation(Quantity.ACCELERATION, "joint elbow", 5.0, 1.0, 1.0, "rad/s²", Aspect.FREE_MOTION),
             "bench: gravity differs from its own numbers by 19.6 m/s²",
         ),
         (
-            Deviation(Quantity.LAW, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
-            Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
+            Deviation(Quantity.LAW, "joint elbow", 1.0, 0.0, 0.0, "", Aspect.LOSSES, "lugre"),
+            Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Aspect.LOSSES, "lugre"),
             "joint elbow: the effort of its lugre contradicts its numbers",
         ),
         (
-            Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
-            Deviation(Quantity.GROUND, "robot", 9.0, 1.0, 1.0, "N·m", Part.CONTACTS),
+            Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Aspect.LOSSES, "lugre"),
+            Deviation(Quantity.GROUND, "robot", 9.0, 1.0, 1.0, "N·m", Aspect.CONTACTS),
             "robot: ground torque differs from its own numbers by 9 N·m",
         ),
     ],
@@ -199,7 +199,7 @@ def test_a_cause_is_told_before_its_effects(capsys: Capture, cause: Deviation, e
 
 
 def test_a_law_that_gives_energy_away_is_told_by_its_name(capsys: Capture) -> None:
-    wrong = Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre")
+    wrong = Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Aspect.LOSSES, "lugre")
     _, first, *_ = shown(capsys, msgspec.structs.replace(RIGHT, tools=tools(deviations=(*AGREEING, wrong))))
     assert first.strip().startswith("joint elbow: lugre gives energy away")
 

@@ -7,7 +7,7 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync.checks.experiment import Deviation, Part, Quantity
+from urdfsync.checks.experiment import Aspect, Deviation, Quantity
 from urdfsync.checks.results import (
     CheckResult,
     CheckStatus,
@@ -21,9 +21,9 @@ from urdfsync.checks.results import (
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Exit
 
-ELBOW = Deviation(Quantity.EFFORT, "joint elbow", 0.4, 12.5, 60.0, "N·m", Part.LOSSES)
+ELBOW = Deviation(Quantity.EFFORT, "joint elbow", 0.4, 12.5, 60.0, "N·m", Aspect.LOSSES)
 MASS = Deviation(Quantity.MASS, "robot", 0.0, 25.0, 25.0, "kg")
-GROUND = Deviation(Quantity.GROUND, "robot", 0.5, 100.0, 100.0, "N", Part.CONTACTS)
+GROUND = Deviation(Quantity.GROUND, "robot", 0.5, 100.0, 100.0, "N", Aspect.CONTACTS)
 CHANGED = ToolResult(effects=(EditEffect(("a.mo",), (ELBOW,)),))
 OFF, SAME_MASS = ToolResult(deviations=(ELBOW,)), ToolResult(deviations=(MASS,))
 GAP = "the effect of your edits was not measured: the robot can't be simulated"
@@ -72,9 +72,9 @@ def test_the_exit_code_is_that_of_the_worst(facts: dict[str, Any], code: Exit, s
 
 def test_the_worst_of_a_part_is_that_furthest_beyond_its_tolerance() -> None:
     less = msgspec.structs.replace(ELBOW, element="joint wrist", difference=0.3)
-    assert worst([MASS, less, ELBOW, less]) == {Part.BODIES: MASS, Part.LOSSES: ELBOW}
+    assert worst([MASS, less, ELBOW, less]) == {Aspect.BODIES: MASS, Aspect.LOSSES: ELBOW}
     coarse = msgspec.structs.replace(ELBOW, difference=0.5, least_tolerance=1.0)
-    assert worst([coarse, ELBOW]) == {Part.LOSSES: ELBOW}
+    assert worst([coarse, ELBOW]) == {Aspect.LOSSES: ELBOW}
     result = CheckResult("arm", "Arm", tools=(ToolResult(), CHANGED, OFF))
     assert (result.effects, result.agrees, CheckResult("a", "A").agrees) == (CHANGED.effects, False, None)
     assert CheckResult("arm", "Arm", tools=(SAME_MASS,)).agrees

@@ -16,7 +16,7 @@ from support.modelica import URDFSYNC
 from support.packages import generate
 from support.urdfs import dynamics, every_loss, joint, limit, link, links, mimic, robot
 
-from urdfsync.checks.experiment import Deviation, Part, Quantity
+from urdfsync.checks.experiment import Aspect, Deviation, Quantity
 from urdfsync.domain import Target
 from urdfsync.urdf.robot import LOSSES, SENSOR_KINDS
 
@@ -69,15 +69,15 @@ SOURCE = robot(
 class Fault(NamedTuple):
     """A text of a file that is replaced by another; `part` is what has to differ then, at the least."""
 
-    part: Part
+    part: Aspect
     file: str
     old: str
     new: str
 
 
 B, L, F, R, S, W, G = (
-    *(Part.BODIES, Part.LOSSES, Part.FREE_MOTION, Part.BENCHES),
-    *(Part.SENSORS, Part.LIMITS, Part.CONTACTS),
+    *(Aspect.BODIES, Aspect.LOSSES, Aspect.FREE_MOTION, Aspect.BENCHES),
+    *(Aspect.SENSORS, Aspect.LIMITS, Aspect.CONTACTS),
 )
 POINT = "Contacts/Functions/point.mo"
 SHOULDER, ELBOW, GRIP, HAND = (
@@ -212,7 +212,7 @@ LOOP: Mapping[str, Fault] = {
     "place of a loop's frame": Fault(B, "Joints/YokeParameters.mo", "{0.4, 0, 0}", "{0.4001, 0, 0}"),
     "frame of the other end": Fault(B, "Joints/Yoke.mo", "r = parameters.childOrigin.xyz", "r = parameters.origin.xyz"),
     "axis of a loop": Fault(B, "Joints/YokeParameters.mo", "rotations = [0, 0, 1]", "rotations = [0.28, 0, 0.96]"),
-    "torque of a loop": Fault(Part.LOOPS, "Joints/Yoke.mo", "t = constraint.t", "t = -constraint.t"),
+    "torque of a loop": Fault(Aspect.LOOPS, "Joints/Yoke.mo", "t = constraint.t", "t = -constraint.t"),
 }
 HELD: Mapping[str, Fault] = {
     "force of a loop": Fault(B, "Loops/Constraint.mo", "frame_a.f = f;", "frame_a.f = -f;"),
@@ -223,10 +223,10 @@ HELD: Mapping[str, Fault] = {
 
 def prepared(fault: Fault, name: str, **options: Any) -> physics.Case:
     """The robot, and the one simulation in which a fault shows."""
-    is_bench = fault.part is Part.BENCHES and "Bench" in fault.file
-    trial = "free motion" if fault.part is Part.FREE_MOTION or is_bench else "motion"
+    is_bench = fault.part is Aspect.BENCHES and "Bench" in fault.file
+    trial = "free motion" if fault.part is Aspect.FREE_MOTION or is_bench else "motion"
     trial = "ways in Test" if fault.file.endswith("Sweep.mo") else trial
-    source = CART if fault.part is Part.CONTACTS else SOURCE
+    source = CART if fault.part is Aspect.CONTACTS else SOURCE
     if fault.file.endswith("box.mo"):
         source = source.replace('sphere radius="0.02"', 'box size="0.1 0.3 0.04"')
     if fault in (*LOOP.values(), *HELD.values()):
@@ -253,13 +253,13 @@ def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) ->
     cases = [physics.prepare(SOURCE.encode(), "Arm"), physics.prepare(CART.encode(), "Cart", base="floating")]
     arm, cart = physics.compare(modelica_library, tmp_path, cases)
     assert physics.fault(arm) is physics.fault(cart) is None
-    assert {each.part for each in (*arm, *cart)} == {*Part} - {Part.LOOPS}
+    assert {each.part for each in (*arm, *cart)} == {*Aspect} - {Aspect.LOOPS}
 
 
 @pytest.mark.parametrize("fault_name", sampled((*PACKAGE, *SENSORS, *LOOP), 36))
 def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
     fault = {**PACKAGE, **SENSORS, **LOOP}[fault_name]
-    name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
+    name, options = ("Cart", {"base": "floating"}) if fault.part is Aspect.CONTACTS else ("Arm", {})
     options |= {"drives": "motor"} if "motor" in fault.old else {}
     case = prepared(fault, name, **options).changed(fault.file, fault.old, fault.new)
     (found,) = physics.compare(modelica_library, tmp_path, [case])

@@ -90,7 +90,7 @@ def test_a_build_that_writes_foresees_the_next_plan(project: Path, name: str) ->
 def recalled(site: Path) -> Iterator[tuple[RobotConfig, Result | None]]:
     """The robots of a project, and what is remembered of them."""
     loaded = config.load(site / "urdfsync.toml")
-    keys, seen = remembered.Keys(loaded, BuildOptions()), dict[Entry, Facts]()
+    keys, seen = remembered.RecordKeys(loaded, BuildOptions()), dict[Entry, Facts]()
     for robot in loaded.robots:
         yield robot, remembered.recall(loaded, robot, BuildOptions(dry=True), keys.key(robot), seen)
 

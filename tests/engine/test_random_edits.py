@@ -24,7 +24,7 @@ from urdfsync.checks.compilers import omc, rumoca
 from urdfsync.checks.compilers.compiler import CompileJob, CompileTask
 from urdfsync.engine import fit
 from urdfsync.modelica.lexer import lex
-from urdfsync.modelica.statements import Difference, compare
+from urdfsync.modelica.statements import EditedStatements, compare
 
 MODELS, RECORDS = (
     ("Arm.mo", "Links/Fore.mo", "Joints/Elbow.mo"),
@@ -345,7 +345,7 @@ def test_what_is_wrong_is_found_and_nothing_else(
     found = errors(edit, execute)
     assert bool(found) is bool(edit.kind), (edit.kind, edit.path, edit.harmless, found, edit.text)
 
-    def compare_whole(mine: str, generated: str) -> Difference:
+    def compare_whole(mine: str, generated: str) -> EditedStatements:
         return compare(mine, generated)._replace(same=frozenset(), is_whole=True)
 
     monkeypatch.setattr(fit, "compare", compare_whole)

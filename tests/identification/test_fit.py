@@ -12,7 +12,13 @@ from support.measured import GRIPPER
 import urdfsync
 from urdfsync.engine.options import no_progress
 from urdfsync.identification import run
-from urdfsync.identification.fit import Problem, inertial_parameters, is_body, pseudo_inertia, pseudo_inertia_slopes
+from urdfsync.identification.fit import (
+    LeastSquares,
+    inertial_parameters,
+    is_body,
+    pseudo_inertia,
+    pseudo_inertia_slopes,
+)
 from urdfsync.identification.results import Body, IdentifyOptions
 
 BOX = Body("box", np.array([2.0, 0.1, -0.2, 0.3, 0.02, 0.03, 0.04, 0.001, -0.002, 0.003]), np.eye(3), is_first=True)
@@ -39,7 +45,7 @@ def test_what_a_real_body_is(place: int, value: float, real: bool) -> None:
 
 
 def test_derivatives_are_those_of_small_changes() -> None:
-    problem, turn = Problem([BOX], (), 0), np.linalg.qr(np.arange(9.0).reshape(3, 3) ** 2 + np.eye(3))[0]
+    problem, turn = LeastSquares([BOX], (), 0), np.linalg.qr(np.arange(9.0).reshape(3, 3) ** 2 + np.eye(3))[0]
     x = problem.start * 1.05
     for k, moved in enumerate(np.eye(11) * 1e-6):
         change = (problem.distance(0, (x + moved)[:10]) - problem.distance(0, (x - moved)[:10])) / 2e-6
@@ -54,7 +60,7 @@ def test_derivatives_are_those_of_small_changes() -> None:
 def test_the_distance_of_bodies_does_not_depend_on_units() -> None:
     grams = np.array([1e3, *[1e2] * 3, *[1e7] * 6])  # of g and cm
     other = BOX.numbers * [1.1, 1, 1.2, 1, 1.05, 1, 1, 1, 1, 1]
-    one, two = (Problem([BOX._replace(numbers=BOX.numbers * unit)], (), 0) for unit in (np.ones(10), grams))
+    one, two = (LeastSquares([BOX._replace(numbers=BOX.numbers * unit)], (), 0) for unit in (np.ones(10), grams))
     assert np.allclose(np.linalg.norm(one.distance(0, other)), np.linalg.norm(two.distance(0, other * grams)))
     assert not one.distance(0, BOX.numbers).round(12).any()
 

@@ -12,11 +12,11 @@ from support.simulation import Compiler
 
 from urdfsync import config
 from urdfsync.checks.compilers.compiler import CompileResult
-from urdfsync.simulation.fmu import Trial, try_out
+from urdfsync.simulation.fmu import FmuTrial, try_out
 from urdfsync.simulation.results import SimulateOptions
 
 
-def tried(options: SimulateOptions = OPTIONS) -> Trial:
+def tried(options: SimulateOptions = OPTIONS) -> FmuTrial:
     loaded = config.load(Path("urdfsync.toml").absolute())
     return try_out(loaded, loaded.robots[0], options, exported(), ("me", "cs"), lambda *_: None)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from support.packages import Package, generate
-from urdfsync.checks.experiment import Difference, Numbers, Sample
+from urdfsync.checks.experiment import Mismatch, Numbers, Sample
 from urdfsync.domain import Companion, Target
 from urdfsync.urdf.second.comparison import compare_numbers
 
@@ -32,5 +32,5 @@ def of_package(package: Package, content: bytes, texts: Mapping[str, str], *comp
     return numbers
 
 
-def differences(source: Path | bytes, companions: Sequence[Companion] = (), **options: Any) -> list[Difference]:
+def differences(source: Path | bytes, companions: Sequence[Companion] = (), **options: Any) -> list[Mismatch]:
     return list(compare(source, companions=companions, **options).differences)

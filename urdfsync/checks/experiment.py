@@ -12,7 +12,7 @@ import msgspec
 from urdfsync.domain import Companion, Import, Snapshot, Target
 
 
-class Part(enum.StrEnum):
+class Aspect(enum.StrEnum):
     """Part of a model that has a verdict of its own."""
 
     BODIES = "rigid bodies"
@@ -82,7 +82,7 @@ class Deviation(msgspec.Struct, frozen=True):
     size: float
     """The greatest absolute value of the reference for this quantity in this unit over all elements."""
     unit: str
-    part: Part = Part.BODIES
+    part: Aspect = Aspect.BODIES
     detail: str = ""
     """Distinguishes several deviations of one element: `below its lower position limit`."""
     least_tolerance: float = 0.0
@@ -110,7 +110,7 @@ class Deviation(msgspec.Struct, frozen=True):
         return self.relative <= self.tolerance
 
 
-class Difference(msgspec.Struct, frozen=True):
+class Mismatch(msgspec.Struct, frozen=True):
     """A number or name of the package or the snapshot that differs from an independent reading of the source."""
 
     element: str
@@ -133,8 +133,8 @@ class Numbers(msgspec.Struct, frozen=True):
 
     right: int = 0
     total: int = 0
-    differences: tuple[Difference, ...] = ()
-    edits: tuple[Difference, ...] = ()
+    differences: tuple[Mismatch, ...] = ()
+    edits: tuple[Mismatch, ...] = ()
     """Differences that come from the user's edits."""
     uncompared: tuple[str, ...] = ()
     """Parts that nothing compares: one sentence each, without a full stop."""
@@ -174,7 +174,7 @@ class Compared(msgspec.Struct, frozen=True):
     values: tuple[str, ...]
     instants: tuple[float, ...]
     """Times, in s."""
-    part: Part = Part.BODIES
+    part: Aspect = Aspect.BODIES
     detail: str = ""
     """See `Deviation.detail`."""
     least_tolerance: float = 0.0

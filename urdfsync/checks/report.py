@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import PurePath
 
-from urdfsync.checks.experiment import Deviation, Difference, Numbers, Part, Quantity
+from urdfsync.checks.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.checks.results import (
     KINDS,
     CheckResult,
@@ -84,11 +84,11 @@ def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:
         yield f"{each.file} (edited) {change}, {each.given} in line {each.line}{more}", _edit_style(result)
 
 
-def _place(each: Difference) -> str:
+def _place(each: Mismatch) -> str:
     return f"{each.source}:{each.source_line}" if each.source_line else each.source
 
 
-def _by_file(differences: Iterable[Difference]) -> Iterator[tuple[Difference, str]]:
+def _by_file(differences: Iterable[Mismatch]) -> Iterator[tuple[Mismatch, str]]:
     """Yield the first differences in each file; the last one comes with the number of further differences."""
     for _, group in itertools.groupby(differences, lambda each: each.file):
         own = list(group)
@@ -104,7 +104,7 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
     for deviation, others in _by_kind([deviation for deviation in deviations if not deviation.agrees]):
         what, amount = _amount(deviation)
-        by = "its own numbers" if deviation.part in (Part.CONTACTS, Part.BENCHES) else reference
+        by = "its own numbers" if deviation.part in (Aspect.CONTACTS, Aspect.BENCHES) else reference
         fault = f"{what} differs from {by} by {amount}"
         if stated := _STATED.get(deviation.quantity):
             fault = stated.format(detail=deviation.detail)
@@ -236,7 +236,7 @@ def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> I
     all links behind it.
     """
     for is_free, quantities in itertools.product((False, True), KINDS):
-        own = (each for each in deviations if (each.part is Part.FREE_MOTION) == is_free)
+        own = (each for each in deviations if (each.part is Aspect.FREE_MOTION) == is_free)
         kind = [each for each in own if each.quantity in quantities]
         if Quantity.EFFORT in quantities:
             kind.reverse()

@@ -11,7 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.checks.compilers.compiler import Tool
-from urdfsync.checks.experiment import Deviation, Numbers, Part, Quantity
+from urdfsync.checks.experiment import Aspect, Deviation, Numbers, Quantity
 from urdfsync.config import ros_package_path
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Exit
@@ -304,7 +304,7 @@ class CheckResult(msgspec.Struct):
         return f"{self.status}: {'; '.join(facts)}; {self.seconds:.1f} s"
 
     @property
-    def worst(self) -> Mapping[Part, Deviation]:
+    def worst(self) -> Mapping[Aspect, Deviation]:
         """The greatest deviation of each part from the reference, relative to its tolerance."""
         return worst(self.deviations)
 
@@ -318,10 +318,10 @@ class CheckResult(msgspec.Struct):
         self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
 
 
-def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
+def worst(deviations: Iterable[Deviation]) -> dict[Aspect, Deviation]:
     """Return the greatest deviation of each part, relative to its tolerance, in the order of the parts."""
-    greatest = dict[Part, Deviation]()
-    for part in Part:
+    greatest = dict[Aspect, Deviation]()
+    for part in Aspect:
         own = [deviation for deviation in deviations if deviation.part is part]
         if own:
             greatest[part] = max(own, key=lambda deviation: deviation.relative / deviation.tolerance)
@@ -347,5 +347,5 @@ def listed(names: Sequence[str]) -> str:
 def part_word(deviation: Deviation) -> str:
     """Return the verdict on a part of the model by its greatest deviation."""
     if deviation.agrees:
-        return "plausible" if deviation.part is Part.CONTACTS else "right"
+        return "plausible" if deviation.part is Aspect.CONTACTS else "right"
     return f"differ ({deviation.element})"

@@ -13,7 +13,7 @@ from urdfsync import registry
 from urdfsync.checks import compilers, process, texts
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilation import Compilation, compare_all
-from urdfsync.checks.experiment import Checks, Difference, Experiment, Numbers, Sample
+from urdfsync.checks.experiment import Checks, Experiment, Mismatch, Numbers, Sample
 from urdfsync.checks.fingerprint import PHYSICS, fingerprint
 from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
@@ -150,7 +150,7 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
         result.gaps += (f"numbers were not compared: {error.diagnostics[0].message}",)
         return
 
-    def located(differences: Iterable[Difference]) -> Iterator[Difference]:
+    def located(differences: Iterable[Mismatch]) -> Iterator[Mismatch]:
         for each in differences:
             place = source.locate(Diagnostic(Severity.NOTE, "", "", each.source, each.source_line))
             yield msgspec.structs.replace(each, source=place.file, source_line=place.line)

@@ -123,7 +123,7 @@ class FactList:
         return cls(list(zip(kinds, paths, strict=True)), list(map(int, facts)), hashes)
 
 
-class Record:
+class DependencyRecord:
     """A list of facts, and what held when it was made."""
 
     def __init__(self, key: str, facts: FactList, words: Sequence[str], result: bytes = b"") -> None:
@@ -147,7 +147,7 @@ class Record:
             localfile.replace(os.path.join(place, name), content)
 
 
-def load(folder: str, name: str) -> Record | None:
+def load(folder: str, name: str) -> DependencyRecord | None:
     """Return the record of this name in the state folder; None if this machine, program and user wrote none.
 
     A record may be damaged: then its robot is built as if it had none.
@@ -159,7 +159,7 @@ def load(folder: str, name: str) -> Record | None:
         if about.decode() != "\0".join((_FORMAT, program.identity(folder), program.user())):
             return None
         listed = FactList.loads(facts.decode("utf-8", "surrogateescape"))
-        return Record(_text(key), listed, _text(words).split("\0") if words else [], result)
+        return DependencyRecord(_text(key), listed, _text(words).split("\0") if words else [], result)
     except (ValueError, OSError):
         return None
 
@@ -168,11 +168,11 @@ def _text(content: bytes) -> str:
     return content.decode("utf-8", "surrogateescape")
 
 
-def find_change(folder: str, name: str, record: Record, seen: dict[Entry, Facts]) -> Entry | None:
+def find_change(folder: str, name: str, record: DependencyRecord, seen: dict[Entry, Facts]) -> Entry | None:
     """Return the first entry of a record that has changed; None if all is as it was. See `FactList.first_change`."""
     change = record.facts.first_change(seen)
     if change is None and not record.facts.is_old and (aged := record.facts.aged()).is_old:
-        Record(record.key, aged, record.words, record.result).save(folder, name)
+        DependencyRecord(record.key, aged, record.words, record.result).save(folder, name)
     return change
 
 

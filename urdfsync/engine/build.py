@@ -76,7 +76,7 @@ class _Builder:
 
     def __init__(self, config: Config, options: BuildOptions, lock: Lock) -> None:
         self._config, self._options, self._lock = config, options, lock
-        self._keys = remembered.Keys(config, options)
+        self._keys = remembered.RecordKeys(config, options)
         self.pool: Pool | None = None
         """Plans the robots that are not remembered, if there are many."""
         self._state_folder = config.root / STATE_FOLDER

@@ -33,7 +33,7 @@ from urdfsync.modelica.layout import check_class_file, check_order, check_places
 from urdfsync.modelica.scopes import Element, Scopes
 from urdfsync.modelica.statements import (
     TOO_LONG,
-    Difference,
+    EditedStatements,
     ShortText,
     compare,
     component_of,
@@ -92,7 +92,7 @@ class _Package(PackageAfter):
 
     def __init__(self, after: PackageAfter) -> None:
         super().__init__(after.inputs, after.package, after.actions, after.merged, is_open=after.is_open)
-        self._readings, self._differences = dict[bytes, ShortText](), dict[str, Difference]()
+        self._readings, self._differences = dict[bytes, ShortText](), dict[str, EditedStatements]()
 
     def class_name(self, path: str) -> ClassName:
         """Return the full name of a file's class, by the file's path below the package."""

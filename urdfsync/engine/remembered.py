@@ -18,7 +18,7 @@ from urdfsync.dependencies import record
 from urdfsync.dependencies.facts import Entry, Facts
 from urdfsync.dependencies.places import is_clone
 from urdfsync.dependencies.reads import Reads, depend_on
-from urdfsync.dependencies.record import Record
+from urdfsync.dependencies.record import DependencyRecord
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
 from urdfsync.engine.findings import orphaned_state
@@ -43,7 +43,7 @@ class _Stored(msgspec.Struct, frozen=True, array_like=True):
     """Hash of the robot's lines in the configuration if `diagnostics` state one; else empty."""
 
 
-class Keys:
+class RecordKeys:
     """The keys of the robots of one configuration: each holds all that decides about a robot and is no file."""
 
     def __init__(self, config: Config, options: BuildOptions) -> None:
@@ -121,7 +121,7 @@ def remember(config: Config, robot: RobotConfig, key: str, result: Result) -> No
     except UnicodeEncodeError:  # a file's name is not UTF-8
         return
     folder = str(config.root / STATE_FOLDER)
-    Record(key, result.reads, words, content).save(folder, f"{robot.name}{noop.ROBOT}")
+    DependencyRecord(key, result.reads, words, content).save(folder, f"{robot.name}{noop.ROBOT}")
 
 
 def remember_configuration(config: Config, reads: Reads) -> None:
@@ -138,7 +138,7 @@ def remember_configuration(config: Config, reads: Reads) -> None:
             depend_on(folder / name)
         strays = orphaned_state(config)
     if not strays:
-        keys = Keys(config, BuildOptions())
+        keys = RecordKeys(config, BuildOptions())
         noop.remember(str(config.file), reads, {robot.name: keys.key(robot) for robot in config.robots})
 
 

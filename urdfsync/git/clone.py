@@ -21,7 +21,7 @@ from urdfsync.dependencies.reads import PARENTS
 from urdfsync.diagnostics import SourceError
 from urdfsync.files import digest
 from urdfsync.git import GitError, Repository, hook, list_paths, run
-from urdfsync.git.hook import Export
+from urdfsync.git.hook import ExportedIndex
 from urdfsync.state.lock import Lock
 
 _SUBMODULE = "160000"
@@ -34,7 +34,7 @@ class Commit(msgspec.Struct, frozen=True):
 
     repository: Repository
     clone: Clone
-    export: Export
+    export: ExportedIndex
     files: frozenset[str]
     """All files, links and submodules of the commit. All paths are from the top."""
     changed: Mapping[str, bool] | None
@@ -56,7 +56,7 @@ def export(repository: Repository, wait: float) -> Iterator[Commit]:
 
 def _export(repository: Repository, folder: Path) -> Commit:
     record, clone, index = hook.record_place(repository), str(folder / "clone"), folder / "index"
-    former = Export.read(record)
+    former = ExportedIndex.read(record)
     Path(record).unlink(missing_ok=True)  # if this process is killed, the next hook begins anew
     if former is None or len(_names(f"{clone}/.git/objects/17")) > _MOST_OBJECTS:
         former = None
@@ -84,7 +84,7 @@ def _export(repository: Repository, folder: Path) -> Commit:
         for path, (commit, name) in modules.items()
     ]
     identity = hook.identify(content) if all(are_exported) else ""
-    export = Export(identity, tree, conversions, *hook.find_configurations(names), tuple(modules))
+    export = ExportedIndex(identity, tree, conversions, *hook.find_configurations(names), tuple(modules))
     export.write(record)
     changed = dict(_changes(clone, parents[0], tree)) if parents else None
     return Commit(repository, Clone(repository.top, clone), export, frozenset(names), changed)

@@ -16,7 +16,7 @@ _CHECKSUM = 20
 _END = "end of an export by urdfsync"
 
 
-class Export:
+class ExportedIndex:
     """What the hook's clone was exported from (see `git.clone`)."""
 
     def __init__(
@@ -37,7 +37,7 @@ class Export:
         self.configurations, self.lost, self.modules = configurations, lost, modules
 
     @classmethod
-    def read(cls, file: str | os.PathLike[str]) -> Export | None:
+    def read(cls, file: str | os.PathLike[str]) -> ExportedIndex | None:
         """Return the last export; None if there is none, or if an export is under way or was killed."""
         try:
             with open(file, encoding="utf-8", errors="surrogateescape", newline="") as opened:
@@ -60,7 +60,7 @@ def is_answered(arguments: list[str]) -> bool:
     if arguments not in (["hook", "build"], ["hook", "check"]):
         return False
     repository = git.Repository()
-    export = Export.read(record_place(repository))
+    export = ExportedIndex.read(record_place(repository))
     is_merge = os.path.exists(f"{repository.folder}/MERGE_HEAD")  # other parents, perhaps without another index
     if export is None or is_merge or export.index != identify(read_index(repository)):
         return False
@@ -68,7 +68,7 @@ def is_answered(arguments: list[str]) -> bool:
         files = (f"{repository.top}/{path}" for path in export.configurations)
         if find_lost(repository, export) or not all(map(noop.is_in_step, files)):
             return False
-    after = Export.read(record_place(repository))
+    after = ExportedIndex.read(record_place(repository))
     return after is not None and after.index == export.index  # otherwise another hook changed the clone meanwhile
 
 
@@ -105,6 +105,6 @@ def find_configurations(files: Iterable[str]) -> tuple[list[str], list[str]]:
     return sorted(found), sorted(of_states - found)
 
 
-def find_lost(repository: git.Repository, export: Export) -> list[str]:
+def find_lost(repository: git.Repository, export: ExportedIndex) -> list[str]:
     """Return the configurations on disk that the commit lacks, although it has their states."""
     return [path for path in export.lost if os.path.isfile(f"{repository.top}/{path}")]

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from urdfsync.engine.options import Progress
-from urdfsync.identification.fit import Problem, is_body
+from urdfsync.identification.fit import LeastSquares, is_body
 from urdfsync.identification.results import Array, Axis, Regressor
 
 _HARMONICS, _RATE, _LOOKS = 5, 50.0, 80
@@ -73,7 +73,7 @@ class _Columns:
         bodies = [body for body in regressor.bodies if is_body(body)]
         places = [10 * k + n for k, body in enumerate(regressor.bodies) if is_body(body) for n in range(10)]
         self._places = [*places, *range(10 * len(regressor.bodies), 10 * len(regressor.bodies) + len(regressor.losses))]
-        problem = Problem(bodies, regressor.losses, 0)
+        problem = LeastSquares(bodies, regressor.losses, 0)
         count = len(self._places)
         self._slopes = problem.slopes(problem.start)[:count, :count]
         self._slopes *= problem.sizes(np.ones(len(regressor.losses) + 1))[:count]

@@ -145,7 +145,7 @@ def is_body(body: Body) -> bool:
     return bool(np.isfinite(matrix).all() and np.linalg.eigvalsh(matrix)[0] > 1e-12 * np.trace(matrix))
 
 
-class Problem:
+class LeastSquares:
     """The numbers of a robot, and how far others are from them."""
 
     def __init__(self, bodies: Sequence[Body], losses: Sequence[Loss], axes: int) -> None:
@@ -216,7 +216,7 @@ def _log_differences(values: Array) -> Array:
     return np.where(is_near, 2 / (one + other), quotients)
 
 
-def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Array, alike: Array) -> Fit:
+def fit(problem: LeastSquares, evidence: Evidence, fitted: Collection[int], sizes: Array, alike: Array) -> Fit:
     """Fit the numbers at the places `fitted`.
 
     `alike` is the number of neighbouring samples of each axis that tell one thing.
@@ -251,7 +251,7 @@ def fit(problem: Problem, evidence: Evidence, fitted: Collection[int], sizes: Ar
     return Fit(x, covariance, is_fitted, tuple(freed), problem.delta(x)[:-1], matrix)
 
 
-def _order(problem: Problem, fitted: Collection[int]) -> list[int]:
+def _order(problem: LeastSquares, fitted: Collection[int]) -> list[int]:
     """Return places in the order in which numbers count as determined: masses last."""
     bodies, start = range(len(problem.bodies)), 10 * len(problem.bodies)
     of_log, losses = range(problem.count, len(problem.start)), range(start, problem.count)
@@ -273,7 +273,7 @@ def _determined(columns: Array, order: Sequence[int]) -> list[int]:
 
 
 def solve(
-    problem: Problem, matrix: Array, goal: Array, sizes: Array, chosen: Sequence[int], guess: Array
+    problem: LeastSquares, matrix: Array, goal: Array, sizes: Array, chosen: Sequence[int], guess: Array
 ) -> tuple[Array, Array]:
     """Return the numbers of the best fit, and the derivatives of all residuals there, in units of `sizes`."""
     from scipy.optimize import least_squares  # takes 0.3 s

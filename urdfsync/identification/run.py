@@ -14,7 +14,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.identification import signals
-from urdfsync.identification.fit import Evidence, Fit, Problem, fit, is_body
+from urdfsync.identification.fit import Evidence, Fit, LeastSquares, fit, is_body
 from urdfsync.identification.log import Log
 from urdfsync.identification.records import Records, read_records
 from urdfsync.identification.results import (
@@ -205,7 +205,7 @@ def _check_names(options: IdentifyOptions, regressor: Regressor) -> None:
 
 def _problem(
     regressor: Regressor, measured: Measured, records: Records, options: IdentifyOptions
-) -> tuple[Problem, list[int], list[Diagnostic]]:
+) -> tuple[LeastSquares, list[int], list[Diagnostic]]:
     """Return the unknowns, the places of the numbers to fit, and what can't be fitted."""
     notes = list[Diagnostic]()
     chosen_links, chosen_joints = options.links, options.joints
@@ -226,10 +226,10 @@ def _problem(
         if (loss.joint in chosen_joints or not some) and (is_stated or not loss.path.endswith("armature")):
             fitted.append(k)
     fitted += range(measured.parameters, measured.parameters + len(measured.axes) + 1)
-    return Problem(bodies, regressor.losses, len(measured.axes)), fitted, notes
+    return LeastSquares(bodies, regressor.losses, len(measured.axes)), fitted, notes
 
 
-def natural_sizes(problem: Problem, measured: Measured) -> Array:
+def natural_sizes(problem: LeastSquares, measured: Measured) -> Array:
     """Return the natural size of each number: of losses, that with which they make up the whole effort."""
     nothing = np.zeros(len(problem.start) - 1)
     joints = measured.joint_fits(measured.evidence, signals.target_at(0.0), nothing)
@@ -244,7 +244,7 @@ def natural_sizes(problem: Problem, measured: Measured) -> Array:
     return problem.sizes(np.array([*others, *offsets, _USUAL_DELAY]))
 
 
-def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
+def _fitted(problem: LeastSquares, measured: Measured, fitted: Sequence[int]) -> Fit:
     sizes = natural_sizes(problem, measured)
     first = fit(problem, measured.evidence, fitted, sizes, np.ones(len(measured.axes)))
     series = measured.series(signals.target_at(first.after[-1]), first.delta)
@@ -255,14 +255,14 @@ def _fitted(problem: Problem, measured: Measured, fitted: Sequence[int]) -> Fit:
     return fit(problem, measured.evidence, fitted, sizes, np.array(alike))
 
 
-def _name(problem: Problem, place: int) -> tuple[str, str]:
+def _name(problem: LeastSquares, place: int) -> tuple[str, str]:
     if place < (count := 10 * len(problem.bodies)):
         return f"link {problem.bodies[place // 10].name}", NUMBERS[place % 10]
     loss = problem.losses[place - count]
     return f"joint {loss.joint}", loss.path
 
 
-def _numbers(problem: Problem, result: Fit, fitted: Sequence[int], records: Records) -> tuple[FittedNumber, ...]:
+def _numbers(problem: LeastSquares, result: Fit, fitted: Sequence[int], records: Records) -> tuple[FittedNumber, ...]:
     """Return the fitted numbers."""
     numbers = list[FittedNumber]()
     for place in fitted:

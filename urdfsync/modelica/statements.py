@@ -30,7 +30,7 @@ TOO_LONG = StoredText([Fault(f"has more than {_LONGEST:,} characters of yours", 
 """Stands for a parsed text with more characters."""
 
 
-class Difference(NamedTuple):
+class EditedStatements(NamedTuple):
     """The difference between an edited and the generated text."""
 
     same: frozenset[str]
@@ -65,13 +65,13 @@ def parse_without(text: str, passed: frozenset[str]) -> ShortText:
 
 
 @functools.lru_cache(maxsize=8)  # saves 100 ms in the row of `parse_without`
-def compare(mine: str, generated: str) -> Difference:
+def compare(mine: str, generated: str) -> EditedStatements:
     """Compare an edited text with the generated text."""
     own, other = (Counter(text.split(_END)) for text in (mine, generated))
     same = frozenset(statement for statement, count in own.items() if other[statement] == count and is_plain(statement))
     texts = [_END.join(statement for statement in statements if statement not in same) for statements in (own, other)]
     if max(map(len, texts)) > _LONGEST:
-        return Difference(same, frozenset(), is_whole=False, generated=None)
+        return EditedStatements(same, frozenset(), is_whole=False, generated=None)
     rests = [*map(parse, texts)]
     paths = (declaration.path for rest in rests for declaration in declared(rest.classes))
     names = frozenset(path[-1] for path in paths if path[1:])  # without the class's own name
@@ -80,7 +80,7 @@ def compare(mine: str, generated: str) -> Difference:
     # a comment or a string may hide a component
     is_hidden = not read.passed <= {declaration.line for declaration in declared(read.stored.classes)}
     is_whole = visible[0] != visible[1] or is_hidden
-    return Difference(frozenset() if is_whole else same, names, is_whole, next(iter(rests[1].classes), None))
+    return EditedStatements(frozenset() if is_whole else same, names, is_whole, next(iter(rests[1].classes), None))
 
 
 def _visible(classes: Iterable[Class]) -> Iterator[tuple[str, object]]:

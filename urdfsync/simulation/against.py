@@ -20,9 +20,9 @@ from urdfsync.git.revisions import Revision
 from urdfsync.simulation.package import Prepared, prepare
 from urdfsync.simulation.results import (
     Against,
-    Difference,
     JointDifference,
     JointResult,
+    QuantityDifference,
     Range,
     Series,
     SimulateOptions,
@@ -122,11 +122,11 @@ def _pairs(joint: JointResult, former: JointResult) -> Iterator[tuple[str, Range
             yield quantity, new, old
 
 
-def _difference(quantity: str, now: tuple[Series, Range], former: tuple[Series, Range]) -> Difference:
+def _difference(quantity: str, now: tuple[Series, Range], former: tuple[Series, Range]) -> QuantityDifference:
     """Return the difference of one quantity, up to the end of the shorter simulation."""
     count = min(len(series["time"]) for series, _ in (now, former))
     new, old = (np.array(series[each.variable][:count]) for series, each in (now, former))
     sizes = np.abs(new - old)
     worst = int(sizes.argmax())
     ends = former[1].least, former[1].greatest
-    return Difference(quantity, now[1].unit, float(sizes[worst]), now[0]["time"][worst], *ends)
+    return QuantityDifference(quantity, now[1].unit, float(sizes[worst]), now[0]["time"][worst], *ends)

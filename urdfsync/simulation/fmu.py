@@ -34,7 +34,7 @@ KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
 """FMPy's words for kinds of FMUs."""
 
 
-class Trial(msgspec.Struct, frozen=True):
+class FmuTrial(msgspec.Struct, frozen=True):
     """The findings of FMPy about an FMU."""
 
     findings: tuple[str, ...]
@@ -56,13 +56,13 @@ class WrittenFmu(msgspec.Struct, frozen=True):
     exported: Exported
     kind: Export
     file: Path
-    trial: Trial | None
+    trial: FmuTrial | None
     """None if the FMU was not tried out."""
     diagnostics: tuple[Diagnostic, ...]
     """All findings, of the export and of the trial."""
 
 
-def find_faults(trial: Trial, file: Path) -> list[Diagnostic]:
+def find_faults(trial: FmuTrial, file: Path) -> list[Diagnostic]:
     """Return the findings of a trial, as warnings."""
     warnings = [
         Diagnostic(Severity.WARNING, "fmu-not-valid", f"FMPy: {words}", shown(file)) for words in trial.findings
@@ -105,7 +105,7 @@ def try_out(
     exported: Exported,
     kinds: Sequence[str],
     progress: Progress,
-) -> Trial:
+) -> FmuTrial:
     """Validate and simulate an FMU, with the motion of the options or with inputs that stay at 0.
 
     A motion drives only co-simulation, whose inputs change at each step: FMPy's integration of model exchange misses
@@ -152,7 +152,7 @@ def _ask(request: _Request, content: bytes, limits: Limits, progress: Callable[[
         return answer
 
 
-def _judge(answer: _Examined, reference: Series) -> Trial:
+def _judge(answer: _Examined, reference: Series) -> FmuTrial:
     """Compare the trajectories of an FMU with that of `simulate`."""
     end, problems = reference["time"][-1], dict(answer.problems)
     agreement, worst, compared = dict[str, float](), dict[str, str](), 0
@@ -165,7 +165,7 @@ def _judge(answer: _Examined, reference: Series) -> Trial:
             worst[kind] = max(differences, key=lambda name: differences[name])
             agreement[kind] = differences[worst[kind]]
             compared = max(compared, len(differences))
-    return Trial(tuple(answer.findings), agreement, worst, compared, problems)
+    return FmuTrial(tuple(answer.findings), agreement, worst, compared, problems)
 
 
 def _examine(request: _Request) -> Iterator[_Examined]:

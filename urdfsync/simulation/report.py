@@ -9,7 +9,7 @@ from urdfsync.checks.compilers.compiler import one_line
 from urdfsync.output.console import StyledLine, file_lines, findings, html, line, table_lines
 from urdfsync.simulation.fmu import AGREEMENT, WrittenFmu
 from urdfsync.simulation.outcomes import Study
-from urdfsync.simulation.results import Against, Difference, JointResult, Range, SimulateResult
+from urdfsync.simulation.results import Against, JointResult, QuantityDifference, Range, SimulateResult
 from urdfsync.spelling import counted
 
 _STUDY_HEADER = ("joint", "greatest", "min", "median", "max", "limit", "unit", "cases beyond")
@@ -80,7 +80,7 @@ def _against_lines(result: SimulateResult, against: Against) -> Iterator[StyledL
         yield line((f"  only in one version: {', '.join(against.only)}", ""))
 
 
-def _worst(found: Difference | None) -> str:
+def _worst(found: QuantityDifference | None) -> str:
     """Return the greatest difference, and its time: `0.31 rad at 0.4 s`."""
     return "-" if found is None else f"{_digits(found.difference)} {found.unit} at {found.time:.3g} s"
 

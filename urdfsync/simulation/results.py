@@ -119,7 +119,7 @@ class LoopResult(msgspec.Struct, frozen=True):
     """Greatest torque, in N·m."""
 
 
-class Difference(msgspec.Struct, frozen=True):
+class QuantityDifference(msgspec.Struct, frozen=True):
     """The difference of a joint's quantity between two versions of a model, over a simulation."""
 
     quantity: str
@@ -144,7 +144,7 @@ class JointDifference(msgspec.Struct, frozen=True):
     """See `JointResult.robot`."""
     former: str
     """The element's name in the older version."""
-    differences: tuple[Difference, ...]
+    differences: tuple[QuantityDifference, ...]
     """The quantities that both versions have."""
 
 

@@ -13,7 +13,7 @@ from support.loops import FOUR_BAR, to_options, to_urdf
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
 from urdfsync.checks.compilation import compare_all
-from urdfsync.checks.experiment import TOLERANCE, Experiment, Part, Quantity, Sample
+from urdfsync.checks.experiment import TOLERANCE, Aspect, Experiment, Quantity, Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
@@ -69,7 +69,7 @@ def test_a_heavy_base_hides_no_lost_damping() -> None:
 
 def test_a_floating_base_is_weighed_on_the_bench() -> None:
     _, free, _ = experiment(ELBOW, base="floating").trials
-    assert "weight" in {name for each in free.compared if each.part is Part.BENCHES for name in each.values}
+    assert "weight" in {name for each in free.compared if each.part is Aspect.BENCHES for name in each.values}
 
 
 def test_what_is_made_up_is_said_and_read_by_both_sides() -> None:
@@ -120,7 +120,7 @@ def test_a_ball_turns_as_prescribed_and_freely_and_its_whole_torque_is_compared(
     load = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo></robot>'
     sensed = experiment(ball.replace("</robot>", load))
     assert "sensor load, in a ball: the drive of the ball bypasses the sensor" in sensed.unchecked
-    assert Part.SENSORS not in {each.part for each in sensed.trials[0].compared}
+    assert Aspect.SENSORS not in {each.part for each in sensed.trials[0].compared}
     options = Options(approach=("record",))
     assert DOMAIN.checks.experiment(Sample(ball.encode(), "robot.urdf", BOT, options, {})) == (
         "joint elbow is ball, and nothing prescribes its motion"
@@ -176,7 +176,7 @@ def test_a_robot_with_loops_is_moved_by_its_states_and_its_loops_are_compared(ba
     assert [trial.name for trial in one.trials] == ["motion", "free motion", "ways in Test"]
     motion, free, _ = one.trials
     assert {each.element for each in motion.compared if each.quantity is Quantity.EFFORT} == {"joint crank_pivot"}
-    gap, force, torque = (each for each in motion.compared if each.part is Part.LOOPS)
+    gap, force, torque = (each for each in motion.compared if each.part is Aspect.LOOPS)
     assert [gap.quantity, force.unit, torque.unit] == [Quantity.CLOSURE, "N", "N·m"]
     assert [motion.expected[name] for name in gap.values] == [pytest.approx((0,) * 15, abs=1e-12)] * 3
     assert [max(map(abs, motion.expected[name][:5])) > 1 for name in force.values] == [True, True, False]
@@ -219,7 +219,7 @@ def test_a_robot_without_joints_stands_on_the_ground_too() -> None:
     box = '<collision><geometry><box size="1 1 1"/></geometry></collision></link>'
     one = experiment(robot(link("base", 1.0).replace("</link>", box)), base="floating")
     assert "BotStance stance" in one.trials[0].probe.source
-    force, torque = (each for each in one.trials[0].compared if each.part is Part.CONTACTS)
+    force, torque = (each for each in one.trials[0].compared if each.part is Aspect.CONTACTS)
     assert one.trials[0].expected[force.values[2]][-1] == pytest.approx(-9.81)
     *_, standing, sliding, _, _ = one.trials[0].expected[torque.values[1]]
     law = 0.8 * 9.81 * 0.5 * 0.003 / math.hypot(0.003, 0.002, 1e-3)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import msgspec
 import numpy as np
 
-from urdfsync.checks.experiment import Compared, Experiment, Part, Quantity, Sample, Trial
+from urdfsync.checks.experiment import Aspect, Compared, Experiment, Quantity, Sample, Trial
 from urdfsync.diagnostics import SourceError
 from urdfsync.urdf.drives import friction_law, is_chosen, sharing_joint
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -130,7 +130,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
         subject.unchecked["free motion: an axis moves no mass, so its effort determines no acceleration"] = None
         return
     gains, doubt = response
-    pairs = list(quantities.poses(subject, names, [reference.solve(state)], time, Part.FREE_MOTION))
+    pairs = list(quantities.poses(subject, names, [reference.solve(state)], time, Aspect.FREE_MOTION))
     rows = reference.coordinates()
     for k, joint in enumerate(subject.axes, 1):
         unit, row = "m/s²" if MOTION_KINDS.get(joint.type) == "translational" else "rad/s²", rows[joint.name]
@@ -139,17 +139,17 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
             if joint.type == "ball"
             else (names.accelerations.get(joint.name, f"gain{k}"),)
         )
-        what = Quantity.ACCELERATION, f"joint {joint.name}", unit, read, time, Part.FREE_MOTION
+        what = Quantity.ACCELERATION, f"joint {joint.name}", unit, read, time, Aspect.FREE_MOTION
         pairs.append((Compared(*what, least_tolerance=doubt), [gains[row : row + len(read)].tolist()]))
     if is_free:
         gained = tuple(f"base.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3))
         root = f"link {subject.tree.links[0].name}"
-        compared = Compared(Quantity.ACCELERATION, root, "m/s²", gained, time, Part.FREE_MOTION)
+        compared = Compared(Quantity.ACCELERATION, root, "m/s²", gained, time, Aspect.FREE_MOTION)
         pairs.append((compared, [reference.base_gain(state, gains)]))
-        weight = Compared(Quantity.GROUND, "bench", "N", ("weight",), time, Part.BENCHES)
+        weight = Compared(Quantity.GROUND, "bench", "N", ("weight",), time, Aspect.BENCHES)
         pairs.append((weight, [[motion.BENCH_LOAD]]))
     gravity = tuple(f"gravity[{i}]" for i in (1, 2, 3))
-    bench = Compared(Quantity.GRAVITY, "bench", "m/s²", gravity, time, Part.BENCHES)
+    bench = Compared(Quantity.GRAVITY, "bench", "m/s²", gravity, time, Aspect.BENCHES)
     pairs.append((bench, [(0.0, 0.0, -motion.BENCH_GRAVITY)]))
     table = quantities.table(pairs, [0.0])
     values = [value for compared, _ in pairs for value in compared.values]

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfsync.checks.experiment import Compared, Part, Probe, Quantity, Trial
+from urdfsync.checks.experiment import Aspect, Compared, Probe, Quantity, Trial
 from urdfsync.urdf.physics import probe
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.second.reading import MOVES, TURNS, Element, SecondReading
@@ -63,7 +63,7 @@ def laws_trial(subject: Subject, reading: SecondReading) -> Trial | None:
             quantities.insert(0, (Quantity.ENERGY, f"stroke{k}.given"))
         declarations.append(f"Real law{k} = {' + '.join(f'abs({term})' for term in _errors(k, joint, laws))}")
         for quantity, value in quantities:
-            compared.append(Compared(quantity, f"joint {joint.name}", "", (value,), times, Part.LOSSES, laws))
+            compared.append(Compared(quantity, f"joint {joint.name}", "", (value,), times, Aspect.LOSSES, laws))
     source = probe.text(target, "", declarations, connections)
     values = tuple(each.values[0] for each in compared)
     expected = {"time": times, **dict.fromkeys(values, (0.0,) * len(times))}

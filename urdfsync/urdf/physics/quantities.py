@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.checks.experiment import Compared, Part, Quantity
+from urdfsync.checks.experiment import Aspect, Compared, Quantity
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.closing import OpenLoopError
@@ -30,7 +30,7 @@ _CLEAR = 1e-5
 
 
 def poses(
-    subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...], part: Part
+    subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...], part: Aspect
 ) -> Iterator[Pair]:
     """Yield the pose of each link at the given times."""
     for link in subject.tree.links:
@@ -44,12 +44,12 @@ def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield poses, efforts of the axes, force and torque at the root, mass and centre of mass."""
     root, solved = f"link {subject.tree.links[0].name}", [subject.solved[time] for time in COMPARED]
     joints = {f"joint {joint.name}": joint for joint in subject.tree.joints}
-    yield from poses(subject, names, solved, COMPARED, Part.BODIES)
+    yield from poses(subject, names, solved, COMPARED, Aspect.BODIES)
     for compared, efforts in _efforts(subject, names, solved, COMPARED):
         joint = joints[compared.element]
-        losses = Part.LOSSES if joint.dynamics or joint.transmission else Part.BODIES
+        losses = Aspect.LOSSES if joint.dynamics or joint.transmission else Aspect.BODIES
         # at rest no joint has losses
-        for times, part in ((slice(0, 1), Part.BODIES), (slice(1, None), losses)):
+        for times, part in ((slice(0, 1), Aspect.BODIES), (slice(1, None), losses)):
             yield msgspec.structs.replace(compared, instants=COMPARED[times], part=part), efforts[times]
     yield Compared(Quantity.REACTION, root, "N", FORCE, COMPARED), [-instant.force for instant in solved]
     yield Compared(Quantity.REACTION, root, "N·m", TORQUE, COMPARED), [-instant.torque for instant in solved]
@@ -84,7 +84,7 @@ def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[
             solved[k * step] = subject.solve_at(k * step)
     every, times = [*solved.values()], tuple(solved)
     yield from _efforts(subject, names, every, times)
-    yield from poses(subject, names, every, times, Part.BODIES)
+    yield from poses(subject, names, every, times, Aspect.BODIES)
 
 
 def motors(subject: Subject) -> Iterator[Pair]:
@@ -97,7 +97,7 @@ def motors(subject: Subject) -> Iterator[Pair]:
             other = gear.number("transmission.otherReduction") if gear.shares else 0.0
             turns = [[reduction * (q[rows[name]] - offset) + other * q[rows[gear.shares or name]]] for q in positions]
             value = (f"robot.{drive.motor}.phi",)
-            yield Compared(Quantity.POSITION, f"motor of joint {name}", "rad", value, COMPARED, Part.LOSSES), turns
+            yield Compared(Quantity.POSITION, f"motor of joint {name}", "rad", value, COMPARED, Aspect.LOSSES), turns
 
 
 def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
@@ -107,14 +107,14 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
         element, values = f"loop {loop.name}", tuple(f"gap{k + 1}[{i}]" for i in (1, 2, 3))
         reactions = [instant.reactions[k] for instant in solved]
         times = tuple(map(float, Instant))
-        yield Compared(Quantity.CLOSURE, element, "m", values, times, Part.LOOPS), [each.gap for each in reactions]
+        yield Compared(Quantity.CLOSURE, element, "m", values, times, Aspect.LOOPS), [each.gap for each in reactions]
         if subject.closed.closures[loop.name].weaker:
             subject.unchecked[f"the force in loop {loop.name}, which depends on the omitted equations"] = None
             continue
         for unit, variable in (("N", "f"), ("N·m", "t")):
             values = tuple(f"{names.loops[loop.name]}.{variable}[{i}]" for i in (1, 2, 3))
             expected = [each.force if unit == "N" else each.torque for each in reactions[: len(COMPARED)]]
-            yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Part.LOOPS), expected
+            yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Aspect.LOOPS), expected
 
 
 def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
@@ -123,11 +123,11 @@ def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
         given = way.numbers if names.is_package and joint.name in subject.closed.reach else way.numbers[:4]
         numbers = {f"range{k}[{i}]": number for i, number in enumerate(given, 1) if abs(number) < motion.ENDLESS}
         what = f"joint {joint.name}{'' if names.is_package else ' of the generic robot'}"
-        range_ = Compared(Quantity.SWEEP, what, _unit(joint), tuple(numbers), (0.0,), Part.BENCHES, "range")
+        range_ = Compared(Quantity.SWEEP, what, _unit(joint), tuple(numbers), (0.0,), Aspect.BENCHES, "range")
         yield range_, [numbers.values()]
         if not names.is_package:
             swept = Compared(
-                Quantity.SWEEP, what, _unit(joint), (probe.swept(subject, joint),), SWEEP_TIMES, Part.BENCHES
+                Quantity.SWEEP, what, _unit(joint), (probe.swept(subject, joint),), SWEEP_TIMES, Aspect.BENCHES
             )
             yield swept, [[way.numbers[0]], [way.end], [way.numbers[0]]]
 
@@ -137,9 +137,12 @@ def sweeps(subject: Subject) -> Iterator[Pair]:
     for k, (joint, way) in enumerate(subject.sweeps, 1):
         what, unit = f"joint {joint.name}", _unit(joint)
         (q, effort), start = ("phi", "N·m") if unit == "rad" else ("s", "N"), way.numbers[0]
-        swept = Compared(Quantity.SWEEP, what, unit, (f"sweep{k}.{q}",), SWEEP_TIMES, Part.BENCHES)
+        swept = Compared(Quantity.SWEEP, what, unit, (f"sweep{k}.{q}",), SWEEP_TIMES, Aspect.BENCHES)
         yield swept, [[start], [way.end], [start]]
-        yield Compared(Quantity.EFFORT, what, effort, (f"balance{k}",), SWEEP_TIMES, Part.BENCHES, "Test"), [[0.0]] * 3
+        yield (
+            Compared(Quantity.EFFORT, what, effort, (f"balance{k}",), SWEEP_TIMES, Aspect.BENCHES, "Test"),
+            [[0.0]] * 3,
+        )
 
 
 def _unit(joint: Joint) -> str:
@@ -156,7 +159,7 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
         again, component = subject.second.sensors[sensor.name], names.sensors[sensor.name]
         above = subject.second.joints[again.parent].parent if sensor.is_in_joint else ""
         rows = [subject.reference.measured(subject.states[time], again, above) for time in COMPARED]
-        what, when = f"sensor {sensor.name}", (COMPARED, Part.SENSORS)
+        what, when = f"sensor {sensor.name}", (COMPARED, Aspect.SENSORS)
         for output in _outputs(SENSOR_KINDS[sensor.kind].name):
             value = f"{component}.{output.name}"
             values = tuple(f"{value}[{i}]" for i in (1, 2, 3)) if output.is_vector else (value,)
@@ -211,7 +214,7 @@ def limits(subject: Subject) -> Iterator[Pair]:
             variable = probe.limit_variable(subject, joint, ending)
             detail = ending.replace("_", " ")
             compared = Compared(
-                Quantity.WARNING, f"joint {joint.name}", "", (variable,), tuple(flags), Part.LIMITS, detail
+                Quantity.WARNING, f"joint {joint.name}", "", (variable,), tuple(flags), Aspect.LIMITS, detail
             )
             yield compared, [[float(flag)] for flag in flags.values()]
 
@@ -225,7 +228,7 @@ def ground(subject: Subject) -> Iterator[Pair]:
         held = subject.solved[time]
         rows.append(subject.stand.wrench(rise, slide, held.frame(root)[1]) - [*held.force, *held.torque])
     for unit, values, part in (("N", FORCE, slice(0, 3)), ("N·m", TORQUE, slice(3, 6))):
-        compared = Compared(Quantity.GROUND, "robot", unit, values, times, Part.CONTACTS)
+        compared = Compared(Quantity.GROUND, "robot", unit, values, times, Aspect.CONTACTS)
         yield compared, [row[part] for row in rows]
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.inertias import find_wrong_inertia
-from urdfsync.urdf.plausibility.shapes import LIGHT, TUNGSTEN, Body, Extent
+from urdfsync.urdf.plausibility.shapes import LIGHT, TUNGSTEN, Extent, LinkShape
 from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.validate import Finding
 
@@ -32,7 +32,7 @@ _DUST = 1e-6
 """In kg: a lighter mass behind a moving joint stands for none."""
 
 
-def find_impossible_bodies(tree: KinematicTree, bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
+def find_impossible_bodies(tree: KinematicTree, bodies: Mapping[str, LinkShape], length: float) -> Iterator[Finding]:
     """Yield a finding for each body that cannot be, in a robot of this length in m."""
     yield from _check_masses(tree, bodies, length)
     yield from _check_densities(bodies)
@@ -53,7 +53,7 @@ def find_impossible_bodies(tree: KinematicTree, bodies: Mapping[str, Body], leng
             yield Finding("no-inertia", f"link {name} / inertial", message, "state the mass and the inertia")
 
 
-def _check_masses(tree: KinematicTree, bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
+def _check_masses(tree: KinematicTree, bodies: Mapping[str, LinkShape], length: float) -> Iterator[Finding]:
     """Check that each joint moves a mass, and that the robot is no denser than steel."""
     masses = {name: body.mass for name, body in bodies.items()}
     for joint in reversed(tree.joints):
@@ -80,7 +80,7 @@ def _check_masses(tree: KinematicTree, bodies: Mapping[str, Body], length: float
         yield Finding("mass-unit", "robot", message)
 
 
-def _check_center(body: Body, center: Vector, length: float) -> Iterator[Finding]:
+def _check_center(body: LinkShape, center: Vector, length: float) -> Iterator[Finding]:
     """Check that the centre of mass is not far outside of the link's shapes, nor of the robot.
 
     Without visual shapes, collision shapes may stand for a part of the link, such as a foot.
@@ -106,7 +106,7 @@ def _distance_from_box(shapes: Sequence[Extent], point: Vector) -> float:
     return math.hypot(*(max(lower - x, x - upper, 0.0) for lower, x, upper in zip(lowers, point, uppers, strict=True)))
 
 
-def _check_densities(bodies: Mapping[str, Body]) -> Iterator[Finding]:
+def _check_densities(bodies: Mapping[str, LinkShape]) -> Iterator[Finding]:
     """Check that no body is denser than tungsten or lighter than air, where shapes around it tell its volume.
 
     Three bodies or more also tell a usual density.

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync.urdf.kinematics.poses import Matrix, dot, pose, turned_inertia
-from urdfsync.urdf.plausibility.shapes import LIGHT, TUNGSTEN, Body, volume
+from urdfsync.urdf.plausibility.shapes import LIGHT, TUNGSTEN, LinkShape, volume
 from urdfsync.urdf.robot import Box, Collision, Cylinder, Geometry, Inertia, Inertial, Origin, Sphere, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
@@ -36,7 +36,7 @@ _BESIDE = 0.25
 """A centre of mass is beside a shape, whose inertia it has, by a quarter of the shape's reach."""
 
 
-def find_wrong_inertia(body: Body, inertial: Inertial, length: float, *, is_moving: bool) -> Iterator[Finding]:
+def find_wrong_inertia(body: LinkShape, inertial: Inertial, length: float, *, is_moving: bool) -> Iterator[Finding]:
     """Yield a finding if no body of the link's shapes has its inertia, in a robot of this length in m.
 
     `is_moving` tells whether a joint moves the link.
@@ -52,7 +52,7 @@ def find_wrong_inertia(body: Body, inertial: Inertial, length: float, *, is_movi
         yield Finding("inertia-shape", f"{place} / inertia", f"{place}: {words}")
 
 
-def _wrong_size(body: Body, inertial: Inertial, length: float, *, is_moving: bool) -> str:
+def _wrong_size(body: LinkShape, inertial: Inertial, length: float, *, is_moving: bool) -> str:
     """Return why no body of the link's size has its radius of gyration, in words; empty if one can have it.
 
     A mass without shape and inertia away from the link's frame may be the point mass of a pendulum.
@@ -83,7 +83,7 @@ class _Solid(NamedTuple):
     """The inertia about the origin, in its axes."""
 
 
-def _misfit(body: Body, inertial: Inertial) -> str:
+def _misfit(body: LinkShape, inertial: Inertial) -> str:
     """Return to what other body of the link's simple shapes the inertia belongs, in words; empty if unknown."""
     center, inertia, trace = inertial.origin.xyz, inertial.inertia, inertial.inertia.trace
     bodies = _bodies(body)
@@ -115,7 +115,7 @@ def _misfit(body: Body, inertial: Inertial) -> str:
     return ""
 
 
-def _bodies(body: Body) -> list[list[_Solid]]:
+def _bodies(body: LinkShape) -> list[list[_Solid]]:
     """Return the bodies of the collision and of the visual shapes, as solids of one density with the link's mass.
 
     A mesh or a capsule is no solid. Shapes that differ in nothing are one body.

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.urdf.kinematics.poses import Pose, dot, link_poses, moved, own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.plausibility.shapes import LIGHT, Body
+from urdfsync.urdf.plausibility.shapes import LIGHT, LinkShape
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Cylinder, Joint, Origin, Sphere, Vector
 from urdfsync.urdf.validate import Finding
 
@@ -34,7 +34,7 @@ _UNBALANCED = 0.05
 
 
 def find_impossible_joints(
-    tree: KinematicTree, bodies: Mapping[str, Body], length: float, poses: Mapping[str, Pose]
+    tree: KinematicTree, bodies: Mapping[str, LinkShape], length: float, poses: Mapping[str, Pose]
 ) -> Iterator[Finding]:
     """Yield a finding for each joint that cannot move as stated, in a robot of this length in m.
 
@@ -104,7 +104,7 @@ def _check_losses(tree: KinematicTree) -> Iterator[Finding]:
         yield Finding("stuck", f"joint {joint.name} / dynamics", message)
 
 
-def _check_wheels(tree: KinematicTree, bodies: Mapping[str, Body]) -> Iterator[Finding]:
+def _check_wheels(tree: KinematicTree, bodies: Mapping[str, LinkShape]) -> Iterator[Finding]:
     """Check that wheels are balanced: round links at the ends of continuous joints."""
     parents = {joint.parent for joint in tree.joints}
     for joint in tree.joints:
@@ -128,7 +128,7 @@ def _from_axis(axis: Vector, point: Vector) -> float:
     return math.sqrt(max(dot(point, point) - along * along, 0.0))  # `**` of a large number would raise an error
 
 
-def _check_loads(tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping[str, Pose]) -> Iterator[Finding]:
+def _check_loads(tree: KinematicTree, bodies: Mapping[str, LinkShape], poses: Mapping[str, Pose]) -> Iterator[Finding]:
     """Check that no drive is too weak for the weight behind its joint, in every position of the joint.
 
     The other joints are at their starts. Gravity acts along -z of the root. A source may tell which joints are driven.

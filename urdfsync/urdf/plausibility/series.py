@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.plausibility.shapes import LIGHT, Body
+from urdfsync.urdf.plausibility.shapes import LIGHT, LinkShape
 from urdfsync.urdf.plausibility.symmetry import SIDES, WORD
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Vector
 from urdfsync.urdf.validate import Finding
@@ -41,7 +41,7 @@ class _Number(NamedTuple):
     values: Sequence[float]
 
 
-def find_odd_ones(tree: KinematicTree, bodies: Mapping[str, Body], faulty: Set[str]) -> Iterator[Finding]:
+def find_odd_ones(tree: KinematicTree, bodies: Mapping[str, LinkShape], faulty: Set[str]) -> Iterator[Finding]:
     """Yield a finding for each number of a link or joint that differs from all others of its row.
 
     Elements in `faulty`, such as `link wheel_1`, have another finding, and show no usual number.
@@ -83,7 +83,7 @@ def _stem(name: str) -> str:
     return " ".join(word for word in WORD.findall(name) if word.lower() not in _PLACES)
 
 
-def _numbers(row: Sequence[Joint], bodies: Sequence[Body]) -> Iterator[_Number]:
+def _numbers(row: Sequence[Joint], bodies: Sequence[LinkShape]) -> Iterator[_Number]:
     masses = [body.mass for body in bodies]
     if max(masses) > LIGHT:
         yield _Number("link", "inertial", "mass", "kg", masses)

@@ -52,7 +52,7 @@ class Extent(NamedTuple):
     """In m³; infinite for such a mesh, 0 for an open one."""
 
 
-class Body(NamedTuple):
+class LinkShape(NamedTuple):
     """A link with its inertia and the extents of its shapes."""
 
     link: Link
@@ -92,7 +92,7 @@ def find_length(tree: KinematicTree) -> float:
     return max(distances.values())
 
 
-def find_bodies(tree: KinematicTree, imports: Mapping[str, Import], length: float) -> Mapping[str, Body]:
+def find_bodies(tree: KinematicTree, imports: Mapping[str, Import], length: float) -> Mapping[str, LinkShape]:
     """Return the bodies of links of a robot of this length by name; `imports` have the facts of meshes."""
     largest, bodies = _largest(length), {}
     for link in tree.links:
@@ -103,7 +103,7 @@ def find_bodies(tree: KinematicTree, imports: Mapping[str, Import], length: floa
             mass, center, inertia = link.inertial.mass, link.inertial.origin.xyz, link.inertial.inertia
             gyration = math.sqrt(max(inertia.trace, 0.0) / 2 / mass) if mass else 0.0
         radii = (math.dist(shape.center, center) + shape.reach for shape in (*visuals, *collisions))
-        bodies[link.name] = Body(link, visuals, collisions, mass, gyration, max(radii, default=0.0))
+        bodies[link.name] = LinkShape(link, visuals, collisions, mass, gyration, max(radii, default=0.0))
     return bodies
 
 
@@ -120,7 +120,7 @@ def _extent(shape: Visual | Collision, imports: Mapping[str, Import], largest: f
     return Extent(moved(pose(shape.origin), (x, y, z)), size / 2, enclosed)
 
 
-def find_far_shapes(bodies: Mapping[str, Body], length: float) -> Iterator[Finding]:
+def find_far_shapes(bodies: Mapping[str, LinkShape], length: float) -> Iterator[Finding]:
     """Yield a finding for each shape far outside of a robot of this length."""
     far = max(_FAR * length, _FAR_AWAY)
     for body in bodies.values() if length else ():
@@ -131,7 +131,7 @@ def find_far_shapes(bodies: Mapping[str, Body], length: float) -> Iterator[Findi
                 yield Finding("shape-far", f"{place} / origin", message)
 
 
-def find_displaced_collisions(bodies: Mapping[str, Body]) -> Iterator[Finding]:
+def find_displaced_collisions(bodies: Mapping[str, LinkShape]) -> Iterator[Finding]:
     """Yield a finding for each link whose one collision shape equals its one visual shape, but stands beside it."""
     for name, body in bodies.items():
         visuals, collisions = body.link.visuals, body.link.collisions

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, own_range, pose, turned_inertia
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.plausibility.shapes import LIGHT, Body
+from urdfsync.urdf.plausibility.shapes import LIGHT, LinkShape
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Inertial, Joint, Link, Mesh, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
@@ -55,7 +55,7 @@ class _Side(NamedTuple):
 
 
 def find_asymmetries(
-    tree: KinematicTree, bodies: Mapping[str, Body], poses: Mapping[str, Pose], suspects: Sequence[Collection[str]]
+    tree: KinematicTree, bodies: Mapping[str, LinkShape], poses: Mapping[str, Pose], suspects: Sequence[Collection[str]]
 ) -> Iterator[Finding]:
     """Yield a finding for each difference of a link or joint from the mirror image of its other side.
 
@@ -204,7 +204,7 @@ def _joint_differences(plane: _Plane, one: _Side, other: _Side) -> Iterator[tupl
         yield " / limit", f"{words} from {others_lower + 0.0:.4g} to {others_upper + 0.0:.4g}"
 
 
-def _compare_shapes(one: Body, other: Body) -> Iterator[Finding]:
+def _compare_shapes(one: LinkShape, other: LinkShape) -> Iterator[Finding]:
     """Compare the sizes of visual shapes; a mesh that is not in the package has none."""
     sizes = [max((shape.reach for shape in body.visuals), default=0.0) for body in (one, other)]
     if one.visuals and other.visuals and bool(one.collisions) != bool(other.collisions):

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from urdfsync.checks.experiment import Difference, Numbers, Sample
+from urdfsync.checks.experiment import Mismatch, Numbers, Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import further_key
 from urdfsync.modelica.literals import string
@@ -87,7 +87,7 @@ class _Comparison:
         needed = sorted(texts.keys() & {*whole, *parts})
         self.values = {path: read_values(texts[path].decode(errors="replace")) for path in needed}
         self.right = self.total = 0
-        self.differences, self.uncompared = list[Difference](), Counter[str]()
+        self.differences, self.uncompared = list[Mismatch](), Counter[str]()
         roots = reading.links.keys() - {joint.child for joint in reading.joints.values()}
         has_masses = any("inertial.mass" in link.values for link in reading.links.values())
         self.massless_root = None if has_masses else reading.links[next(iter(roots))]
@@ -136,7 +136,7 @@ class _Comparison:
     def _differ(self, file: str, element: str, value: Value, stated: Stated, given: Any) -> None:
         words = _shown(stated.value), _shown(given)
         place = file, value.line, stated.file or self.sample.file, stated.line
-        self.differences.append(Difference(element, value.path, *words, *place))
+        self.differences.append(Mismatch(element, value.path, *words, *place))
 
     def _element(self, file: str, component: str, type_: str, values: Sequence[Value], *, whole: bool = False) -> None:
         """Compare the record of a link, joint or loop, or its part in the record of the `whole` robot."""
