@@ -25,7 +25,7 @@ GENERATED = frozenset(
     "rotationalsupport s_start showcollisions slideaxes sliding slidingjoints slidinglimits slidinglosses "
     "slidingmasses standingheight startpositions translationalaxes translationalaxis translationaljoints "
     "translationalrange translationalsupport tree turnaxes turning turninginertias turningjoints turninglimits "
-    "turninglosses v_start visualizationsetup visuals w_start world".split()
+    "turninglosses v_start visuals w_start world".split()
 )
 """Names, in lower case, that models and records of robots use for other things than links and joints."""
 
