@@ -282,6 +282,7 @@ class Domain(Protocol):
     parts: Any = None  # `urdfsync.engine.unused.Parts`
     judgements: Any = None  # `urdfsync.engine.judgements.Judgements`
     effects: Any = None  # `urdfsync.changes.Effects`
+    formats: Any = None  # `urdfsync.changes.Formats`
     record: Any = None  # `urdfsync.api.Recorder`
     checks: Any = None  # `urdfsync.checks.experiment.Checks`
     simulation: Any = None  # `urdfsync.simulation.bench.Benches`
@@ -314,15 +315,6 @@ class Domain(Protocol):
         """Return an old model in the order of the new one, for a domain whose artifacts follow an unrecorded order."""
         return old
 
-    def in_common_frames(
-        self,
-        old: Snapshot,
-        new: Snapshot,
-        renames: Mapping[ElementKey, str],
-    ) -> tuple[Snapshot, Snapshot]:
-        """Return the comparable parts of two models from different sources, such as two formats."""
-        return old, new
-
     def uses(self, options: Any) -> Sequence[tuple[str, str]]:
         """Return the libraries that a generated package needs, with their versions, for a top-level `uses`."""
         return ()
@@ -344,13 +336,6 @@ class Domain(Protocol):
         """Return the features of elements; by default, elements have none and match by name alone."""
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
-
-    def coarse_features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
-        """Return features that another format of the same model has, too; by default none.
-
-        They count if hardly any element of two versions matches by `features`.
-        """
-        return {}
 
     def numbered(self, old: Version, new: Version) -> tuple[Numbered, Numbered]:
         """Return the numbered parts of the elements of two versions, for an edit to follow its part."""

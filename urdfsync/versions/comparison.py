@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync import changes, registry
-from urdfsync.changes import Changes, Effect, Effects
+from urdfsync.changes import Changes, Effect, Effects, Formats
 from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.config.load import parse as parse_config
 from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
@@ -278,7 +278,9 @@ def _with_version(
     known = {(finding.code, finding.message) for finding in told_before}
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
     if is_pair:
-        old, new = map(Version, domain.in_common_frames(old.snapshot, new.snapshot, matching.renames))
+        formats: Formats | None = domain.formats
+        if formats is not None:
+            old, new = map(Version, formats.in_common_frames(old.snapshot, new.snapshot, matching.renames))
         matching = Matching(matching.renames)  # no file has the name of a doubtful element
     differences = changes.compare(old, new, domain, robot.options, matching)
     if is_pair:
