@@ -14,7 +14,9 @@ from urdfsync.domain import (
     ChangeKind,
     Domain,
     ElementKey,
+    Features,
     Import,
+    Snapshot,
     Target,
     Version,
     displaced,
@@ -81,6 +83,23 @@ class Effects(Protocol):
 
         `options` belong to the new version, and to an old version without `options`.
         """
+        ...
+
+
+class Formats(Protocol):
+    """Compares models of one thing in different formats; the attribute `formats` of a domain."""
+
+    def coarse_features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
+        """Return features that another format of the same model has, too.
+
+        They count if hardly any element of two versions matches by the domain's `features`.
+        """
+        ...
+
+    def in_common_frames(
+        self, old: Snapshot, new: Snapshot, renames: Mapping[ElementKey, str]
+    ) -> tuple[Snapshot, Snapshot]:
+        """Return the comparable parts of two models from different sources."""
         ...
 
 

@@ -19,7 +19,7 @@ from urdfsync.diagnostics import Diagnostic
 
 if TYPE_CHECKING:  # types of features alone: no module needs another one for a domain
     from urdfsync.api import Recorder
-    from urdfsync.changes import Describe, Effects
+    from urdfsync.changes import Describe, Effects, Formats
     from urdfsync.checks.experiment import Checks
     from urdfsync.config.advice import Advice, Starter
     from urdfsync.engine.imports import Mentions
@@ -295,6 +295,7 @@ class Domain(Protocol):
     parts: Parts | None = None
     judgements: Judgements | None = None
     effects: Effects | None = None
+    formats: Formats | None = None
     record: Recorder | None = None
     checks: Checks | None = None
     simulation: Benches | None = None
@@ -327,15 +328,6 @@ class Domain(Protocol):
         """Return an old model in the order of the new one, for a domain whose artifacts follow an unrecorded order."""
         return old
 
-    def in_common_frames(
-        self,
-        old: Snapshot,
-        new: Snapshot,
-        renames: Mapping[ElementKey, str],
-    ) -> tuple[Snapshot, Snapshot]:
-        """Return the comparable parts of two models from different sources, such as two formats."""
-        return old, new
-
     def uses(self, options: Any) -> Sequence[tuple[str, str]]:
         """Return the libraries that a generated package needs, with their versions, for a top-level `uses`."""
         return ()
@@ -357,13 +349,6 @@ class Domain(Protocol):
         """Return the features of elements; by default, elements have none and match by name alone."""
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
-
-    def coarse_features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
-        """Return features that another format of the same model has, too; by default none.
-
-        They count if hardly any element of two versions matches by `features`.
-        """
-        return {}
 
     def numbered(self, old: Version, new: Version) -> tuple[Numbered, Numbered]:
         """Return the numbered parts of the elements of two versions, for an edit to follow its part."""

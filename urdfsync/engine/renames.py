@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from urdfsync.changes import Formats
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, ElementKey, Features, Snapshot, displaced
 from urdfsync.engine.inputs import Inputs
@@ -33,7 +34,9 @@ def find_matching(
     }
     named = {key: new for key, new in named.items() if key[0] not in done}
     matching = match(before, after, named)
-    return _matched_coarsely(domain, old, new, matching) if _is_foreign(before, after, matching) else matching
+    if domain.formats is None or not _is_foreign(before, after, matching):
+        return matching
+    return _matched_coarsely(domain.formats, old, new, matching)
 
 
 def _is_foreign(before: Elements, after: Elements, matching: Matching) -> bool:
@@ -48,9 +51,9 @@ def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[Elemen
     return {key: to for key, to in new.items() if to in after}
 
 
-def _matched_coarsely(domain: Domain, old: Snapshot, new: Snapshot, matching: Matching) -> Matching:
+def _matched_coarsely(formats: Formats, old: Snapshot, new: Snapshot, matching: Matching) -> Matching:
     """Return a matching with further pairs: by features that other formats have, too, then by unique places alone."""
-    before, after = domain.coarse_features(old), domain.coarse_features(new)
+    before, after = formats.coarse_features(old), formats.coarse_features(new)
     for has_contents in (True, False):
         sides = [before, after]
         if not has_contents:

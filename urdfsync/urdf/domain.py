@@ -16,8 +16,6 @@ from urdfsync.domain import (
     Conversion,
     Dependency,
     Domain,
-    ElementKey,
-    Features,
     Import,
     Lookup,
     Order,
@@ -72,6 +70,7 @@ class UrdfDomain(Domain):
     cured = ("loop-singular",)
     advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
     judgements, identification = _Module("plausibility.judgements"), _Module("physics.regressor")
+    formats = _Module("diff.common_frames")
     imports, simulation, pictures = _Module("meshes.lookup"), _Module("benches"), _Module("scene")
     companions = (
         CompanionKind("closed_loops", ".yaml", CLOSED_LOOP),
@@ -140,18 +139,6 @@ class UrdfDomain(Domain):
         from urdfsync.urdf.meshes.convert import convert  # a late import saves 10 ms if no mesh is new
 
         return convert(dependency, file, content, others)
-
-    def coarse_features(self, snapshot: Robot) -> Mapping[ElementKey, Features]:
-        """Return features of links and joints that do not depend on frames and shapes."""
-        from urdfsync.urdf.diff.common_frames import coarse_features  # NumPy takes a while to load
-
-        return coarse_features(snapshot)
-
-    def in_common_frames(self, old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> tuple[Robot, Robot]:
-        """Return what differs in motion, in the frames of the old robot."""
-        from urdfsync.urdf.diff.common_frames import in_common_frames  # NumPy takes a while to load
-
-        return in_common_frames(old, new, renames)
 
     features, numbered = staticmethod(find_features), staticmethod(find_shapes)
 

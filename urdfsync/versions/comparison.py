@@ -278,7 +278,9 @@ def _with_version(
     known = {(finding.code, finding.message) for finding in told_before}
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
     if is_pair:
-        old, new = map(Version, domain.in_common_frames(old.snapshot, new.snapshot, matching.renames))
+        formats = domain.formats
+        if formats is not None:
+            old, new = map(Version, formats.in_common_frames(old.snapshot, new.snapshot, matching.renames))
         matching = Matching(matching.renames)  # no file has the name of a doubtful element
     differences = changes.compare(old, new, domain, robot.options, matching)
     if is_pair:
