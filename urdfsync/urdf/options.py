@@ -14,8 +14,8 @@ USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
 
 FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
 MotorNumber: TypeAlias = Literal["effort", "velocity", "damping", "friction", "armature", "reduction", "rotor_inertia"]
-_MOTOR_NUMBERS = msgspec.Meta(extra_json_schema={"propertyNames": {"enum": [*get_args(MotorNumber)]}})
-"""msgspec leaves the keys of a mapping out of schemas."""
+_MOTOR_NUMBERS = msgspec.Meta(extra_json_schema={"propertyNames": {"enum": sorted(get_args(MotorNumber))}})
+"""Lists the allowed keys as msgspec does from version 0.23 on; earlier ones omit them."""
 LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial", "part-left-out"]
 """Codes of errors that the user may allow: a part that the model can't have is left out."""
 
