@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import PurePath
 
 from urdfsync.changes import Formats
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
@@ -14,13 +15,20 @@ from urdfsync.spelling import nearest
 
 
 def find_matching(
-    domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str], *, is_pending: bool = False
+    domain: Domain,
+    old: Snapshot,
+    new: Snapshot,
+    declared: Mapping[str, str],
+    *,
+    is_pending: bool = False,
+    has_other_format: bool = False,
 ) -> Matching:
     """Match the elements of two versions; `declared` maps old names to new names.
 
     Declared renames of a kind (links, joints) are ignored if the old version has the new names already. That is so if
     an element with one of the old names is equal in both versions. If `is_pending`, this element must also differ from
-    the element with the new name: elements that look alike prove nothing.
+    the element with the new name: elements that look alike prove nothing. If the new version `has_other_format`, and
+    fewer than half of the elements match, the others match by features that all formats have.
     """
     if old == new and not (declared and is_pending):
         return Matching()
@@ -34,15 +42,15 @@ def find_matching(
     }
     named = {key: new for key, new in named.items() if key[0] not in done}
     matching = match(before, after, named)
-    if domain.formats is None or not _is_foreign(before, after, matching):
-        return matching
-    return _matched_coarsely(domain.formats, old, new, matching)
+    if domain.formats and has_other_format and 2 * len(_pairs(before, after, matching)) < min(len(before), len(after)):
+        return _matched_coarsely(domain.formats, old, new, matching)
+    return matching
 
 
-def _is_foreign(before: Elements, after: Elements, matching: Matching) -> bool:
-    """Return whether fewer than half of the elements match: the new version may be of another format."""
-    has_names = before.keys() == after.keys()
-    return not has_names and 2 * len(_pairs(before, after, matching)) < min(len(before), len(after))
+def _has_other_format(inputs: Inputs) -> bool:
+    """Return whether the last build read a source of another format. A plain source has no recorded expansion."""
+    before, now = inputs.store.load_expansion(inputs.last.name), inputs.source.expansion
+    return len({PurePath(each.source).suffix if each else "" for each in (before, now)}) > 1
 
 
 def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[ElementKey, ElementKey]:
@@ -77,12 +85,13 @@ def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) 
         return Matching()
     recorded, last_seen = last.version.snapshot, last.seen
     open_renames = last.record.open.renamed if last.record.open else {}
-    direct = find_matching(domain, recorded, now, declared, is_pending=True)
+    has_other_format = recorded != now and _has_other_format(inputs)
+    direct = find_matching(domain, recorded, now, declared, is_pending=True, has_other_format=has_other_format)
     if last_seen is None:
         return direct
     opened = {(name, new) for (_, name), new in open_renames.items()}
     remaining = {name: new for name, new in declared.items() if (name, new) not in opened}
-    later = find_matching(domain, last_seen, now, remaining, is_pending=True)
+    later = find_matching(domain, last_seen, now, remaining, is_pending=True, has_other_format=has_other_format)
     existing, seen = domain.features(now), domain.features(last_seen)
     gone, followed = displaced(open_renames), dict[ElementKey, str]()
     gone_since = displaced(later.renames)

@@ -276,7 +276,8 @@ def _with_version(
         new, imported, reading, told = _read(domain, robot, current, imports.Imported(), options)
         old, imported_before, _, told_before = _read(domain, robot, other, imported, options)
     known = {(finding.code, finding.message) for finding in told_before}
-    matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
+    has_other_format = is_pair or bool(text.expansion) != bool(other.text.expansion)
+    matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed, has_other_format=has_other_format)
     if is_pair:
         formats = domain.formats
         if formats is not None:
