@@ -46,6 +46,7 @@ def test_values_are_found_with_their_lines() -> None:
 @pytest.mark.parametrize(("text", "value"), [
     ("-2.5e-3", (-0.0025,)), ("-0", (0.0,)), ("- Modelica.Constants.inf", (-float("inf"),)), ('"a\\nb"', "a\nb"),
     ("[1, 2; 3, 4]", (1.0, 2.0, 3.0, 4.0)), ("fill(0, 0, 3)", ()), ("true", "true"), ("2*x", None), ("x.y", None),
+    ("1+1", None), ("{1, 2 - 1}", None), ("{1, - 2 }", (1.0, -2.0)), ("1 2", None),
 ])  # fmt: skip
 def test_literals_are_read_as_values(text: str, value: object) -> None:
     assert literals(text) == value

@@ -19,7 +19,10 @@ from urdfsync.identification.results import FittedNumber, Regressor
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.values import Value, literals, read_values
 
-_COMMENT = re.compile(r"/[*/]")
+_COMMENTED = re.compile(r'((?:"(?:[^"\\]|\\.)*+"|(?!/[*/])[^"])*+)(?:/\*(?:(?!\*/).)*+\*/|//[^\n]*+|\s)*+', re.DOTALL)
+"""An expression, and comments behind it; a string may contain `//`."""
+_NOISE = 0.1
+"""A change below this fraction of its standard error is not written: it says nothing, and collides with exports."""
 _ITEM = re.compile(r"\[(\d)\]$")
 _ELEMENT = re.compile(r"(\w+) (.*)", re.DOTALL)
 
@@ -29,7 +32,8 @@ class Place:
 
     def __init__(self, path: str, value: Value) -> None:
         self.path, self.start, self.line = path, value.start, value.line
-        self.text = _COMMENT.split(value.text)[0].rstrip()
+        commented = _COMMENTED.fullmatch(value.text)
+        self.text = (commented[1] if commented else value.text).rstrip()
         self.numbers = literals(self.text)
 
 
@@ -54,13 +58,17 @@ class Records:
             edits = dict[str, tuple[float, ...]]()
             for path, places in paths.items():
                 before = generated.get(element, {}).get(path)
-                if before is None or before[0].numbers == places[0].numbers is not None:
+                edited = places[0]
+                if before is None or before[0].text == edited.text:
                     continue
-                if not isinstance(places[0].numbers, tuple):
-                    file = shown(self.package.robot.folder / places[0].path)
-                    message = f"{element}: {path} is edited to `{places[0].text}`, which is no number"
-                    raise ConfigError.of("identify", message, file, places[0].line, hint="write a number")
-                edits[path] = places[0].numbers
+                numbers, message = edited.numbers, f"{element}: {path} is edited to `{edited.text}`"
+                place = shown(self.package.robot.folder / edited.path), edited.line
+                if not isinstance(numbers, tuple):
+                    raise ConfigError.of("identify", f"{message}, which is no number", *place, hint="write a number")
+                if path == "inertial.mass" and numbers[0] <= 0:
+                    raise ConfigError.of("identify", message, *place, hint="write a mass above 0")
+                if numbers != before[0].numbers:
+                    edits[path] = numbers
             if edits and (match := _ELEMENT.fullmatch(element)):
                 yield (match[1], match[2]), edits
 
@@ -84,12 +92,13 @@ class Records:
     def write(self, numbers: Sequence[FittedNumber]) -> tuple[str, ...]:
         """Write numbers into the records, as a user would; return the files. Raises UrdfsyncError.
 
-        Nothing is written if one of the files changed since it was read.
+        Nothing is written if one of the files changed since it was read, or if one can't be written. A number stays if
+        its change is far below its standard error.
         """
         changes = dict[str, list[tuple[Place, str]]]()
         values = dict[tuple[str, str], list[str]]()
         for number in numbers:
-            if not number.is_written:
+            if not number.is_written or abs(number.after - number.before) < _NOISE * number.error:
                 continue
             item, path = _ITEM.search(number.path), _ITEM.sub("", number.path)
             places = self.values[number.element][path]
@@ -110,11 +119,15 @@ class Records:
             for place, new in sorted(of_file, key=lambda each: -each[0].start):
                 text = text[: place.start] + new + text[place.start + len(place.text) :]
             contents[folder / path] = text.encode(errors="surrogateescape")
+        written = list[Path]()
         for file, content in contents.items():
             try:
                 put(file, content)
             except OSError as error:
+                for done in written:  # half of a fit is none
+                    put(done, self.package.on_disk[done.relative_to(folder).as_posix()])
                 raise failure(error, file) from None
+            written.append(file)
         return tuple(file.relative_to(self.config.root).as_posix() for file in contents)
 
 

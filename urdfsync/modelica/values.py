@@ -11,7 +11,8 @@ from typing import NamedTuple
 from urdfsync.modelica.lexer import Token, lex
 
 _NUMBER = r"(?:[-+]\s*+)?(?:Modelica\.Constants\.inf\b|(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?)"
-_NUMBERS = re.compile(rf"(?:\s|[{{}}\[\],;]|{_NUMBER})*+")
+_NUMBERS = re.compile(rf"(?:\s|[{{}}\[\],;]|{_NUMBER}(?=\s*+(?:[}}\],;]|\Z)))*+")
+"""Numbers in brackets; two numbers have something between them, so `1+1` is none."""
 _EMPTY = re.compile(r"fill\(0, 0, \d+\)")
 _SECTIONS = ("public", "protected")
 _PASSED = ("within", "end", "annotation", "import")
