@@ -54,12 +54,14 @@ class Measured:
         self.evidence, self.held_out = Evidence(len(self.axes)), Evidence(len(self.axes))
         self.sizes = np.full((3, len(self.axes)), 1e-12)
         """The greatest speed, 1 and acceleration of each axis, as damping, dry friction and inertia act on them."""
-        self.seconds = self.rate = self.cutoff = 0.0
+        self.seconds = self.rate = 0.0
         self._stored: list[tuple[Array, Array, np.ndarray]] = []
         self._left_out = 0
+        # two passes: where a robot rests or a log has gaps, a piece does not tell how fast the motion is
+        self.cutoff = options.cutoff or signals.find_cutoff(self.log.pieces(), regressor.axes, self.log.measured)
+        self.log.dropped.clear()
         first, total = 0.0, 0
         for number, piece in enumerate(self.log.pieces()):
-            self.cutoff = self.cutoff or options.cutoff or signals.find_cutoff(piece, self.log.measured)
             first = first if number else piece.times[0]
             total += len(piece.times)
             progress("reading the log", total, 0)
