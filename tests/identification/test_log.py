@@ -10,7 +10,7 @@ import pytest
 from support import measured
 from support.commands import Execute
 
-from urdfsync.diagnostics import SourceError
+from urdfsync.diagnostics import ConfigError, SourceError
 from urdfsync.identification.log import Log
 from urdfsync.identification.results import Axis, IdentifyOptions
 
@@ -53,6 +53,12 @@ def test_other_names_by_a_mapping(folder: Path) -> None:
     log = read(write("time,enc0,cur0"), "elbow.position=enc0", "elbow.effort=cur0*2.5")
     (piece,) = log.pieces()
     assert piece.effort[0, 0] == pytest.approx(25)
+
+
+@pytest.mark.parametrize("factor", ["nan", "inf", "0"])
+def test_a_factor_that_leaves_no_effort(folder: Path, factor: str) -> None:
+    with pytest.raises(ConfigError, match="the factor has to be finite, and not 0"):
+        read(write("time,enc0,cur0"), "elbow.position=enc0", f"elbow.effort=cur0*{factor}")
 
 
 def test_other_names_without_a_mapping(folder: Path) -> None:

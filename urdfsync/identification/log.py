@@ -142,9 +142,12 @@ class Log:
                 message = f"`--column {text}` names no joint, quantity ({', '.join(QUANTITIES)}) or column"
                 raise ConfigError.of("log", message, hint=names)
             try:
-                yield (joints[joint], quantity), Column(self.header.index(name), float(factor))
+                value = float(factor)
             except ValueError:
                 raise ConfigError.of("log", f"`--column {text}`: {factor!r} is no number") from None
+            if not value or not math.isfinite(value):
+                raise ConfigError.of("log", f"`--column {text}`: the factor has to be finite, and not 0")
+            yield (joints[joint], quantity), Column(self.header.index(name), value)
 
     def _factor(self, cell: str, unit: str, wanted: str) -> float:
         if unit and unit not in UNITS[wanted]:
