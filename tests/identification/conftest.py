@@ -26,3 +26,11 @@ def gripper(folder: Path, recording: measured.Recording) -> Path:
     recording.write(Path("log.csv"))
     assert cli.main(["build", "--quiet"]) == 0
     return folder
+
+
+@pytest.fixture
+def leg(folder: Path) -> Path:
+    Path("leg.urdf").write_text(measured.LEG)
+    Path("urdfsync.toml").write_text('[robots.leg]\nsource = "leg.urdf"\npackage = "Leg"\n')
+    assert cli.main(["build", "--quiet"]) == 0
+    return folder

@@ -5,24 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import pytest
-from support import measured
 from support.commands import Execute
 from support.files import unchanged
 
-from urdfsync import cli
 from urdfsync.simulation.models import Input
 from urdfsync.simulation.motion import read_motion
 
 LIMITS = {"hip": (-1.05, 1.05, 30), "thigh": (-1.57, 3.49, 30), "calf": (-2.72, -0.83, 15)}
-
-
-@pytest.fixture
-def leg(folder: Path) -> Path:
-    Path("leg.urdf").write_text(measured.LEG)
-    Path("urdfsync.toml").write_text('[robots.leg]\nsource = "leg.urdf"\npackage = "Leg"\n')
-    assert cli.main(["build", "--quiet"]) == 0
-    return folder
 
 
 def test_a_motion_begins_and_ends_at_rest_within_the_limits(leg: Path, execute: Execute) -> None:
@@ -49,3 +38,12 @@ def test_the_condition_number_falls(leg: Path, execute: Execute) -> None:
     with unchanged(leg):
         words = execute("identify", "leg", "--excite", "leg.urdf", code=2).words
     assert "the source of the robot has this name" in words
+
+
+def test_options_of_a_log_are_refused_for_a_motion(leg: Path, execute: Execute) -> None:
+    for given in (["--write"], ["--cutoff", "5"], ["--until", "3"], ["--column", "hip.effort=a"], ["--motor-side"]):
+        words = execute("identify", "leg", "--excite", "motion.csv", *given, code=2).words
+        assert f"`{given[0]}` is for a log, not for `--excite`" in words
+    words = execute("identify", "leg", "--excite", "motion.csv", "--joint", "hipp", code=2).words
+    assert "`hipp` is no joint that moves and has numbers; did you mean `hip`?" in words
+    assert not Path("motion.csv").exists()

@@ -10,7 +10,7 @@ import pytest
 from support import measured
 from support.commands import Execute
 
-from urdfsync.diagnostics import SourceError
+from urdfsync.diagnostics import ConfigError, SourceError
 from urdfsync.identification.log import Log
 from urdfsync.identification.results import Axis, IdentifyOptions
 
@@ -55,12 +55,34 @@ def test_other_names_by_a_mapping(folder: Path) -> None:
     assert piece.effort[0, 0] == pytest.approx(25)
 
 
+@pytest.mark.parametrize("factor", ["nan", "inf", "0"])
+def test_a_factor_that_leaves_no_effort(folder: Path, factor: str) -> None:
+    with pytest.raises(ConfigError, match="the factor has to be finite, and not 0"):
+        read(write("time,enc0,cur0"), "elbow.position=enc0", f"elbow.effort=cur0*{factor}")
+
+
 def test_other_names_without_a_mapping(folder: Path) -> None:
     """The error lists both the joints and the columns."""
     with pytest.raises(SourceError, match="the columns are time, enc0, cur0"):
         read(write("time,enc0,cur0"))
     with pytest.raises(SourceError, match="the joints are elbow, slide-1: name the columns"):
         read(write("time,enc0,cur0"))
+
+
+def test_joints_whose_names_differ_by_a_separator(folder: Path) -> None:
+    """Exact names come first; what may be both is refused, unless the user chooses."""
+    axes = [ELBOW._replace(name="j1_1", component="j1_1"), ELBOW._replace(name="j11", component="j11")]
+    file = write("time,j1_1.position,j1_1.effort")
+    assert Log(file, axes, IdentifyOptions()).measured == [0]
+    file = write("time,J1-1 q,j11/tau")
+    assert [*Log(file, axes, IdentifyOptions(columns=("j1_1.effort=j11/tau",))).columns] == [
+        (0, "position"),
+        (0, "effort"),
+    ]
+    file = write("time,j 11 q,j11.effort")
+    with pytest.raises(SourceError, match="`j 11 q` may be the position of j1_1 or the position of j11"):
+        Log(file, axes, IdentifyOptions())
+    assert Log(file, axes, IdentifyOptions(columns=("j11.position=j 11 q",))).measured == [1]
 
 
 def test_units(folder: Path) -> None:
@@ -87,6 +109,16 @@ def test_the_motors_side(folder: Path) -> None:
     (piece,) = read(write("time,elbow.position,elbow.effort", 600, 60), motor_side=True).pieces()
     assert np.abs(piece.position[:, 0]).max() == pytest.approx(60 / 50, rel=0.01)
     assert piece.effort[0, 0] == pytest.approx(500)
+
+
+def test_the_motors_side_without_a_gear(folder: Path) -> None:
+    file, direct = write("time,elbow.position,elbow.effort", 600, 80), ELBOW._replace(reduction=1.0)
+    with pytest.raises(ConfigError, match="`--motor-side` needs gears"):
+        Log(file, [direct, SLIDE], IdentifyOptions(motor_side=True))
+    geared = SLIDE._replace(reduction=3.0)
+    options = IdentifyOptions(motor_side=True, columns=("slide-1.effort=elbow.effort", "elbow.effort=elbow.effort"))
+    with pytest.raises(SourceError, match="these look like degrees"):
+        list(Log(file, [direct, geared], options).pieces())
 
 
 @pytest.mark.parametrize(("step", "unit"), [(2.0, "ms"), (2e3, "us"), (2e6, "ns")])
@@ -137,6 +169,14 @@ def test_files_that_are_no_log(folder: Path) -> None:
             read(Path(name))
 
 
+def test_rows_that_are_not_sorted(folder: Path) -> None:
+    head, *rows = write("time,elbow.position,elbow.effort", 3000).read_text().splitlines()
+    mixed = np.random.default_rng(0).permutation(rows)
+    Path("log.csv").write_text("\n".join([head, *mixed]) + "\n")
+    with pytest.raises(SourceError, match=r"times are not sorted: 1[45]\d\d of 3000 rows"):
+        list(read(Path("log.csv")).pieces())
+
+
 def test_semicolons_and_decimal_commas(folder: Path) -> None:
     text = write("time,elbow.position,elbow.effort").read_text()
     Path("log.csv").write_text(text.replace(",", ";").replace(".", ",").replace("elbow,", "elbow."))
@@ -152,6 +192,17 @@ def test_parquet_is_the_same(folder: Path) -> None:
     (one,), (other,) = (list(read(Path(name)).pieces()) for name in ("log.csv", "log.parquet"))
     assert one.position.tolist() == other.position.tolist()
     assert one.effort.tolist() == other.effort.tolist()
+    stamps = pyarrow.array(np.datetime64("2026-01-01", "us") + (1e6 * table[:, 0]).astype(int))
+    parquet.write_table(
+        pyarrow.table([stamps, *map(pyarrow.array, table.T[1:])], ["time [ms]", *names[1:]]), "stamps.parquet"
+    )
+    (stamped,) = read(Path("stamps.parquet")).pieces()
+    assert (stamped.times - stamped.times[0]).tolist() == pytest.approx(one.times.tolist(), abs=2e-6)
+    content = bytearray(Path("log.parquet").read_bytes())
+    content[4:400] = bytes(396)
+    Path("spoiled.parquet").write_bytes(content)
+    with pytest.raises(SourceError, match="the file can't be read"):
+        list(read(Path("spoiled.parquet")).pieces())
     Path("bad.parquet").write_bytes(b"PAR1")
     with pytest.raises(SourceError, match="the file can't be read"):
         read(Path("bad.parquet"))

@@ -15,10 +15,10 @@ from support.git import NEEDS_GIT, Repository
 from support.patches import patch_and_told
 
 import urdfsync
-from urdfsync.checks.results import Judgement
+from urdfsync.checks.results import JointFit, Judgement
 from urdfsync.engine.options import no_progress
 from urdfsync.identification.results import IdentifyOptions
-from urdfsync.identification.run import judge
+from urdfsync.identification.run import _doubts, judge
 
 DRIVE = Path("modelica/Gripper/Joints/DriveParameters.mo")
 
@@ -193,3 +193,41 @@ def test_efforts_that_are_always_0(gripper: Path, execute: Execute, recording: m
     assert "whose effort is constant" in printed.words
     words = execute("identify", "gripper", "log.csv", "--cutoff", "400", code=2).words
     assert "a cut-off frequency of 400 Hz is too high for 500 rows per second" in words
+
+
+def test_a_wrong_sign_that_other_numbers_hide_is_told() -> None:
+    """What is left after the fit looks good; the source's own numbers explain less than none would."""
+    shoulder = JointFit("joint shoulder", "N·m", measured=20.0, before=40.0, after=0.5, offset=0.0, samples=9)
+    light = JointFit("joint light", "N·m", measured=0.1, before=0.2, after=0.01, offset=0.0, samples=9)
+    (told,) = _doubts([shoulder, light])
+    assert "joint shoulder: the source's numbers are worse than none, 200 % of its effort is left" in told.message
+
+
+def test_a_time_that_holds_nothing_out_or_leaves_nothing(gripper: Path, execute: Execute) -> None:
+    printed = execute("identify", "gripper", "log.csv", "--until", "60")
+    assert "`--until 60` holds nothing out: the log has no sample after that time" in printed.words
+    printed = execute("identify", "gripper", "log.csv", "--until", "0.1", code=2)
+    assert "`--until 0.1` leaves too little of log.csv to fit" in printed.words
+
+
+def test_a_joint_that_stands_still_is_named(leg: Path, execute: Execute) -> None:
+    times = np.arange(0, 8, 0.01)
+    moving, still = np.sin(3 * times), np.full_like(times, -1.5)
+    rows = np.column_stack([times, 0.5 * moving, moving, still, 5 * moving, 6 * moving, 1 + 0.1 * moving])
+    header = "time," + ",".join(f"{joint}.{what}" for what in ("q", "tau") for joint in ("hip", "thigh", "calf"))
+    np.savetxt("still.csv", rows, "%.9g", ",", header=header, comments="")
+    printed = execute("identify", "leg", "still.csv", "--joint", "calf", "--joint", "hip")
+    assert "whose effort is constant or at its limit: all of calf" in printed.words
+    assert "joint calf: it stands still, or its effort is constant, so it can't be fitted" in printed.words
+
+
+def test_a_robot_without_joints_to_fit(folder: Path, execute: Execute) -> None:
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
+    Path("box.urdf").write_text(f'<robot name="box"><link name="a"/><link name="b"/>{joint}</robot>')
+    Path("urdfsync.toml").write_text('[robots.box]\nsource = "box.urdf"\npackage = "Box"\n')
+    execute("build", "--quiet")
+    Path("log.csv").write_text("time,j.position,j.effort\n0,0,0\n")
+    for arguments in (["log.csv"], ["--excite", "motion.csv"]):
+        printed = execute("identify", "box", *arguments, code=2)
+        assert "the robot has no joint that can be fitted" in printed.words
+        assert len(printed.errors) == 1

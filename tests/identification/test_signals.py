@@ -7,7 +7,7 @@ import pytest
 
 from urdfsync.identification.log import Piece
 from urdfsync.identification.results import Axis
-from urdfsync.identification.signals import prepare, target_at, thinned
+from urdfsync.identification.signals import find_cutoff, prepare, target_at, thinned
 
 AXIS = Axis("elbow", "elbow", "rad", 0.0, (-9, 9), 9.0, np.inf, 1.0, "position", "elbow_phi")
 CUTOFF = 5.0
@@ -45,3 +45,15 @@ def test_an_effort_without_a_meaning_spreads_no_further_than_the_filter() -> Non
     near = np.array([still[np.abs(samples.times - time) < 0.75 / CUTOFF].any() for time in samples.times])
     assert not samples.is_free[still].any()
     assert samples.is_free[~near].all()
+
+
+def test_the_cutoff_follows_from_the_pieces_that_move() -> None:
+    """Neither noise at rest nor the length of a short piece is taken for a fast motion."""
+    moving = turning(0.0)
+    noise = 1e-4 * np.random.default_rng(0).standard_normal(moving.position.shape)
+    resting, short = moving._replace(position=noise), Piece(*(values[:600] for values in moving if values is not None))
+    alone = find_cutoff([moving], [AXIS], [0])
+    assert alone < 10
+    for pieces in ([resting, moving], [moving, resting], [short, moving]):
+        assert find_cutoff(pieces, [AXIS], [0]) == alone
+    assert find_cutoff([], [AXIS], [0]) == 1.0

@@ -12,6 +12,7 @@ from urdfsync.checks.report import closing_lines, to_section
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, Judgement, exit_code
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
+from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.output.console import Console, line
 from urdfsync.output.terminal import text
 
@@ -66,7 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, "`--remote-write` needs `--remote-cache`")
     results = list[CheckResult]()
     write_report = prepare_page(args, console, args.report) if args.report else None
-    judgement = _judge(args, console) if args.log else None
+    judgement, fault = _judge(args, console) if args.log else (None, None)
 
     def show(result: CheckResult) -> None:
         if judgement:
@@ -82,17 +83,23 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if write_report:
         write_report(check=results[0])
         console.tell([line((f"  report: {args.report}", ""))])
+    if fault:
+        raise fault
     return console.end(exit_code(results))
 
 
-def _judge(args: argparse.Namespace, console: Console) -> Judgement:
-    """Compare the one robot with a log, before its check: a log with faults ends the command at once."""
+def _judge(args: argparse.Namespace, console: Console) -> tuple[Judgement | None, UrdfsyncError | None]:
+    """Compare the one robot with a log; return the fault of a log that can't be used, to be told after the check."""
     from urdfsync.identification import run  # loads numpy
     from urdfsync.identification.results import IdentifyOptions
 
     given = {"columns": tuple(args.columns), "topic": args.topic, "motor_side": args.motor_side}
     options = IdentifyOptions(**given, wait=args.wait)
-    return run.judge(*arguments.select_robot(args, console), args.log, options, console.progress)
+    chosen = arguments.select_robot(args, console)
+    try:
+        return run.judge(*chosen, args.log, options, console.progress), None
+    except UrdfsyncError as fault:
+        return None, fault
 
 
 def show_result(console: Console, result: CheckResult) -> None:

@@ -52,6 +52,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if (args.log is None) == (args.excite is None):
         raise arguments.UsageError(args.parser, "name a log, or a file for a motion with `--excite`")
     if args.excite:
+        of_logs = ("write", "cutoff", "until", "columns", "plot", "topic", "motor_side")
+        if wrong := [name for name in of_logs if getattr(args, name)]:
+            name = wrong[0].removesuffix("s").replace("_", "-")
+            raise arguments.UsageError(args.parser, f"`--{name}` is for a log, not for `--excite`")
         motion = arguments.call(
             excite, IdentifyOptions, args, console, file=args.excite, seconds=args.seconds, seed=args.seed
         )

@@ -36,8 +36,12 @@ _WORDS = {
     "velocity": "velocity velocities vel speed qd dq w v",
     "effort": "effort efforts eff torque force tau f current",
 }
+_ALL_WORDS = {word for words in _WORDS.values() for word in words.split()}
+_PREFIX = re.compile(r"^[\W_]*(joint[\W_]*states[\W_]*)?(robot[\W_]*)?", re.IGNORECASE)
 _TIMES = ("time", "t", "timestamp", "stamp")
 _TIME_UNITS = {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+_UNSORTED = 0.1
+"""A greater share of steps back in time is no reset."""
 _SLOWEST = 0.2
 """A greater usual step in s is no log of a motion, but another unit."""
 _UNITS = {
@@ -88,6 +92,10 @@ class Log:
         else:
             self.header = _parquet(file).schema_arrow.names if self._is_parquet else _header(file)
         self.time, self.columns = self._find_columns()
+        if self._is_parquet:
+            kind = str(_parquet(file).schema_arrow.types[self.time.place])
+            if kind.startswith(("timestamp", "duration")):  # they have their unit, whatever the header says
+                self.time = self.time._replace(factor=1.0)
         self.measured = [k for k in range(len(axes)) if {(k, "position"), (k, "effort")} <= self.columns.keys()]
         """The axes with positions and efforts, by number."""
         used = {self.time.place, *(column.place for column in self.columns.values())}
@@ -100,29 +108,39 @@ class Log:
             _refuse(file, message, 1, hint + f"`--column {first}.effort=NAME`")
 
     def _find_columns(self) -> tuple[Column, dict[tuple[int, str], Column]]:
-        aliases = dict[str, tuple[int, str]]()
-        for k, axis in enumerate(self._axes):
-            for quantity, words in _WORDS.items():
-                for word in words.split():
-                    for name in dict.fromkeys([axis.name, axis.component]):
-                        aliases[_plain(f"{name} {word}")] = aliases[_plain(f"{word} {name}")] = k, quantity
+        levels = _aliases(self._axes)
         time: Column | None = None
+        stated = dict(self._stated())
+        taken = {column.place for column in stated.values()}
         columns = dict[tuple[int, str], Column]()
         for place, cell in enumerate(self.header):
+            if place in taken:
+                continue
             name, unit = name_and_unit(cell)
-            name = _plain(name).removeprefix("jointstates").removeprefix("robot")
-            if name in _TIMES and time is None:
+            if _plain(_bare(name)) in _TIMES and time is None:
                 time = Column(place, _TIME_UNITS.get(unit) or self._factor(cell, unit, "s"))
-            elif name in aliases:
-                k, quantity = aliases[name]
+                continue
+            meant = [each for each in _meant(name, levels) if each not in stated]
+            if len(meant) > 1:
+                of = " or ".join(f"the {quantity} of {self._axes[k].name}" for k, quantity in meant)
+                k, quantity = meant[0]
+                hint = f"choose by `--column {self._axes[k].name}.{quantity}={cell}`"
+                _refuse(self.file, f"column `{cell}` may be {of}", 1, hint)
+            for k, quantity in meant:
                 factor = self._factor(cell, unit, _UNITS[self._axes[k].unit, quantity])
                 if (k, quantity) in columns:
-                    _refuse(self.file, f"two columns give the {quantity} of {self._axes[k].name}", 1, "rename one")
+                    both = f"`{self.header[columns[k, quantity].place]}` and `{cell}`"
+                    message = f"two columns give the {quantity} of {self._axes[k].name}: {both}"
+                    hint = f"rename one, or choose by `--column {self._axes[k].name}.{quantity}={cell}`"
+                    _refuse(self.file, message, 1, hint)
                 columns[k, quantity] = Column(place, factor)
-        columns |= self._stated()
+        columns |= stated
         if time is None:
             _refuse(self.file, "no column is the time", 1, "name it `time` in s, or `time [ms]`")
         if self._options.motor_side:
+            if columns and all(self._axes[k].reduction == 1 for k, _ in columns):
+                message = "`--motor-side` needs gears, and the source has none for the joints of the log"
+                raise ConfigError.of("log", message, shown(self.file), hint="give factors with `--column`")
             for (k, quantity), column in columns.items():
                 ratio = self._axes[k].reduction
                 factor = column.factor * (ratio if quantity == "effort" else 1 / ratio)
@@ -142,9 +160,12 @@ class Log:
                 message = f"`--column {text}` names no joint, quantity ({', '.join(QUANTITIES)}) or column"
                 raise ConfigError.of("log", message, hint=names)
             try:
-                yield (joints[joint], quantity), Column(self.header.index(name), float(factor))
+                value = float(factor)
             except ValueError:
                 raise ConfigError.of("log", f"`--column {text}`: {factor!r} is no number") from None
+            if not value or not math.isfinite(value):
+                raise ConfigError.of("log", f"`--column {text}`: the factor has to be finite, and not 0")
+            yield (joints[joint], quantity), Column(self.header.index(name), value)
 
     def _factor(self, cell: str, unit: str, wanted: str) -> float:
         if unit and unit not in UNITS[wanted]:
@@ -161,6 +182,10 @@ class Log:
             rows = rows[whole]
             times = self.time.factor * rows[:, self.time.place]
             steps = np.diff(times, prepend=last)
+            if np.count_nonzero(steps[1:] < 0) > _UNSORTED * len(steps):
+                count = np.count_nonzero(steps[1:] < 0)
+                message = f"times are not sorted: {count} of {len(steps)} rows are earlier than the row before"
+                _refuse(self.file, message, hint="sort the rows by time")
             usual = usual or (float(np.median(steps[1:][steps[1:] > 0])) if (steps[1:] > 0).any() else 0.0)
             self._check_steps(usual)
             again = steps == 0
@@ -206,7 +231,7 @@ class Log:
         ends = float(values.min()), float(values.max())
         width = max(map(abs, axis.range)) if np.isfinite(axis.range).all() else 40 * math.pi
         most = max(map(abs, ends))
-        if most <= _MARGIN * width or self._options.motor_side:
+        if most <= _MARGIN * width or (self._options.motor_side and axis.reduction != 1):
             return
         message = f"{axis.name} moves from {ends[0]:.4g} to {ends[1]:.4g} {axis.unit}, far beyond its limits"
         if abs(axis.reduction) > 1 and most / abs(axis.reduction) <= _MARGIN * width:
@@ -224,6 +249,50 @@ class Log:
         resting = (f"not in the log, taken to rest at the start: {', '.join(others)}",) if others else ()
         unused = (f"columns without a use: {', '.join(self.unused)[:300]}",) if self.unused else ()
         return (*rows, *resting, *unused)
+
+
+def _aliases(axes: Sequence[Axis]) -> list[dict[str, list[tuple[int, str]]]]:
+    """Return what columns mean by their names: first of names as they are, then of those with other separators."""
+    levels: list[dict[str, list[tuple[int, str]]]] = [{} for _ in range(4)]
+    for k, axis in enumerate(axes):
+        for quantity, words in _WORDS.items():
+            for word in words.split():
+                for which, name in enumerate(dict.fromkeys([axis.name, axis.component])):
+                    for text in (f"{name}/{word}", f"{word}/{name}"):
+                        for level, key in ((which, _evened(text)), (2, _spelled(text)), (3, _plain(text))):
+                            meant = levels[level].setdefault(key, [])
+                            if (k, quantity) not in meant:
+                                meant.append((k, quantity))
+    return levels
+
+
+def _meant(name: str, levels: Sequence[dict[str, list[tuple[int, str]]]]) -> list[tuple[int, str]]:
+    for text in dict.fromkeys([name, _bare(name)]):
+        for key, level in zip((_evened(text), _evened(text), _spelled(text), _plain(text)), levels, strict=True):
+            if key in level:
+                return level[key]
+    return []
+
+
+def _evened(text: str) -> str:
+    """Return a name with one separator at its ends, where the quantity stands, and the joint as it is."""
+    text = text.strip("/ ")
+    if not (found := [*_SEPARATORS.finditer(text)]):
+        return text
+    first, last = found[0], found[-1]
+    head, tail = text[: first.start()].lower(), text[last.end() :].lower()
+    if tail in _ALL_WORDS:
+        return f"{text[: last.start()]}/{tail}"
+    return f"{head}/{text[first.end() :]}" if head in _ALL_WORDS else text
+
+
+def _spelled(text: str) -> str:
+    return _SEPARATORS.sub("_", text).strip("_").lower()
+
+
+def _bare(name: str) -> str:
+    """Return a name without what recorders put before it."""
+    return _PREFIX.sub("", name)
 
 
 def _plain(name: str) -> str:
@@ -290,12 +359,24 @@ def _parquet(file: Path) -> Any:
 
 
 def _parquet_rows(file: Path) -> Iterator[Array]:
-    for batch in _parquet(file).iter_batches(batch_size=ROWS):
-        try:
-            columns = [np.array(column.to_numpy(zero_copy_only=False), float) for column in batch.columns]
-        except (TypeError, ValueError) as error:
-            _refuse(file, f"a column has no numbers: {error}")
-        yield np.column_stack(columns)
+    source = _parquet(file)
+    from pyarrow import ArrowException
+
+    try:
+        for batch in source.iter_batches(batch_size=ROWS):
+            yield np.column_stack([_numbers(column.to_numpy(zero_copy_only=False)) for column in batch.columns])
+    except (TypeError, ValueError) as error:
+        _refuse(file, f"a column has no numbers: {error}")
+    except (ArrowException, OSError) as error:
+        _refuse(file, f"the file can't be read: {str(error).splitlines()[0]}", hint="copy or record it anew")
+
+
+def _numbers(values: np.ndarray) -> Array:
+    """Return numbers as they are, and instants and durations in s."""
+    if values.dtype.kind not in "mM":
+        return np.array(values, float)
+    unit, _ = np.datetime_data(values.dtype)
+    return np.where(np.isnat(values), np.nan, values.astype(np.int64) * _TIME_UNITS.get(unit, 1.0))
 
 
 def _refuse(file: Path, message: str, line: int = 0, hint: str = "") -> NoReturn:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +37,8 @@ _STORED = 3_000_000
 
 _DOUBTFUL = 0.5
 """The unexplained share of an effort from which on the log is hardly that of the robot."""
+_CONSIDERABLE = 0.05
+"""In the greatest effort of a joint: a smaller effort may be that of a sensor's offset."""
 _USUAL_DELAY = 0.005
 """In s: a longer delay needs evidence, since in slow motions damping looks much like a delay."""
 _USUAL_OFFSET = 0.02
@@ -48,20 +50,23 @@ class Measured:
 
     def __init__(self, regressor: Regressor, file: Path, options: IdentifyOptions, progress: Progress) -> None:
         """Raises UrdfsyncError for a log that can't be used."""
+        _check_axes(regressor)
         self.regressor, self.log = regressor, Log(file, regressor.axes, options)
         self.axes = [regressor.axes[k] for k in self.log.measured]
         self.parameters = 10 * len(regressor.bodies) + len(regressor.losses)
         self.evidence, self.held_out = Evidence(len(self.axes)), Evidence(len(self.axes))
         self.sizes = np.full((3, len(self.axes)), 1e-12)
         """The greatest speed, 1 and acceleration of each axis, as damping, dry friction and inertia act on them."""
-        self.seconds = self.rate = self.cutoff = 0.0
+        self.seconds = self.rate = 0.0
         self._stored: list[tuple[Array, Array, np.ndarray]] = []
         self._left_out = 0
-        first, total = 0.0, 0
+        # two passes: where a robot rests or a log has gaps, a piece does not tell how fast the motion is
+        self.cutoff = options.cutoff or signals.find_cutoff(self.log.pieces(), regressor.axes, self.log.measured)
+        self.log.dropped.clear()
+        first, last, total = 0.0, -np.inf, 0
         for number, piece in enumerate(self.log.pieces()):
-            self.cutoff = self.cutoff or options.cutoff or signals.find_cutoff(piece, self.log.measured)
             first = first if number else piece.times[0]
-            total += len(piece.times)
+            last, total = max(last, piece.times[-1]), total + len(piece.times)
             progress("reading the log", total, 0)
             self.rate = self.rate or (len(piece.times) - 1) / (piece.times[-1] - piece.times[0])
             if self.cutoff >= self.rate / 2:
@@ -73,6 +78,10 @@ class Measured:
                 continue
             self.seconds += piece.times[-1] - piece.times[0]
             self._add(samples, first + (np.inf if options.until is None else options.until))
+        self.end = float(last - first)
+        if not self.evidence.counts.any() and self.held_out.counts.any():
+            message = f"`--until {options.until:g}` leaves too little of {shown(file)} to fit"
+            raise ConfigError.of("log", message, hint="give a later time, or leave it out")
         if not self.evidence.counts.any():
             message = f"{shown(file)} has no sample that can be fitted: {'; '.join(self.told()) or 'no rows'}"
             raise SourceError.of("log", message, hint="the joints have to move for a few seconds without a gap")
@@ -129,10 +138,25 @@ class Measured:
         measured, model = rows[:, :, count:-1] @ target[:-1], rows[:, :, -1]
         return Series(times, measured, model, model + rows[:, :, :count] @ delta, is_free)
 
+    def doubts(self, options: IdentifyOptions) -> Iterator[Diagnostic]:
+        """Yield a warning for what was asked for and is not in the log."""
+        if options.until is not None and not self.held_out.counts.any():
+            message = f"`--until {options.until:g}` holds nothing out: the log has no sample after that time"
+            hint = f"its last time is {self.end:.4g} s after its first"
+            again = ", and its times begin anew: give it as two logs" if self.log.dropped["reset of the time"] else ""
+            yield Diagnostic(Severity.WARNING, "identify", message, hint=hint + again)
+        fitted = {axis.name for axis, count in zip(self.axes, self.evidence.counts, strict=True) if count}
+        for axis in self.regressor.axes:
+            if axis.name in options.joints and axis.name not in fitted:
+                why = "stands still, or its effort is constant" if axis in self.axes else "is not in the log"
+                yield Diagnostic(Severity.WARNING, "identify", f"joint {axis.name}: it {why}, so it can't be fitted")
+
     def told(self) -> tuple[str, ...]:
         """Return what was left out of the log, in words."""
-        held = self._left_out
+        held, counts = self._left_out, self.evidence.counts + self.held_out.counts
         words = f"{held} filtered samples of joints that stand still, or whose effort is constant or at its limit"
+        still = [axis.name for axis, count in zip(self.axes, counts, strict=True) if not count]
+        words += f": all of {', '.join(still)}" if still else ""
         return (*self.log.told(), *([words] if held else []))
 
 
@@ -149,7 +173,7 @@ def identify(
     delay = float(result.after[-1])
     target = signals.target_at(delay)
     joints = measured.joint_fits(measured.evidence, target, result.delta)
-    notes += [_unexplained(joint) for joint in joints if joint.after > _DOUBTFUL * joint.measured]
+    notes += [*_doubts(joints), *measured.doubts(options)]
     numbers = _numbers(problem, result, fitted, records)
     written = records.write(numbers) if write else ()
     unexcited = dict[str, list[str]]()
@@ -176,11 +200,19 @@ def identify(
     )
 
 
-def _unexplained(joint: JointFit) -> Diagnostic:
-    share = 100 * joint.after / joint.measured
-    message = f"{joint.element}: no numbers explain its effort, {share:.0f} % is left"
-    hint = "look for another sign, unit or joint in the log"
-    return Diagnostic(Severity.WARNING, "identify", message, hint=hint)
+def _doubts(joints: Sequence[JointFit]) -> Iterator[Diagnostic]:
+    """Yield a warning for each joint whose effort is hardly that of the robot."""
+    most = {unit: max(joint.measured for joint in joints if joint.unit == unit) for unit in {j.unit for j in joints}}
+    for joint in joints:
+        if joint.after > _DOUBTFUL * joint.measured:
+            words = f"no numbers explain its effort, {100 * joint.after / joint.measured:.0f} % is left"
+        elif joint.before > joint.measured > _CONSIDERABLE * most[joint.unit]:
+            share = 100 * joint.before / joint.measured
+            words = f"the source's numbers are worse than none, {share:.0f} % of its effort is left before the fit"
+        else:
+            continue
+        hint = "look for another sign, unit or joint in the log"
+        yield Diagnostic(Severity.WARNING, "identify", f"{joint.element}: {words}", hint=hint)
 
 
 def judge(config: Config, robot: RobotConfig, log: Path, options: IdentifyOptions, progress: Progress) -> Judgement:
@@ -189,6 +221,14 @@ def judge(config: Config, robot: RobotConfig, log: Path, options: IdentifyOption
     target = signals.target_at(measured.delay())
     fits = measured.joint_fits(measured.evidence, target, np.zeros(measured.parameters + len(measured.axes)))
     return Judgement(shown(log), measured.seconds, fits)
+
+
+def _check_axes(regressor: Regressor) -> None:
+    """Raise ConfigError for a robot without a joint that can be fitted."""
+    if not regressor.axes:
+        message = "the robot has no joint that can be fitted"
+        hint = "a revolute, continuous or prismatic joint can; fixed, planar, floating and ball joints can't"
+        raise ConfigError.of("identify", message, hint=hint)
 
 
 def _check_names(options: IdentifyOptions, regressor: Regressor) -> None:
@@ -280,6 +320,8 @@ def find_motion(
     from urdfsync.identification.excite import excite
 
     regressor = read_records(config, robot, options.wait).regressor()
+    _check_axes(regressor)
+    _check_names(options, regressor)
     driven = [k for k, axis in enumerate(regressor.axes) if axis.input]
     if not driven:
         message = f"Run of robot `{robot.name}` has no input for a joint"

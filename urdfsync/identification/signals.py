@@ -9,7 +9,7 @@ Butterworth and differentiate by central differences, at the full rate.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +28,12 @@ _KEPT = 4
 """So many samples remain in each period."""
 _OF_MOTION = 10
 """The cut-off frequency, in frequencies below which the positions have 99 % of their power."""
+_STILL = 0.003
+"""In rad or m · 10: a joint whose positions deviate less from their mean rests."""
+_MOVES = 0.1
+"""A joint moves in a piece if its positions deviate by more than this share of their greatest deviation."""
+_LONG = 0.2
+"""In the duration of the longest piece in which a joint moves: shorter ones do not choose the cut-off frequency."""
 _SLOW = 0.05
 """In rad/s or m/s · 10: below, dry friction holds a joint, and its effort has any value."""
 _HELD = 0.001
@@ -50,17 +56,36 @@ class Samples(NamedTuple):
     rate: float
 
 
-def find_cutoff(piece: Piece, measured: Sequence[int]) -> float:
-    """Return the cut-off frequency in Hz for a motion."""
-    times = np.linspace(piece.times[0], piece.times[-1], len(piece.times))
-    step, most = times[1] - times[0], 0.0
-    for k in measured:
-        values = np.interp(times, piece.times, piece.position[:, k])
-        power = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(len(values)))) ** 2
-        if power.sum() > 0:
-            above = np.searchsorted(np.cumsum(power), 0.99 * power.sum())
-            most = max(most, float(np.fft.rfftfreq(len(values), step)[above]))
-    return float(np.clip(_OF_MOTION * most, 1.0, 0.1 / step))
+def find_cutoff(pieces: Iterable[Piece], axes: Sequence[Axis], measured: Sequence[int]) -> float:
+    """Return the cut-off frequency in Hz for a motion: that of the fastest piece and joint of those that move."""
+    seconds, sizes, cutoffs = list[float](), list[list[float]](), list[list[float]]()
+    still = np.array([_STILL if axes[k].unit == "rad" else 0.1 * _STILL for k in measured])
+    for piece in pieces:
+        found = [_cutoff(piece.times, piece.position[:, k]) for k in measured]
+        seconds.append(piece.times[-1] - piece.times[0])
+        sizes.append([float(np.std(piece.position[:, k])) for k in measured])
+        cutoffs.append([cutoff if seconds[-1] >= 4 * _border(cutoff) else 0.0 for cutoff in found])
+    if not seconds:
+        return 1.0
+    size, cutoff = np.array(sizes), np.array(cutoffs)
+    moves = (size > _MOVES * size.max(axis=0)) & (size > still) & (cutoff > 0)
+    length = np.array(seconds)[:, None] * moves
+    # the frequencies of a short piece are those of its length
+    chosen = cutoff[moves & (length >= _LONG * length.max(axis=0))]
+    return float(chosen.max()) if chosen.size else max(1.0, float(cutoff.max()))
+
+
+def _cutoff(measured_at: Array, positions: Array) -> float:
+    times = np.linspace(measured_at[0], measured_at[-1], len(measured_at))
+    step, values = times[1] - times[0], np.interp(times, measured_at, positions)
+    power = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(len(values)))) ** 2
+    above = np.searchsorted(np.cumsum(power), 0.99 * power.sum())
+    return float(np.clip(_OF_MOTION * np.fft.rfftfreq(len(values), step)[above], 1.0, 0.1 / step))
+
+
+def _border(cutoff: float) -> float:
+    """Return the time in s that a piece loses at each end."""
+    return float(SHIFTS[-1] + 1.5 / cutoff)
 
 
 def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None:
@@ -72,7 +97,7 @@ def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None
     rate = (count - 1) / (piece.times[-1] - piece.times[0])
     times = np.linspace(piece.times[0], piece.times[-1], count)
     sections = butter(_ORDER, min(_WIDER * cutoff, 0.45 * rate), fs=rate, output="sos")
-    border = SHIFTS[-1] + 1.5 / cutoff
+    border = _border(cutoff)
     if times[-1] - times[0] < 4 * border or cutoff >= rate / 2:
         return None
 
@@ -99,7 +124,7 @@ def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None
 
 def thinned(samples: Samples, cutoff: float, rows: Array, model: Array) -> tuple[np.ndarray, Array, Array]:
     """Return the places of the samples that remain, and the filtered rows of the model there."""
-    border = round((SHIFTS[-1] + 1.5 / cutoff) * samples.rate)
+    border = round(_border(cutoff) * samples.rate)
     step = max(1, round(samples.rate / (_KEPT * cutoff)))
     places, share = np.arange(border, len(samples.times) - border, step), cutoff / samples.rate
     return places, _blurred(rows, share)[places], _blurred(model, share)[places]
