@@ -35,10 +35,11 @@ def save_in_between(project: Path, monkeypatch: pytest.MonkeyPatch) -> SaveInBet
     def arrange(then: Callable[[], object], operation: str = "exchange") -> None:
         real = getattr(file_operations, operation)
 
-        def saved(one: Path, two: Path) -> None:
-            if two == project / R1:
+        def saved(one: str, two: str) -> None:
+            target = Path(two)
+            if target == project / R1:
                 monkeypatch.setattr(file_operations, operation, real)
-                two.write_text((two.read_text() if two.exists() else "") + MINE)
+                target.write_text((target.read_text() if target.exists() else "") + MINE)
                 then()
             real(one, two)
 
