@@ -165,9 +165,13 @@ def robots_in_words(number: int) -> str:
 
 def findings_in_words(numbers: Sequence[int]) -> str:
     """Return a sentence about findings that were told before: the number of each robot that has any."""
-    total = sum(numbers)
-    words = "1 finding; --verbose shows it" if total == 1 else f"{total} findings; --verbose shows them"
-    return f"{robots_in_words(len(numbers))}: still {words}"
+    return f"{robots_in_words(len(numbers))}: {still(sum(numbers))}"
+
+
+def still(findings: int, codes: str = "") -> str:
+    """Return a clause about findings that were told before."""
+    words, them = ("1 finding", "it") if findings == 1 else (f"{findings} findings", "them")
+    return f"still {words}{codes and f' ({codes})'}; --verbose shows {them}"
 
 
 def _write(stream: TextIO | streams.Stream, *parts: tuple[str, str]) -> None:

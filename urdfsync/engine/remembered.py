@@ -25,7 +25,6 @@ from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import digest, shown
-from urdfsync.spelling import counted
 from urdfsync.state.transaction import DRAFT, PLANNED
 
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED, Reason.UNKNOWN})
@@ -159,8 +158,8 @@ def _quick_commands(result: Result) -> str:
 
 def still(findings: Sequence[Diagnostic]) -> str:
     """Return a sentence about findings that were told before; empty without any."""
-    codes, them = ", ".join(dict.fromkeys(finding.code for finding in findings)), "it" if len(findings) == 1 else "them"
-    return f"still {counted(len(findings), 'finding')} ({codes}); --verbose shows {them}" if findings else ""
+    codes = ", ".join(dict.fromkeys(finding.code for finding in findings))
+    return noop.still(len(findings), codes) if findings else ""
 
 
 def finding_key(finding: Diagnostic) -> str:
