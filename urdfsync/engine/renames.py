@@ -49,8 +49,8 @@ def find_matching(
 
 def _has_other_format(inputs: Inputs) -> bool:
     """Return whether the last build read a source of another format. A plain source has no recorded expansion."""
-    before, now = inputs.store.load_expansion(inputs.last.name), inputs.source.expansion
-    return len({PurePath(each.source).suffix if each else "" for each in (before, now)}) > 1
+    before = inputs.store.load_expansion(inputs.last.name)
+    return (PurePath(before.source).suffix if before else "") != inputs.source.format
 
 
 def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[ElementKey, ElementKey]:

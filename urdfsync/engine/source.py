@@ -8,7 +8,7 @@ import re
 import stat
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -63,6 +63,11 @@ class Source(msgspec.Struct, frozen=True):
     is_made_here: bool = False
     """Whether this machine has expanded the source, now or before."""
     companions: tuple[Companion, ...] = ()
+
+    @property
+    def format(self) -> str:
+        """The suffix of a source that was expanded; empty for a plain one."""
+        return PurePath(self.name).suffix if self.expansion else ""
 
     @property
     def is_missing(self) -> bool:

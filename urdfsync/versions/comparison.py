@@ -276,7 +276,7 @@ def _with_version(
         new, imported, reading, told = _read(domain, robot, current, imports.Imported(), options)
         old, imported_before, _, told_before = _read(domain, robot, other, imported, options)
     known = {(finding.code, finding.message) for finding in told_before}
-    has_other_format = is_pair or bool(text.expansion) != bool(other.text.expansion)
+    has_other_format = is_pair or text.format != other.text.format
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed, has_other_format=has_other_format)
     if is_pair:
         formats = domain.formats
@@ -354,7 +354,7 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
     if (recorded := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"
         raise SourceError.of("broken-state", message, revision.label(path), hint=hint)
-    return Source(recorded.text.encode(), label)
+    return Source(recorded.text.encode(), label, expansion=recorded)
 
 
 def _files_of(
