@@ -47,7 +47,9 @@ def identification_lines(result: Identification) -> Iterator[StyledLine]:
             (f"  {counted(len(result.written), 'record')} written", "bold"), ("; `urdfsync diff --edits`", "dim")
         )
     else:
-        yield line(("  nothing written: `--write` writes the numbers into the records", "dim"))
+        has_numbers = "each number is that of its record, but for a tenth of its error"
+        why = has_numbers if result.is_writing else "`--write` writes the numbers into the records"
+        yield line((f"  nothing written: {why}", "dim"))
     yield from file_lines(result.files)
 
 

@@ -173,6 +173,8 @@ class Identification(msgspec.Struct, frozen=True):
     """The joints in the part of the log that was not fitted."""
     written: tuple[str, ...] = ()
     """The changed records, from the configuration's folder."""
+    is_writing: bool = False
+    """Whether the numbers were to be written."""
     files: Mapping[str, Path] = {}
     """The written files, by their options."""
     diagnostics: tuple[Diagnostic, ...] = ()

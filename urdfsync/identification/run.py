@@ -195,6 +195,7 @@ def identify(
         dropped=measured.told(),
         held_out=measured.joint_fits(measured.held_out, target, result.delta),
         written=written,
+        is_writing=write,
         diagnostics=(*notes, *records.notes),
         series=measured.series(target, result.delta),
     )
