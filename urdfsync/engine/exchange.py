@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import sys
+from collections.abc import Callable, Mapping
 
 import msgspec
 
 from urdfsync.dependencies.facts import MAX_FILE
+from urdfsync.processes import reserve_stdout
 
 
 class Request(msgspec.Struct, frozen=True):
@@ -81,3 +83,10 @@ def encode(answer: Answer, code: str) -> bytes:
     if len(content) > MAX_FILE:
         return msgspec.json.encode(Answer(problem=too_large(code)))
     return content
+
+
+def serve(answer: Callable[[Request], Answer], code: str) -> None:
+    """Answer the request on stdin; a program calls this as its last step."""
+    request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
+    with reserve_stdout() as answers:
+        answers.write(encode(answer(request), code))

@@ -25,15 +25,13 @@ from typing import IO, Any, cast
 from xml.dom import expatbuilder
 from xml.parsers import expat
 
-import msgspec
-
 from urdfsync.dependencies.facts import MAX_FILE, read_unrecorded
 from urdfsync.dependencies.reads import list_folder
 from urdfsync.engine import ros_packages
-from urdfsync.engine.exchange import Answer, Problem, Request, encode, too_large
+from urdfsync.engine.exchange import Answer, Problem, Request, serve, too_large
 from urdfsync.engine.file_kinds import FileKind, find_conflict, find_kind
 from urdfsync.files import text_digest
-from urdfsync.processes import limits, reserve_stdout
+from urdfsync.processes import limits
 
 if sys.platform != "win32":
     import resource
@@ -352,9 +350,7 @@ def _kind(content: bytes) -> FileKind | None:
 
 def main() -> None:
     """Expand the file that stdin names."""
-    request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
-    with reserve_stdout() as answers:
-        answers.write(encode(expand(request), "xacro"))
+    serve(expand, "xacro")
 
 
 if __name__ == "__main__":

@@ -7,18 +7,14 @@ may write no file.
 from __future__ import annotations
 
 import os
-import sys
 
-import msgspec
-
-from urdfsync.engine.exchange import Answer, Problem, Request, encode
+from urdfsync.engine.exchange import Answer, Problem, Request, serve
 from urdfsync.mjcf.document import Document, read_document
-from urdfsync.processes import limits, reserve_stdout
+from urdfsync.translation import program
 from urdfsync.translation.files import Files, TranslationError
 
 _COMPILED = b"1\xd4\0\0"
 """The first bytes of a compiled model (MJB)."""
-_ARGUMENTS = ("body",)
 
 
 def translate(request: Request) -> Answer:
@@ -28,24 +24,16 @@ def translate(request: Request) -> Answer:
     except ImportError as error:
         return Answer(problem=Problem("not-installed", f"MuJoCo can't be loaded: {error}", request.source))
     files = Files(request.contents, (request.folder, os.path.dirname(request.source)))  # noqa: PTH120
-    unknown = tuple(name for name in request.arguments if name not in _ARGUMENTS)
-    answer, problem, body = Answer(), None, request.arguments.get("body", "")
-    try:
-        with limits(request.seconds, request.memory):
-            document = _read(request.source, files)
-            if request.text:
-                compared, differences = comparison.compare(document, request.text, body)
-                answer = Answer(compared=compared, differences=differences)
-            else:
-                text, places = urdf.translated(document, body)
-                answer = Answer(text, places)
-    except TranslationError as error:
-        problem = error.problem("mjcf")
-    except MemoryError:
-        problem = Problem("mjcf-limits", "")
-    except RecursionError:
-        problem = Problem("mjcf", "its elements are nested too deep", request.source)
-    return msgspec.structs.replace(answer, files=files.hashes, unknown=unknown, problem=problem)
+
+    def translate_or_compare() -> Answer:
+        document, body = _read(request.source, files), request.arguments.get("body", "")
+        if request.text:
+            compared, differences = comparison.compare(document, request.text, body)
+            return Answer(compared=compared, differences=differences)
+        return Answer(*urdf.translated(document, body))
+
+    too_deep = "its elements are nested too deep"
+    return program.answer(request, files, "mjcf", ("body",), translate_or_compare, too_deep)
 
 
 def _read(source: str, files: Files) -> Document:
@@ -58,9 +46,7 @@ def _read(source: str, files: Files) -> Document:
 
 def main() -> None:
     """Translate the file that stdin names."""
-    request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
-    with reserve_stdout() as answers:
-        answers.write(encode(translate(request), "mjcf"))
+    serve(translate, "mjcf")
 
 
 if __name__ == "__main__":

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Sequence
 
 import msgspec
 
-from urdfsync.engine.exchange import Answer, Problem, Request, encode
-from urdfsync.processes import limits, reserve_stdout
+from urdfsync.engine.exchange import Answer, Request, serve
 from urdfsync.sdf.document import Document
 from urdfsync.sdf.frames import Frames, Scope
 from urdfsync.sdf.joints import FIXED
 from urdfsync.sdf.robot import translated
 from urdfsync.spelling import nearest
-from urdfsync.translation.files import Files, TranslationError
+from urdfsync.translation import program
+from urdfsync.translation.files import Files
 from urdfsync.translation.writer import write
-
-_ARGUMENTS = ("model",)
 
 
 def translate(request: Request) -> Answer:
@@ -26,20 +23,15 @@ def translate(request: Request) -> Answer:
     folders = (request.folder, os.path.dirname(request.source), *request.package_paths)  # noqa: PTH120
     files = Files(request.contents, folders)
     document = Document(request.source, files, request.package_paths)
-    unknown = tuple(name for name in request.arguments if name not in _ARGUMENTS)
-    text, places, problem = "", tuple[tuple[int, str, int], ...](), None
-    try:
-        with limits(request.seconds, request.memory):
-            frames = Frames(document)
-            model = choose_model(frames, request.arguments.get("model", ""))
-            text, places = write(translated(frames, model))
-    except TranslationError as error:
-        problem = error.problem("sdf")
-    except MemoryError:
-        problem = Problem("sdf-limits", "")
-    except RecursionError:
-        problem = Problem("sdf", "its models or frames are nested too deep", request.source)
-    return Answer(text, places, files.hashes, packages=document.packages, unknown=unknown, problem=problem)
+
+    def translate_model() -> Answer:
+        frames = Frames(document)
+        model = choose_model(frames, request.arguments.get("model", ""))
+        return Answer(*write(translated(frames, model)))
+
+    too_deep = "its models or frames are nested too deep"
+    made = program.answer(request, files, "sdf", ("model",), translate_model, too_deep)
+    return msgspec.structs.replace(made, packages=document.packages)
 
 
 def choose_model(frames: Frames, name: str) -> Scope:
@@ -77,9 +69,7 @@ def _listed(names: Sequence[str]) -> str:
 
 def main() -> None:
     """Translate the file that stdin names."""
-    request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
-    with reserve_stdout() as answers:
-        answers.write(encode(translate(request), "sdf"))
+    serve(translate, "sdf")
 
 
 if __name__ == "__main__":
