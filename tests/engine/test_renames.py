@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -169,3 +171,12 @@ def test_names_that_are_exchanged_while_a_conflict_is_open_are_recorded_at_once(
     shutil.rmtree(".urdfsync/deps")
     execute("build", "-q", code=Exit.CONFLICT)
     assert Path(".urdfsync/robots/arm.state").read_text() == record
+
+
+def test_a_changed_mass_loads_no_numpy(built: Path) -> None:
+    """It takes as long as the rest of such a build."""
+    edit("dog.urdf", 'mass value="9.0"', 'mass value="8.0"')
+    code = "import sys; from urdfsync import cli; cli.main(['build']); print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "1 file written" in done.stdout
+    assert not {"numpy", "yourdfpy", "deepdiff"} & {*done.stdout.split()}

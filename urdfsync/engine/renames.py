@@ -42,9 +42,10 @@ def find_matching(
     }
     named = {key: new for key, new in named.items() if key[0] not in done}
     matching = match(before, after, named)
-    if domain.formats and has_other_format and 2 * len(_pairs(before, after, matching)) < min(len(before), len(after)):
-        return _matched_coarsely(domain.formats, old, new, matching)
-    return matching
+    if not has_other_format or 2 * len(_pairs(before, after, matching)) >= min(len(before), len(after)):
+        return matching
+    formats = domain.formats  # loads numpy, which takes as long as a build of a changed mass
+    return _matched_coarsely(formats, old, new, matching) if formats else matching
 
 
 def _has_other_format(inputs: Inputs) -> bool:
