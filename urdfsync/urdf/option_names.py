@@ -94,7 +94,7 @@ def _find_passive(joints: Sequence[Joint], passive: Set[str]) -> Iterator[tuple[
     measured = {joint.name for joint in joints if joint.measured}
     for names, reason in (
         (passive - measured, "no transmission, no ros2_control and no limit"),
-        (passive & measured, "the source only measures these joints"),
+        (passive & measured, "the source has no motor for these joints"),
     ):
         if names:
             listed = ", ".join(f"`{name}`" for name in sorted(names, key=natural_key))
