@@ -173,6 +173,27 @@ def test_names_that_are_exchanged_while_a_conflict_is_open_are_recorded_at_once(
     assert Path(".urdfsync/robots/arm.state").read_text() == record
 
 
+def test_an_edit_stays_where_only_names_of_other_parts_changed(built: Path, execute: Execute) -> None:
+    """The joint keeps its name; its link has a new one, which the description and the documentation tell."""
+    edit("modelica/Dog/Joints/Left_hip.mo", "\nequation", MINE)
+    Path("dog.urdf").write_text(Path("dog.urdf").read_text().replace('"trunk"', '"torso"'))
+    result = execute("build")
+    text = Path("modelica/Dog/Joints/Left_hip.mo").read_text()
+    assert "merge modelica/Dog/Joints/Left_hip.mo link trunk; merged with your edits" in result.words
+    assert "Real mine" in text
+    assert "torso" in text
+    assert "trunk" not in text
+    execute("build", "--check")
+
+
+def test_an_edit_of_the_description_conflicts_with_a_new_name_in_it(built: Path, execute: Execute) -> None:
+    edit("modelica/Dog/Joints/Left_hip.mo", "from link", "mounted on link")
+    Path("dog.urdf").write_text(Path("dog.urdf").read_text().replace('"trunk"', '"torso"'))
+    result = execute("build", code=Exit.CONFLICT)
+    assert "conflict modelica/Dog/Joints/Left_hip.mo" in result.words
+    assert "mounted on link" in Path("modelica/Dog/Joints/Left_hip.mo").read_text()
+
+
 def test_a_changed_mass_loads_no_numpy(built: Path) -> None:
     """It takes as long as the rest of such a build."""
     edit("dog.urdf", 'mass value="9.0"', 'mass value="8.0"')

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -98,14 +99,28 @@ def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tu
     return edited
 
 
+def only_names_changed(conflict: Conflict, names: Mapping[str, str]) -> bool:
+    """Return whether the generated text is its base with new names (`names`, by old names), also in descriptions."""
+    if conflict.base in (None, conflict.generated) or not names:
+        return False
+    listed = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
+    return re.sub(rf"(?<!\w)(?:{listed})(?!\w)", lambda old: names[old[0]], str(conflict.base)) == conflict.generated
+
+
 def resolve(
-    actions: Iterable[Action], conflicts: Mapping[str, Conflict], *, merging: bool, choice: Choice | None = None
+    actions: Iterable[Action],
+    conflicts: Mapping[str, Conflict],
+    *,
+    merging: bool,
+    choice: Choice | None = None,
+    renamed: Collection[str] = (),
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
     """Decide on every file that the user and the source changed.
 
     Returns the actions, and the texts of merged files by path. `conflicts` has the disputed text files by path. A file
-    that moves with its element takes the merge. Other files take it only if the configuration allows clean merges
-    (`merging`). A `choice` of `PREFERENCES` decides contradictions for one side.
+    that moves with its element takes the merge, and so does a file in which only names changed (`renamed`). Other files
+    take it only if the configuration allows clean merges (`merging`). A `choice` of `PREFERENCES` decides
+    contradictions for one side.
     """
     resolved, texts = [], {}
     for action in actions:
@@ -115,7 +130,8 @@ def resolve(
         if reason is Reason.MOVE and conflict:
             reason = Reason.CONFLICT if merged is None else Reason.MOVE
         elif action.is_conflict and conflict and merged is not None:
-            reason = Reason.INCLUDED if merged == conflict.mine else Reason.MERGE if merging else reason
+            is_merging = merging or action.path in renamed
+            reason = Reason.INCLUDED if merged == conflict.mine else Reason.MERGE if is_merging else reason
         if merged is not None and reason in (Reason.MOVE, Reason.MERGE):
             texts[action.path] = merged
         resolved.append(action if reason is action.reason else msgspec.structs.replace(action, reason=reason))

@@ -16,7 +16,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, Reason
-from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
+from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, only_names_changed, resolve
 from urdfsync.engine.differences import GONE, Differences, compare_with_last
 from urdfsync.engine.edit_origins import find_doubts
 from urdfsync.engine.generate import Package
@@ -99,7 +99,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     """Decide on every file of a robot. Raises OutputError for links and for merge markers."""
     files, package, differences = inputs.files, generation.package, compare_with_last(inputs, generation)
     judged = _judge(inputs, generation, differences)
-    settled = _merge(inputs, generation, judged)
+    settled = _merge(inputs, generation, judged, differences)
     own = _find_own(inputs, settled.actions)
     followed = _follow(inputs, package, settled, own, differences.former)
     actions = [action for action in followed.actions if action.reason is not Reason.UNKNOWN]
@@ -149,13 +149,15 @@ def _judge(inputs: Inputs, generation: Generation, differences: Differences) -> 
     return _Judged(actions, origins, doubts, renumbered, names)
 
 
-def _merge(inputs: Inputs, generation: Generation, judged: _Judged) -> _Verdicts:
+def _merge(inputs: Inputs, generation: Generation, judged: _Judged, differences: Differences) -> _Verdicts:
     """Merge the files that both sides changed, as far as the user allows merges and these fit the package."""
     package, actions = generation.package, judged.actions
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {one.path: _conflict(inputs, generation, one, judged) for one in disputed}
     conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, judged.origins)
-    actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
+    names = {name: new for (_, name), new in differences.renames.items()} | dict(judged.names)
+    renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
+    actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge", renamed=renamed)
     needed = keep_needed(PackageAfter(inputs, package, actions, merged), judged.origins)
     return _Verdicts(*united.write_meanings(inputs.files, needed, merged), conflicts)
 
