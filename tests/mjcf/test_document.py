@@ -19,10 +19,21 @@ def test_an_include_is_replaced_by_the_elements_of_its_file() -> None:
 
 
 @pytest.mark.parametrize("place", ["parts/leg.xml", "leg.xml"])
-def test_an_inner_include_counts_from_its_file_then_from_the_source(place: str) -> None:
+def test_an_inner_include_counts_from_the_source_or_from_its_file(place: str) -> None:
     outer = '<mujocoinclude><include file="leg.xml"/></mujocoinclude>'
     robot = read(body('<joint/><include file="parts/outer.xml"/>'), {"parts/outer.xml": outer, place: LEG})
     assert robot.links[-1].name == "leg"
+
+
+def test_of_two_files_of_a_name_that_beside_the_source_is_included() -> None:
+    outer = '<mujocoinclude><include file="leg.xml"/></mujocoinclude>'
+    files = {"parts/outer.xml": outer, "leg.xml": LEG, "parts/leg.xml": LEG.replace('"leg"', '"other"')}
+    assert read(body('<joint/><include file="parts/outer.xml"/>'), files).links[-1].name == "leg"
+
+
+def test_an_image_of_a_light_is_left_out() -> None:
+    light = '<asset><texture name="t" file="t.png" type="2d"/></asset>'
+    read(body('<joint/><light type="image" texture="t"/>', light))
 
 
 def test_each_element_has_a_place() -> None:

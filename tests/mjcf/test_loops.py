@@ -38,6 +38,14 @@ def test_a_weld_is_a_fixed_loop() -> None:
     )
 
 
+def test_a_weld_has_its_point_in_both_bodies() -> None:
+    """At the start, MuJoCo's constraint is closed wherever the anchor is."""
+    assert loop_of('<weld body1="bar" body2="rocker" anchor="0 0 0.1"/>') == (
+        *("bar_to_rocker", "fixed", "bar", "rocker"),
+        *((0.5, 0, -0.1), (0, 0, 0.1)),
+    )
+
+
 def test_an_equality_with_another_robot_is_left_out() -> None:
     other = '<body name="other"><freejoint/><geom size="0.1"/></body>'
     arm = '<body name="a"><joint/><geom size="0.1"/></body>'

@@ -51,6 +51,13 @@ def test_a_force_and_a_torque_at_a_joint_are_one_sensor() -> None:
     assert data.sensordata[:3] == pytest.approx([-2 * 9.81, 0, 0])
 
 
+def test_a_force_is_measured_after_a_torque_that_is_noted() -> None:
+    sensors = '<sensor><torque name="t" site="s"/><force name="f" site="s"/></sensor></mujoco>'
+    text = body('<joint/><site name="s" pos="1 0 0"/>').replace("</mujoco>", sensors)
+    assert [(each.name, each.kind) for each in read(text).sensors] == [("f", "force_torque")]
+    assert noted(text) == "not modelled: 1 <sensor-torque>"
+
+
 def test_a_torque_beside_the_joint_is_noted() -> None:
     assert noted(LOADS) == "not modelled: 1 <sensor-torque>"
 

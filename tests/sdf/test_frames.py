@@ -72,6 +72,27 @@ def test_a_nested_model_moves_with_its_canonical_link() -> None:
     ]
 
 
+@pytest.mark.parametrize(("is_first", "expected"), [(True, "finger"), (False, "base")])
+def test_a_frame_is_attached_to_the_first_link_counted_where_a_merged_model_stands(
+    is_first: bool, expected: str
+) -> None:
+    merged = '<include merge="true"><uri>hand.sdf</uri></include>'
+    base = '<link name="base"/>'
+    inside = (merged + base if is_first else base + merged) + hinge("held", "finger", "base")
+    files = {"hand.sdf": model('<link name="finger"/>', name="hand")}
+    robot = read(model(inside + '<frame name="tool"><pose>0 0 1 0 0 0</pose></frame>'), files)
+    assert joint(robot, "tool_fixed").parent == expected
+
+
+def test_an_included_model_is_static_if_it_says_so() -> None:
+    files = {"shelf.sdf": model(f'<static>true</static><link name="a"/><link name="b"/>{hinge("h", "a", "b")}')}
+    shelf = "<include><uri>shelf.sdf</uri>{}</include>"
+    leg = f'<model name="leg"><link name="a"/>{hinge("h", "world", "a")}</model>'
+    assert read(sdf(f'<world name="w">{shelf.format("")}{leg}</world>'), files).name == "leg"
+    world = f'<world name="w">{shelf.format("<static>false</static>")}{leg}</world>'
+    assert "2 robots" in problem(sdf(world), files)
+
+
 def test_a_frame_is_a_link_without_mass() -> None:
     frame = '<frame name="tool" attached_to="turn"><pose>0 0 0.3 0 0 0</pose></frame>'
     robot = read(arm(more=frame))

@@ -80,6 +80,19 @@ def test_a_joint_has_a_spring() -> None:
         assert found.dynamics == Dynamics(0, 0, spring_stiffness=3, spring_reference=-0.2)
 
 
+def test_a_sliding_joint_without_a_range_loses_its_other_limits() -> None:
+    text = arm(joint=numbers("<limit><effort>3</effort></limit>"), kind="prismatic")
+    assert joint(read(text)).limit is None
+    assert "1 <effort>" in noted(text)
+
+
+def test_names_of_two_axes_are_free() -> None:
+    both = "<axis><xyz>1 0 0</xyz></axis><axis2><xyz>0 1 0</xyz></axis2>"
+    other = hinge("turn_axis", "part", "hand") + '<link name="hand"/>'
+    robot = read(arm(joint=both, kind="universal", more=other))
+    assert [each.name for each in robot.joints] == ["weld", "turn_axis_2", "turn_axis2", "turn_axis"]
+
+
 def test_a_joint_follows_another_one() -> None:
     mimic = '<mimic joint="turn"><multiplier>2</multiplier><offset>0.5</offset><reference>0.1</reference></mimic>'
     more = '<link name="tip"/>' + hinge("bend", "part", "tip", numbers(mimic))
@@ -128,6 +141,7 @@ def test_a_loop_loses_its_numbers() -> None:
     damped = "<axis><xyz>0 1 0</xyz><dynamics><damping>1</damping></dynamics></axis>"
     text = four_bar().replace("<axis><xyz>0 1 0</xyz></axis>", damped)
     assert left_out(text) == ["limits, losses or coupling of a joint that closes a loop closing"]
+    assert len(left_out(text.replace('type="revolute"', 'type="ball"'))) == 1
 
 
 @pytest.mark.parametrize(

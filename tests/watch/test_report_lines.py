@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from urdfsync.changes import Change, Changes
@@ -234,3 +235,12 @@ def test_what_is_broken_is_one_line_until_it_is_not() -> None:
         "! arm.urdf:8: warning: this is odd [odd]",
         f"! {TIME}arm  broken: {ELBOW}:4: there is no class `Foo`, and 1 more",
     ]
+
+
+def test_warnings_that_a_build_has_shown_are_not_shown_again(tmp_path: Path) -> None:
+    event = built(action(Reason.KEEP), diagnostics=(ODD, OTHER))
+    event = events.Built(msgspec.structs.replace(event.result, root=tmp_path), ())
+    (tmp_path / ".urdfsync").mkdir()
+    assert told(event) == [IS_ODD, IS_ODD_TOO]
+    assert told(event) == []
+    assert told(event, verbose=True)[:2] == [IS_ODD, IS_ODD_TOO]

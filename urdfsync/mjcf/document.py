@@ -5,7 +5,7 @@ The text of an attached model begins below all earlier lines, so that no two tex
 bytes of each mesh under a name of ours, and opens no file itself. Textures and skins only draw, and height fields are
 terrain: they are left out, and so is their reading; a geom of a height field becomes a plane.
 
-As in MuJoCo, the name of an included file counts from the folder of the including file, then from that of the source.
+As in MuJoCo, the name of an included file counts from the folder of the source, then from that of the including file.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _LEFT_OUT = ("texture", "hfield", "skin")
 _NOTED = frozenset({*_LEFT_OUT, "light", "camera", "exclude", "numeric", "text", "tuple"})
 """Elements without an effect on the robot."""
 _OF_TEXTURES = ("texture", "texrepeat", "texuniform")
-"""Attributes of a material that refer to textures."""
+"""Attributes of materials and lights that refer to textures."""
 _FOLDERS = ("meshdir", "texturedir", "assetdir", "strippath")
 _MOST_ELEMENTS = 20_000
 """The most elements of a model with its copies. The largest robots have 3,000; for 30,000 copies MuJoCo takes 20 s."""
@@ -92,7 +92,7 @@ def _include(
             raise TranslationError("<include> names no file", place, 'write file="…"')
         if len(child):
             raise TranslationError("<include> has elements of its own", place, "take them out")
-        folders = (os.path.dirname(file), main)  # noqa: PTH120
+        folders = (main, os.path.dirname(file))  # noqa: PTH120
         paths = [os.path.normpath(os.path.join(folder, name)) for folder in folders]  # noqa: PTH118
         path = next(filter(files.is_there, paths), paths[0])
         files.check_inside(path, place)
@@ -121,10 +121,12 @@ def _name_files(
         if "hfield" in holder.attrib:  # other elements may name the geom
             del holder.attrib["hfield"]
             holder.attrib |= {"type": "plane", "size": "1 1 1"}
-        if holder.tag == "material":
+        if holder.tag in ("material", "light"):
             for name in _OF_TEXTURES:
                 holder.attrib.pop(name, None)
             holder[:] = []
+            if holder.get("type") == "image":
+                del holder.attrib["type"]
     for element in root.iter():
         if "file" not in element.attrib:
             continue

@@ -41,7 +41,7 @@ def add_loops(robot: Node, links: Links, drives: Drives) -> None:
         elif _KINDS[kind] == "connect":
             places = [(data[_POINT], (1, 0, 0, 0)), (data[_PLACE], (1, 0, 0, 0))]
         else:
-            places = [(data[_PLACE], data[_TURN]), (np.zeros(3), (1, 0, 0, 0))]
+            places = [(data[_PLACE], data[_TURN]), (data[_POINT], (1, 0, 0, 0))]
         name = scene.name("equality", number) or f"{scene.links[first]}_to_{scene.links[second]}"
         line = scene.line("equality", number)
         loop = robot.add("loop_joint", line, name=name, type="spherical" if _KINDS[kind] == "connect" else "fixed")

@@ -27,10 +27,12 @@ def _add_load(robot: Node, links: Links, number: int, joints: Mapping[str, str])
     site = int(model.sensor_objid[number])
     body, kind = int(model.site_bodyid[site]), mujoco.mjtSensor(model.sensor_type[number])
     joint = joints.get(scene.links[body])
-    twins = [n for n in range(model.nsensor) if int(model.sensor_type[n]) in _LOADS and model.sensor_objid[n] == site]
     is_at_joint = not np.any(links.place(body, model.site_pos[site]))
-    if joint is None or not (is_at_joint or kind == mujoco.mjtSensor.mjSENS_FORCE):
+    # a torque counts about the origin of the joint
+    kinds = _LOADS if is_at_joint else (mujoco.mjtSensor.mjSENS_FORCE,)
+    if joint is None or kind not in kinds:
         return False
+    twins = [n for n in range(model.nsensor) if int(model.sensor_type[n]) in kinds and model.sensor_objid[n] == site]
     if number == twins[0]:
         at = robot.add("gazebo", scene.line("sensor", number), reference=joint)
         sensor = at.add("sensor", name=scene.name("sensor", number) or f"{joint}_load", type="force_torque")

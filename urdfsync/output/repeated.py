@@ -16,25 +16,40 @@ from urdfsync.output.console import Console, line
 
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:
-    """Show findings of a robot; findings that its last build has shown already are only counted.
-
-    Errors and findings about Modelica files are shown by each build.
-    """
-    folder = str(result.root / STATE_FOLDER)
-    before, keys = record.findings_told(folder, result.robot), list(map(finding_key, diagnostics))
-    new = [
-        diagnostic
-        for diagnostic, key in zip(diagnostics, keys, strict=True)
-        if console.verbose
-        or diagnostic.severity is Severity.ERROR
-        or diagnostic.file.endswith(".mo")
-        or key not in before
-    ]
+    """Show findings of a robot; findings that its last build has shown already are only counted."""
+    new = untold(result, diagnostics, verbose=console.verbose)
     console.findings(new)
     repeated = [finding for finding in diagnostics if finding not in new]
     if repeated and console.counts_robots:
         console.repeated_findings.append(len(repeated))
     elif repeated and not console.quiet:
         console.print([line((f"{result.robot}: {still(repeated)}", "dim"))], error=True)
-    if before != set(keys) and not (result.dry or result.failed or console.quiet):
-        record.note_findings(folder, result.robot, keys)
+    if not console.quiet:
+        note(result, diagnostics)
+
+
+def untold(result: Result, diagnostics: Sequence[Diagnostic], *, verbose: bool) -> list[Diagnostic]:
+    """Return the findings that the last build of a robot has not shown; all if `verbose`.
+
+    Errors and findings about Modelica files are shown by each build.
+    """
+    before = _told(result)
+    return [
+        diagnostic
+        for diagnostic in diagnostics
+        if verbose
+        or diagnostic.severity is Severity.ERROR
+        or diagnostic.file.endswith(".mo")
+        or finding_key(diagnostic) not in before
+    ]
+
+
+def note(result: Result, diagnostics: Sequence[Diagnostic]) -> None:
+    """Note the findings that a build has shown or counted."""
+    keys = {*map(finding_key, diagnostics)}
+    if _told(result) != keys and not (result.dry or result.failed):
+        record.note_findings(str(result.root / STATE_FOLDER), result.robot, keys)
+
+
+def _told(result: Result) -> set[str]:
+    return record.findings_told(str(result.root / STATE_FOLDER), result.robot)

@@ -58,6 +58,11 @@ class Scope:
         """Links, joints and frames."""
         self.models: list[Scope] = []
 
+    @property
+    def static_holder(self) -> Element:
+        """The element that says whether the model is static: the `<include>` if it does, else the model."""
+        return self.element if self.holder.find("static") is None else self.holder
+
     def each(self) -> Iterator[Scope]:
         """Yield this model and all models in it."""
         yield self
@@ -216,11 +221,14 @@ class Frames:
         inner = frame.inner
         if inner is not None and (name := inner.element.get("canonical_link", "")):
             return self.look_up(inner, name, inner.element)
-        links = [part for part in inner.parts if part.kind == "link"] if inner else []
-        models = [model.own for model in inner.models] if inner else []
-        if not links and not models:
+        links = {part.element: part for part in inner.parts if part.kind == "link"} if inner else {}
+        models = inner.models if inner else []
+        if inner is not None:  # links of a merged model count where its <include> stands
+            links |= {model.holder: model.own for model in models if model.names is inner.names}
+        first = next((links[element] for element in inner.element if element in links), None) if inner else None
+        if first is None and not models:
             raise self.document.fault(frame.element, f"model {frame.name!r} has no link")
-        return (*links, *models)[0]
+        return first or models[0].own
 
     def _enter(self, frame: Frame, message: str) -> None:
         if frame in self._busy:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -51,13 +51,15 @@ class Joint(NamedTuple):
     parent: Frame
     child: Frame
     axes: tuple[Axis, ...]
+    damping: float = 0.0
+    """That of a ball."""
     is_turned: bool = False
     """Whether `parent` is the child in the source: the root of the tree is on that side."""
 
     @property
     def has_numbers(self) -> bool:
         """Whether an axis has limits or losses, or follows another one."""
-        return any(axis._replace(reference=0.0) != Axis(*axis[:3]) for axis in self.axes)
+        return bool(self.damping) or any(axis._replace(reference=0.0) != Axis(*axis[:3]) for axis in self.axes)
 
 
 def read_joints(frames: Frames, parts: Iterable[Frame]) -> list[Joint]:
@@ -73,13 +75,9 @@ def read_joints(frames: Frames, parts: Iterable[Frame]) -> list[Joint]:
         if parent is child:
             raise document.fault(frame.element, f"joint {frame.name!r} joins {parent.name!r} with itself")
         axes = tuple(_axis(frames, frame, tag) for tag in TAGS[: _AXES.get(kind, 0)])
-        joints.append(Joint(frame, kind, parent, child, axes))
+        damping = document.number(frame.element, "axis/dynamics/damping", 0.0) if kind == "ball" else 0.0
+        joints.append(Joint(frame, kind, parent, child, axes, damping))
     return joints
-
-
-def names(joint: Joint) -> Iterator[str]:
-    """Yield the names of a joint's parts in URDF: one for each axis."""
-    yield from [joint.frame.name] if len(joint.axes) < 2 else [f"{joint.frame.name}_{tag}" for tag in TAGS]
 
 
 def _axis(frames: Frames, joint: Frame, tag: str) -> Axis:

@@ -23,8 +23,8 @@ def add_leftovers(urdf: Urdf, model: Scope, joints: Iterable[Joint]) -> None:
     for joint in joints:
         _add_of_joint(urdf, joint)
     for scope in model.each():
-        if urdf.document.flag(scope.holder, "static"):
-            urdf.leave_out("static model", scope.own.name, scope.holder)
+        if urdf.document.flag(scope.static_holder, "static"):
+            urdf.leave_out("static model", scope.own.name, scope.static_holder)
         full = {name: frame.name for name, frame in scope.names.items()}
         for part in [*scope.element, *(scope.holder if scope.holder is not scope.element else ())]:
             if part.tag == "plugin":  # in Gazebo's words, which URDF has, too

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from urdfsync.sdf.frames import WORLD, Frame, Frames, Scope
-from urdfsync.sdf.joints import Axis, Joint, names, read_joints
+from urdfsync.sdf.joints import Axis, Joint, read_joints
 from urdfsync.sdf.leftovers import add_leftovers
 from urdfsync.sdf.parts import add_link, add_sensor
 from urdfsync.sdf.tree import LOOP_KINDS, find_tree
@@ -24,7 +24,7 @@ def translated(frames: Frames, model: Scope) -> Node:
     urdf, is_fixed = Urdf(frames, model, tree), tree.root is frames.world
     if is_fixed:
         urdf.root.add("link", document.places[model.element], name=WORLD)
-    elif not document.flag(model.holder, "static"):
+    elif not document.flag(model.static_holder, "static"):
         urdf.root.add("free_root", document.places[tree.root.element], link=urdf.links[tree.root])
     links = [*([] if is_fixed else [tree.root]), *(joint.child for joint in tree.joints)]
     for link in links:
@@ -51,7 +51,9 @@ def _add_joint(urdf: Urdf, joint: Joint) -> None:
     line, child = urdf.document.places[joint.frame.element], joint.child
     rotation, place = urdf.frames.pose(child, joint.parent)
     origin = urdf.place(joint.parent, joint.parent, (rotation, moved((rotation, place), urdf.offsets[child])))
-    parts = list(zip(names(joint), joint.axes or (None,), strict=True))[:: -1 if joint.is_turned else 1]
+    parts = list(zip(urdf.joint_names[joint.frame], joint.axes or (None,), strict=True))[
+        :: -1 if joint.is_turned else 1
+    ]
     parent = urdf.links[joint.parent]
     for number, (name, axis) in enumerate(parts, start=1):
         kind = joint.kind if len(parts) == 1 else "revolute"
@@ -64,8 +66,8 @@ def _add_joint(urdf: Urdf, joint: Joint) -> None:
         urdf.add_origin(node, origin if number == 1 else IDENTITY)
         if axis is not None:
             _add_axis(urdf, node, joint, axis)
-        if kind == "ball" and (damping := urdf.document.number(joint.frame.element, "axis/dynamics/damping", 0.0)):
-            node.add("dynamics", damping=damping)
+        if joint.damping:
+            node.add("dynamics", damping=joint.damping)
         if number < len(parts):
             urdf.root.add("link", line, name=end)
         parent = end
@@ -76,7 +78,10 @@ def _add_axis(urdf: Urdf, node: Node, joint: Joint, axis: Axis) -> None:
     node.add("axis", xyz=rounded((-x, -y, -z) if joint.is_turned else (x, y, z)))
     lower, upper = axis.range if axis.range and node.attributes["type"] != "continuous" else (None, None)
     most = {"effort": axis.effort, "velocity": axis.velocity, "acceleration": axis.acceleration}
-    if {lower, upper, *most.values()} != {None}:
+    if lower is None and node.attributes["type"] == "prismatic":  # in URDF, a limit of a sliding joint has a range
+        for name in (name for name, value in most.items() if value is not None):
+            node.add(name, urdf.document.places[joint.frame.element])
+    elif {lower, upper, *most.values()} != {None}:
         node.add("limit", lower=lower, upper=upper).attributes |= most
     spring = {"spring_stiffness": axis.stiffness, "spring_reference": axis.reference or None} if axis.stiffness else {}
     if axis.damping or axis.friction or axis.armature or spring:

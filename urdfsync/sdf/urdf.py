@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
 from urdfsync.sdf.frames import WORLD, Frame, Frames, Scope
-from urdfsync.sdf.joints import names
+from urdfsync.sdf.joints import TAGS, Joint
 from urdfsync.sdf.tree import Tree
-from urdfsync.translation.writer import Node, rounded
+from urdfsync.translation.writer import Node, free_name, rounded
 from urdfsync.urdf.kinematics.poses import IDENTITY, Matrix, Pose, angles, compose
 from urdfsync.urdf.robot import Vector
 
@@ -43,9 +43,18 @@ class Urdf:
         self.links = {link: link.name for link in model.of_kind("link")} | {frames.world: WORLD}
         """Names of all links."""
         self.taken = {*self.links.values()}
-        self.taken_joints = {name for joint in (*tree.joints, *tree.loops) for name in names(joint)}
+        joints = (*tree.joints, *tree.loops)
+        self.taken_joints = {joint.frame.name for joint in joints if len(joint.axes) < 2}
+        self.joint_names = {joint.frame: [*self._names(joint)] for joint in joints}
+        """Names of the parts of each joint: one for each axis."""
         self.offsets = {joint.child: frames.pose(joint.frame, joint.child)[1] for joint in tree.joints}
         """Origin of each link in its frame of SDF."""
+
+    def _names(self, joint: Joint) -> Iterator[str]:
+        if len(joint.axes) < 2:
+            yield joint.frame.name
+        else:
+            yield from (free_name(f"{joint.frame.name}_{tag}", self.taken_joints) for tag in TAGS)
 
     def place(self, frame: Frame, link: Frame, inner: Pose = IDENTITY) -> Pose:
         """Return a pose, given in a frame of SDF, in the URDF's frame of a link."""

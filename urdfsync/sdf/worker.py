@@ -49,7 +49,7 @@ def choose_model(frames: Frames, name: str) -> Scope:
         for key, model in models.items()
         if any(part.element.get("type") not in FIXED for part in model.of_kind("joint"))
     ]
-    robots = [key for key in moving if not document.flag(models[key].holder, "static")] or moving
+    robots = [key for key in moving if not document.flag(models[key].static_holder, "static")] or moving
     if len(robots) == 1:
         return models[robots[0]]
     if robots:

@@ -26,6 +26,7 @@ from urdfsync.output.console import Console, StyledLine, findings, line, rich_co
 from urdfsync.output.documents import JSON_VERSION, plain
 from urdfsync.output.outline import outline
 from urdfsync.output.phrases import change_counts, generator_change
+from urdfsync.output.repeated import note, untold
 from urdfsync.output.terminal import details
 from urdfsync.spelling import counted
 from urdfsync.streams import has_marks
@@ -225,18 +226,21 @@ class Report:
         new_errors = self._new(robot, "broken", map(_key, errors))
         conflicts = self._new(robot, "conflicts", ((each.action.path, each.action.sides) for each in result.conflicts))
         orphans = self._new(robot, "kept", (each.path for each in result.actions.decided if each.reason in ORPHANS))
-        yield from self._findings(
-            [finding for finding in result.diagnostics if verbose or (_key(finding) in new and finding not in errors)]
-        )
+        shown = [
+            finding for finding in result.diagnostics if verbose or (_key(finding) in new and finding not in errors)
+        ]
+        yield from self._findings(untold(result, shown, verbose=verbose))
+        if not self._console.quiet:
+            note(result, result.diagnostics)
         if new_errors:
             more = f", and {len(errors) - 1} more" if len(errors) > 1 else ""
             yield self._line(clock, robot, f"{_with_error('broken', errors)}{more}", "bold red", error=True)
         if self._console.quiet and not conflicts:
             return
-        untold = frozenset() if orphans else ORPHANS
+        settled = frozenset() if orphans else ORPHANS
         words = []
         if event.files or event.recovered or result.effective_changes or conflicts or orphans:
-            words = [*_changes(result), *result.counts({Reason.KEEP} | untold)]
+            words = [*_changes(result), *result.counts({Reason.KEEP} | settled)]
         if not (result.conflicts or result.is_broken or result.is_unmerged) and (event.recovered or not was_in_step):
             words.append("in step again")
         if not words and (verbose or result.effective_changes):
@@ -245,7 +249,7 @@ class Report:
             return
         yield self._line(clock, robot, ", ".join(words), "yellow" if result.conflicts else "")
         if not self._console.quiet:
-            hidden = frozenset() if verbose else CONFLICTS | untold
+            hidden = frozenset() if verbose else CONFLICTS | settled
             actions = Actions(action for action in result.actions if action.reason not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
             yield from map(LogLine, details(build_section(seen, verbose=verbose), verbose=verbose))
