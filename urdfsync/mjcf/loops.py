@@ -6,7 +6,6 @@ MuJoCo's constraints give way a little, those of the models do not.
 from __future__ import annotations
 
 import mujoco
-import numpy as np
 
 from urdfsync.mjcf.drives import Drives
 from urdfsync.mjcf.robot import Links
