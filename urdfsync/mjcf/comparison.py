@@ -3,7 +3,8 @@
 MuJoCo's own reader of URDF shares no code with the translation. It knows neither armature nor springs, so these numbers
 are added to its model; it merges links, and reads shapes from files, unless it is told otherwise. Constraints and
 tendons are in none of the compared forces: the couplings and loops of the URDF are not compared. Of motors, the
-greatest effort is compared.
+greatest effort is compared, and the effort of each law: MuJoCo computes it with the actuator of the MJCF, and this module
+by the documented law from the numbers in the URDF.
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ def compare(document: Document, text: str, body: str = "") -> tuple[int, tuple[s
     """Return how many numbers were compared, and a line for each quantity that differs. Raises TranslationError."""
     scene = read_scene(document, body)
     root = parse(text.encode()).root
-    efforts = list(_efforts(scene, root))
+    efforts = [*_efforts(scene, root), *_laws(scene, root)]
     _leave_out(scene)
     model = _read_urdf(root, scene.links[scene.root] if scene.is_floating else "")
     joints = list(_joints(scene, model))
@@ -170,9 +171,7 @@ def _efforts(scene: Scene, root: Element) -> Iterator[_Numbers]:
     model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
     gains, biases = model.actuator_gainprm.copy(), model.actuator_biasprm.copy()
     for leader, motors in drives.motors.items():
-        moved = {leader: 1.0} | {
-            joint: factor for joint in drives.followers for top, factor in [drives.leader(joint)] if top == leader
-        }
+        moved = _moved_by(drives, leader)
         if (limit := limits.get(scene.joints[leader])) is None:
             continue
         total = 0.0
@@ -198,6 +197,116 @@ def _effort(model: Any, moved: Mapping[int, float], side: int, gear: float) -> f
         step(model, data)
     efforts = (factor * data.qfrc_actuator[_places(model, joint)[1]] for joint, factor in moved.items())
     return float(sum(each.item() for each in efforts))
+
+
+def _laws(scene: Scene, root: Element) -> Iterator[_Numbers]:
+    """Yield the effort of each drive whose law is in the URDF, at random positions, speeds and commands.
+
+    At half of the states, speed and command are far, so that limits count. For an integrated command, the speed of its
+    integral is compared, too.
+    """
+    drives, random = Drives(scene), np.random.default_rng(0)
+    joints = {joint.get("name", ""): joint for joint in root.findall("ros2_control/joint")}
+    for leader, motors in drives.motors.items():
+        if motors[0].servo is None:
+            continue
+        name = scene.joints[leader]
+        interface = joints[name].find("command_interface")
+        assert interface is not None  # each motor gives its joint a command
+        command = interface.get("name", "")
+        law = {param.get("name", ""): float(param.text or "nan") for param in interface.findall("param")}
+        actuator = _Actuator(scene, drives, leader, motors[0].actuator)
+        expected, written = list[float](), list[float]()
+        for far in (1.0, 100.0) * _STATES:
+            position, speed, ctrl = random.uniform(-1, 1, 3) * (1, far, far)
+            expected += actuator.push(position, speed, ctrl)
+            reference, rate = actuator.reference(ctrl)
+            written += [_given(law, command, reference, position, speed), _limited(rate, law, "velocity")]
+        yield _Numbers("effort of the law", f"joint {name}", np.array(expected), np.array(written))
+
+
+class _Actuator:
+    """One actuator of a model, the only one that acts."""
+
+    def __init__(self, scene: Scene, drives: Drives, leader: int, number: int) -> None:
+        self._number, self._drives, self._moved = number, drives, _moved_by(drives, leader)
+        self._model = model = copy.copy(scene.model)
+        model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
+        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT  # see `_leave_out`
+        for numbers in (model.actuator_gainprm, model.actuator_biasprm):
+            own = numbers[number].copy()
+            numbers[:], numbers[number] = 0.0, own
+        model.body_gravcomp[:] = 0.0  # the translation leaves it out
+        self._unlimited = copy.copy(model)
+        for name in ("actuator_forcelimited", "actuator_ctrllimited", "actuator_actlimited", "jnt_actfrclimited"):
+            getattr(self._unlimited, name)[:] = 0
+        self._integrates = model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR
+
+    def push(self, position: float, speed: float, ctrl: float) -> tuple[float, float]:
+        """Return the effort at the leading joint, and the speed of the integral of the command at the joint's side."""
+        data = self._data(self._model, position, speed, ctrl)
+        rate = float(data.act_dot[self._model.actuator_actadr[self._number]]) if self._integrates else 0.0
+        return self._effort(data), rate * self._scale()
+
+    def reference(self, ctrl: float) -> tuple[float, float]:
+        """Return the reference at the joint's side, and its speed if it is an integral, both without limits.
+
+        At this position or speed the actuator gives no effort; without feedback, the reference is the effort.
+        """
+        return self._free(0.0, 0.0, ctrl) / self._stiffness(), ctrl * self._scale() if self._integrates else 0.0
+
+    def _scale(self) -> float:
+        return (self._free(0.0, 0.0, 1.0) - self._free(0.0, 0.0, 0.0)) / self._stiffness()
+
+    def _stiffness(self) -> float:
+        """Return the effort against position or else speed, or 1 without feedback."""
+        rest = self._free(0.0, 0.0, 0.0)
+        return rest - self._free(1.0, 0.0, 0.0) or rest - self._free(0.0, 1.0, 0.0) or 1.0
+
+    def _free(self, position: float, speed: float, ctrl: float) -> float:
+        return self._effort(self._data(self._unlimited, position, speed, ctrl))
+
+    def _effort(self, data: Any) -> float:
+        efforts = (factor * data.qfrc_actuator[_places(self._model, joint)[1]] for joint, factor in self._moved.items())
+        return float(sum(each.item() for each in efforts))
+
+    def _data(self, model: Any, position: float, speed: float, ctrl: float) -> Any:
+        """Return MuJoCo's data of a state; an activation has its final value, or an integral the value of `ctrl`."""
+        data, number = mujoco.MjData(model), self._number
+        for joint, factor in self._moved.items():
+            places = _places(model, joint)
+            data.qpos[places[0]], data.qvel[places[1]] = factor * position + self._drives.offset(joint), factor * speed
+        data.ctrl[:] = ctrl
+        if model.actuator_ctrllimited[number] and not self._integrates:
+            ctrl = float(np.clip(ctrl, *model.actuator_ctrlrange[number]))
+        if model.actuator_actlimited[number]:
+            ctrl = float(np.clip(ctrl, *model.actuator_actrange[number]))
+        data.act[:] = ctrl
+        for step in (mujoco.mj_fwdPosition, mujoco.mj_fwdVelocity, mujoco.mj_fwdActuation):
+            step(model, data)
+        return data
+
+
+def _given(law: Mapping[str, float], command: str, reference: float, position: float, speed: float) -> float:
+    """Return the effort that a law gives, as docs/urdf.md has it."""
+    stiffness, damping = law.get("position_gain", 0.0), law.get("velocity_gain", 0.0)
+    if command == "effort":
+        effort = reference
+    elif command == "velocity" and not stiffness:
+        effort = damping * (_limited(reference, law, "velocity") - speed)
+    else:
+        effort = stiffness * (_limited(reference, law, "position") - position) - damping * speed
+    return _limited(effort, law, "effort")
+
+
+def _limited(value: float, law: Mapping[str, float], quantity: str) -> float:
+    return max(law.get(f"min_{quantity}", -np.inf), min(law.get(f"max_{quantity}", np.inf), value))
+
+
+def _moved_by(drives: Drives, leader: int) -> dict[int, float]:
+    """Return a joint and those that follow it, with their motion for a unit of the leader's."""
+    followers = {joint: factor for joint in drives.followers for top, factor in [drives.leader(joint)] if top == leader}
+    return {leader: 1.0} | followers
 
 
 def _motion(scene: Scene, urdf: Any, joints: list[_Joint], random: np.random.Generator) -> Iterator[_Numbers]:

@@ -2,7 +2,6 @@ within UrdfSync.Drives;
 
 partial model PartialRotationalServo "Drive of a turning joint that pushes by a law"
   extends UrdfSync.Icons.RotationalDrive;
-  extends Modelica.Mechanics.Rotational.Interfaces.PartialElementaryOneFlangeAndSupport2(final useSupport = true);
 
   parameter UrdfSync.Records.RotationalServo parameters
     "Gains and limits";
@@ -12,6 +11,14 @@ partial model PartialRotationalServo "Drive of a turning joint that pushes by a 
 
   parameter Modelica.Units.SI.AngularVelocity w_max = Modelica.Constants.inf
     "Limit of the speed, if the drive saturates";
+
+  Modelica.Mechanics.Rotational.Interfaces.Flange_b flange
+    "Axis that is pushed"
+    annotation (Placement(transformation(extent={{90, -10}, {110, 10}})));
+
+  Modelica.Mechanics.Rotational.Interfaces.Support support
+    "Housing of the drive"
+    annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
 
   Modelica.Units.SI.Angle phi
     "Position of the joint";
@@ -26,7 +33,7 @@ partial model PartialRotationalServo "Drive of a turning joint that pushes by a 
     "Torque that the drive gives";
 
 equation
-  phi = flange.phi - phi_support;
+  phi = flange.phi - support.phi;
   w = der(phi);
   tau = UrdfSync.Functions.limitedEffort(
     UrdfSync.Functions.limited(tau_asked, parameters.minEffort, parameters.maxEffort),
@@ -34,6 +41,7 @@ equation
     tau_max,
     w_max);
   flange.tau = -tau;
+  support.tau = tau;
 
   annotation (Documentation(info="<html>
 <p>

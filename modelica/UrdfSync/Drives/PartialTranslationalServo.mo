@@ -2,7 +2,6 @@ within UrdfSync.Drives;
 
 partial model PartialTranslationalServo "Drive of a sliding joint that pushes by a law"
   extends UrdfSync.Icons.TranslationalDrive;
-  extends Modelica.Mechanics.Translational.Interfaces.PartialElementaryOneFlangeAndSupport2(final useSupport = true);
 
   parameter UrdfSync.Records.TranslationalServo parameters
     "Gains and limits";
@@ -12,6 +11,14 @@ partial model PartialTranslationalServo "Drive of a sliding joint that pushes by
 
   parameter Modelica.Units.SI.Velocity v_max = Modelica.Constants.inf
     "Limit of the speed, if the drive saturates";
+
+  Modelica.Mechanics.Translational.Interfaces.Flange_b flange
+    "Axis that is pushed"
+    annotation (Placement(transformation(extent={{90, -10}, {110, 10}})));
+
+  Modelica.Mechanics.Translational.Interfaces.Support support
+    "Housing of the drive"
+    annotation (Placement(transformation(extent={{-10, -110}, {10, -90}})));
 
   Modelica.Units.SI.Position s
     "Position of the joint";
@@ -26,7 +33,7 @@ partial model PartialTranslationalServo "Drive of a sliding joint that pushes by
     "Force that the drive gives";
 
 equation
-  s = flange.s - s_support;
+  s = flange.s - support.s;
   v = der(s);
   f = UrdfSync.Functions.limitedEffort(
     UrdfSync.Functions.limited(f_asked, parameters.minEffort, parameters.maxEffort),
@@ -34,6 +41,7 @@ equation
     f_max,
     v_max);
   flange.f = -f;
+  support.f = f;
 
   annotation (Documentation(info="<html>
 <p>

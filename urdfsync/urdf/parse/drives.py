@@ -217,7 +217,7 @@ def _read_servo(reader: Reader, interface: Element, command: Command, path: str,
             if field.endswith("gain") and found[0] < 0:
                 message = f"{path}: {field} is {found[0]:g}, but a gain is never negative"
                 reader.add(params[field], "bad-servo", message, "correct its sign")
-    for lower, upper in (("min_position", "max_position"), ("min_velocity", "max_velocity"), ("min_effort", "max_effort")):
+    for lower, upper in ((f"min_{quantity}", f"max_{quantity}") for quantity in _COMMANDS):
         if lower in numbers and upper in numbers and numbers[lower] > numbers[upper]:
             message = f"{path}: {lower} is {numbers[lower]:g}, and {upper} is {numbers[upper]:g}"
             reader.add(params[lower], "bad-servo", message, "exchange or correct the limits")
