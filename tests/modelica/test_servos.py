@@ -56,9 +56,10 @@ ARM = f"""
 </mujoco>
 """
 CONTROLS = {"shoulder": 0.9, "elbow": 0.4, "rail": 0.5, "wheel": -2.0, "fan": 0.6}
-"""Values of `ctrl`: those of shoulder and fan are beyond their ranges, and the rail's integral reaches its end at 0.2 s.
+"""Values of `ctrl`: those of shoulder and fan are beyond their ranges.
 
-There, MuJoCo is wrong by half a step of the integral, since stages of its integrator pass the end: hence the short step.
+The rail's integral reaches its end at 0.2 s. There, MuJoCo is wrong by half a step of the integral, since stages of its
+integrator pass the end: hence the short step.
 """
 COMMANDS = {
     "shoulder_phi": CONTROLS["shoulder"],

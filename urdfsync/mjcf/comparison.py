@@ -3,8 +3,8 @@
 MuJoCo's own reader of URDF shares no code with the translation. It knows neither armature nor springs, so these numbers
 are added to its model; it merges links, and reads shapes from files, unless it is told otherwise. Constraints and
 tendons are in none of the compared forces: the couplings and loops of the URDF are not compared. Of motors, the
-greatest effort is compared, and the effort of each law: MuJoCo computes it with the actuator of the MJCF, and this module
-by the documented law from the numbers in the URDF.
+greatest effort is compared, and the effort of each law: MuJoCo computes it with the actuator of the MJCF, and this
+module by the documented law from the numbers in the URDF.
 """
 
 from __future__ import annotations
@@ -202,27 +202,36 @@ def _effort(model: Any, moved: Mapping[int, float], side: int, gear: float) -> f
 def _laws(scene: Scene, root: Element) -> Iterator[_Numbers]:
     """Yield the effort of each drive whose law is in the URDF, at random positions, speeds and commands.
 
-    At half of the states, speed and command are far, so that limits count. For an integrated command, the speed of its
-    integral is compared, too.
+    Far commands show the limits of the command, without those of the effort, and then the limits of the effort. For an
+    integrated command, the speed of its integral is compared, too.
     """
     drives, random = Drives(scene), np.random.default_rng(0)
-    joints = {joint.get("name", ""): joint for joint in root.findall("ros2_control/joint")}
+    interfaces = {
+        joint.get("name", ""): part
+        for joint in root.findall("ros2_control/joint")
+        for part in joint.findall("command_interface")
+    }
     for leader, motors in drives.motors.items():
         if motors[0].servo is None:
             continue
         name = scene.joints[leader]
-        interface = joints[name].find("command_interface")
-        assert interface is not None  # each motor gives its joint a command
+        interface = interfaces[name]
         command = interface.get("name", "")
-        law = {param.get("name", ""): float(param.text or "nan") for param in interface.findall("param")}
+        law = {param.get("name", ""): float(param.text or "") for param in interface.findall("param")}
         actuator = _Actuator(scene, drives, leader, motors[0].actuator)
-        expected, written = list[float](), list[float]()
-        for far in (1.0, 100.0) * _STATES:
-            position, speed, ctrl = random.uniform(-1, 1, 3) * (1, far, far)
-            expected += actuator.push(position, speed, ctrl)
-            reference, rate = actuator.reference(ctrl)
-            written += [_given(law, command, reference, position, speed), _limited(rate, law, "velocity")]
-        yield _Numbers("effort of the law", f"joint {name}", np.array(expected), np.array(written))
+        trials = (1.0, True), (_FAR, False), (_FAR, True)
+        for far, is_cut in trials[
+            :: 2 if command == "effort" else 1
+        ]:  # the limits of an effort are those of its command
+            expected, written = list[float](), list[float]()
+            for side in (1.0, -1.0) * _STATES:
+                position, speed, share = random.uniform(-1, 1, 3)
+                ctrl = side * far * abs(share)
+                expected += actuator.push(position, speed, ctrl, is_cut=is_cut)
+                reference, rate = actuator.reference(ctrl)
+                effort = _asked(law, command, reference, position, speed)
+                written += [_limited(effort, law, "effort") if is_cut else effort, _limited(rate, law, "velocity")]
+            yield _Numbers("effort of the law", f"joint {name}", np.array(expected), np.array(written))
 
 
 class _Actuator:
@@ -237,14 +246,20 @@ class _Actuator:
             own = numbers[number].copy()
             numbers[:], numbers[number] = 0.0, own
         model.body_gravcomp[:] = 0.0  # the translation leaves it out
-        self._unlimited = copy.copy(model)
-        for name in ("actuator_forcelimited", "actuator_ctrllimited", "actuator_actlimited", "jnt_actfrclimited"):
-            getattr(self._unlimited, name)[:] = 0
+        self._uncut = copy.copy(model)
+        for flags in (self._uncut.actuator_forcelimited, self._uncut.jnt_actfrclimited):
+            flags[:] = 0
+        self._unlimited = copy.copy(self._uncut)
+        for flags in (self._unlimited.actuator_ctrllimited, self._unlimited.actuator_actlimited):
+            flags[:] = 0
         self._integrates = model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR
 
-    def push(self, position: float, speed: float, ctrl: float) -> tuple[float, float]:
-        """Return the effort at the leading joint, and the speed of the integral of the command at the joint's side."""
-        data = self._data(self._model, position, speed, ctrl)
+    def push(self, position: float, speed: float, ctrl: float, *, is_cut: bool) -> tuple[float, float]:
+        """Return the effort at the leading joint, and the speed of the integral of the command at the joint's side.
+
+        `is_cut` says whether ranges of the effort count.
+        """
+        data = self._data(self._model if is_cut else self._uncut, position, speed, ctrl)
         rate = float(data.act_dot[self._model.actuator_actadr[self._number]]) if self._integrates else 0.0
         return self._effort(data), rate * self._scale()
 
@@ -287,16 +302,14 @@ class _Actuator:
         return data
 
 
-def _given(law: Mapping[str, float], command: str, reference: float, position: float, speed: float) -> float:
-    """Return the effort that a law gives, as docs/urdf.md has it."""
+def _asked(law: Mapping[str, float], command: str, reference: float, position: float, speed: float) -> float:
+    """Return the effort that a law asks for, before its limits, as docs/urdf.md has it."""
     stiffness, damping = law.get("position_gain", 0.0), law.get("velocity_gain", 0.0)
     if command == "effort":
-        effort = reference
-    elif command == "velocity" and not stiffness:
-        effort = damping * (_limited(reference, law, "velocity") - speed)
-    else:
-        effort = stiffness * (_limited(reference, law, "position") - position) - damping * speed
-    return _limited(effort, law, "effort")
+        return reference
+    if command == "velocity" and not stiffness:
+        return damping * (_limited(reference, law, "velocity") - speed)
+    return stiffness * (_limited(reference, law, "position") - position) - damping * speed
 
 
 def _limited(value: float, law: Mapping[str, float], quantity: str) -> float:

@@ -5,8 +5,8 @@ subtracted from limits, starts and references of springs. A motor's gear is a re
 motor's effort.
 
 The force of an actuator is gain · ctrl + bias + stiffness · length + damping · speed, in its own units. At the joint's
-side, this is the law of a `Servo`. Its command is the position, or the speed, at which the actuator gives no force: so a
-command means the same as for a joint that moves exactly. A commanded effort includes the bias.
+side, this is the law of a `Servo`. Its command is the position, or the speed, at which the actuator gives no force: so
+commands mean the same as for joints that move exactly. A commanded effort includes the bias.
 """
 
 from __future__ import annotations
@@ -220,15 +220,15 @@ class Drives:
             limits.add(reference, model.actuator_actrange[number], scale, constant)
         if model.actuator_forcelimited[number]:
             limits.add("effort", model.actuator_forcerange[number], gear, 0.0)
-        effort = limits.greatest_effort()
-        limited = [(joint, factor) for joint, factor in pulls if model.jnt_actfrclimited[joint]]
-        for joint, _ in limited:
-            limits.add("effort", model.jnt_actfrcrange[joint], self.leader(joint)[1], 0.0)
+        limited = [joint for joint, _ in pulls if model.jnt_actfrclimited[joint]]
+        if limited and len(pulls) == 1:
+            limits.add("effort", model.jnt_actfrcrange[limited[0]], self.leader(limited[0])[1], 0.0)
         is_servo = stiffness <= 0 and damping <= 0 and not (integrates and not stiffness)
         # each joint of a tendon cuts its own share of the effort
         is_servo = is_servo and (not limited or len(pulls) == 1)
         servo |= limits.numbers()
-        return servo if is_servo and all(map(math.isfinite, servo.values())) else None, effort
+        is_servo = is_servo and all(map(math.isfinite, servo.values()))
+        return servo if is_servo else None, limits.greatest_effort()
 
     def add_numbers(self, joint: Node, number: int, kind: str) -> None:
         """Add limits, losses and coupling of a joint to its element."""

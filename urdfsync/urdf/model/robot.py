@@ -126,7 +126,8 @@ def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
     saturated = {joint.name for joint in tree.joints if is_chosen(joint, options.saturated)}
     moved = {joint.name for joint in tree.joints if not by_effort(joint)} & closed.driven
     servos = {joint.name: joint.servo for joint in tree.joints if joint.servo}
-    integrating = {name for name, servo in servos.items() if servo.position_gain is not None}
+    by_speed = {joint.name for joint in tree.joints if joint.command == "velocity"}
+    integrating = {name for name in by_speed & servos.keys() if servos[name].position_gain is not None}
     drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
         "drives": [

@@ -205,7 +205,7 @@ def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive
 def _read_servo(reader: Reader, interface: Element, command: Command, path: str, name: str) -> Servo | None:
     """Return the law of a drive; None if the command interface states none."""
     needed, others = _SERVOS[command]
-    params = {param.get("name", ""): param for param in interface.findall("param")}
+    params = {param.get("name", ""): param for param in reversed(interface.findall("param"))}  # the first counts
     if params.keys().isdisjoint(needed):
         return None
     numbers = dict[str, float]()
