@@ -144,6 +144,24 @@ def test_two_joints_of_a_tendon_that_limit_their_efforts_have_no_law() -> None:
     assert noted(text) == "not modelled: 1 <feedback>"
 
 
+def test_an_actuator_that_is_switched_off_has_no_law() -> None:
+    """The next one commands the joint."""
+    motors = '<position joint="d" kp="50" group="2"/><velocity joint="d" kv="5"/>'
+    text, _ = model_of(motors)
+    text = text.replace("</mujoco>", '<option actuatorgroupdisable="2"/></mujoco>')
+    assert (joint(read(text), "d").command, joint(read(text), "d").servo) == ("velocity", Servo(velocity_gain=5.0))
+    assert noted(text) == "not modelled: 1 <inactive>"
+    assert compare(document(text), urdf(text))[1] == ()
+
+
+def test_the_range_of_a_delayed_activation_limits_the_effort() -> None:
+    text, _ = model_of(
+        '<general joint="d" dyntype="filter" dynprm="0.1" gainprm="2" actlimited="true" actrange="-1 3"/>'
+    )
+    assert joint(read(text), "d").servo == Servo(min_effort=-2.0, max_effort=6.0)
+    assert compare(document(text), urdf(text))[1] == ()
+
+
 def test_a_switch_leaves_out_the_range_of_ctrl() -> None:
     text, _ = model_of('<position joint="d" kp="50" ctrlrange="-1 1"/>')
     free = text.replace("</mujoco>", '<option><flag clampctrl="disable"/></option></mujoco>')

@@ -193,6 +193,8 @@ def _effort(model: Any, moved: Mapping[int, float], side: int, gear: float) -> f
         position, velocity = _places(model, joint)
         data.qpos[position], data.qvel[velocity] = -side * factor * _FAR, -side * factor * _FAR
     data.ctrl[:] = data.act[:] = side * np.sign(gear) * _FAR
+    for number in np.flatnonzero(model.actuator_actadr >= 0):
+        data.act[model.actuator_actadr[number]] = _settled(model, int(number), float(data.ctrl[0]))
     for step in (mujoco.mj_fwdPosition, mujoco.mj_fwdVelocity, mujoco.mj_fwdActuation):
         step(model, data)
     efforts = (factor * data.qfrc_actuator[_places(model, joint)[1]] for joint, factor in moved.items())
@@ -205,7 +207,7 @@ def _laws(scene: Scene, root: Element) -> Iterator[_Numbers]:
     Far commands show the limits of the command, without those of the effort, and then the limits of the effort. For an
     integrated command, the speed of its integral is compared, too.
     """
-    drives, random = Drives(scene), np.random.default_rng(0)
+    drives, random, models = Drives(scene), np.random.default_rng(0), _Models.of(scene.model)
     interfaces = {
         joint.get("name", ""): part
         for joint in root.findall("ros2_control/joint")
@@ -218,11 +220,9 @@ def _laws(scene: Scene, root: Element) -> Iterator[_Numbers]:
         interface = interfaces[name]
         command = interface.get("name", "")
         law = {param.get("name", ""): float(param.text or "") for param in interface.findall("param")}
-        actuator = _Actuator(scene, drives, leader, motors[0].actuator)
-        trials = (1.0, True), (_FAR, False), (_FAR, True)
-        for far, is_cut in trials[
-            :: 2 if command == "effort" else 1
-        ]:  # the limits of an effort are those of its command
+        actuator = _Actuator(models, scene.model, drives, leader, motors[0].actuator)
+        # a commanded effort has no other limits than those of the effort
+        for far, is_cut in ((1.0, True), (_FAR, True), *(((_FAR, False),) if command != "effort" else ())):
             expected, written = list[float](), list[float]()
             for side in (1.0, -1.0) * _STATES:
                 position, speed, share = random.uniform(-1, 1, 3)
@@ -234,72 +234,87 @@ def _laws(scene: Scene, root: Element) -> Iterator[_Numbers]:
             yield _Numbers("effort of the law", f"joint {name}", np.array(expected), np.array(written))
 
 
+class _Models(NamedTuple):
+    """A model with other limits, and the data for all three. To copy a model with meshes takes 0.1 s: do it once."""
+
+    limited: Any
+    uncut: Any
+    """Without limits of the effort."""
+    unlimited: Any
+    data: Any
+
+    @classmethod
+    def of(cls, source: Any) -> _Models:
+        """Return the models, in which contacts and gravity compensation do not act."""
+        limited = copy.copy(source)
+        limited.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
+        # without this, contacts would take most of the time, and perhaps more memory than MuJoCo has
+        limited.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+        limited.body_gravcomp[:] = 0.0  # the translation leaves it out
+        uncut = copy.copy(limited)
+        uncut.actuator_forcelimited[:], uncut.jnt_actfrclimited[:] = 0, 0
+        unlimited = copy.copy(uncut)
+        unlimited.actuator_ctrllimited[:], unlimited.actuator_actlimited[:] = 0, 0
+        return cls(limited, uncut, unlimited, mujoco.MjData(limited))
+
+
 class _Actuator:
     """One actuator of a model, the only one that acts."""
 
-    def __init__(self, scene: Scene, drives: Drives, leader: int, number: int) -> None:
-        self._number, self._drives, self._moved = number, drives, _moved_by(drives, leader)
-        self._model = model = copy.copy(scene.model)
-        model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
-        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT  # see `_leave_out`
-        for numbers in (model.actuator_gainprm, model.actuator_biasprm):
-            own = numbers[number].copy()
-            numbers[:], numbers[number] = 0.0, own
-        model.body_gravcomp[:] = 0.0  # the translation leaves it out
-        self._uncut = copy.copy(model)
-        for flags in (self._uncut.actuator_forcelimited, self._uncut.jnt_actfrclimited):
-            flags[:] = 0
-        self._unlimited = copy.copy(self._uncut)
-        for flags in (self._unlimited.actuator_ctrllimited, self._unlimited.actuator_actlimited):
-            flags[:] = 0
-        self._integrates = model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR
+    def __init__(self, models: _Models, source: Any, drives: Drives, leader: int, number: int) -> None:
+        self._models, self._number = models, number
+        self._drives, self._moved = drives, _moved_by(drives, leader)
+        for model in (models.limited, models.uncut, models.unlimited):
+            for name in ("actuator_gainprm", "actuator_biasprm"):
+                getattr(model, name)[:] = 0.0
+                getattr(model, name)[number] = getattr(source, name)[number]
+        self._address = int(source.actuator_actadr[number])
+        self._integrates = source.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR
+        rest = self._free(0.0, 0.0, 0.0)
+        # the effort against position or else speed, or 1 without feedback; then the reference for a unit of ctrl
+        self._gain = rest - self._free(1.0, 0.0, 0.0) or rest - self._free(0.0, 1.0, 0.0) or 1.0
+        self._scale = (self._free(0.0, 0.0, 1.0) - rest) / self._gain
 
     def push(self, position: float, speed: float, ctrl: float, *, is_cut: bool) -> tuple[float, float]:
         """Return the effort at the leading joint, and the speed of the integral of the command at the joint's side.
 
         `is_cut` says whether ranges of the effort count.
         """
-        data = self._data(self._model if is_cut else self._uncut, position, speed, ctrl)
-        rate = float(data.act_dot[self._model.actuator_actadr[self._number]]) if self._integrates else 0.0
-        return self._effort(data), rate * self._scale()
+        effort = self._effort(self._models.limited if is_cut else self._models.uncut, position, speed, ctrl)
+        return effort, float(self._models.data.act_dot[self._address]) * self._scale if self._integrates else 0.0
 
     def reference(self, ctrl: float) -> tuple[float, float]:
         """Return the reference at the joint's side, and its speed if it is an integral, both without limits.
 
         At this position or speed the actuator gives no effort; without feedback, the reference is the effort.
         """
-        return self._free(0.0, 0.0, ctrl) / self._stiffness(), ctrl * self._scale() if self._integrates else 0.0
-
-    def _scale(self) -> float:
-        return (self._free(0.0, 0.0, 1.0) - self._free(0.0, 0.0, 0.0)) / self._stiffness()
-
-    def _stiffness(self) -> float:
-        """Return the effort against position or else speed, or 1 without feedback."""
-        rest = self._free(0.0, 0.0, 0.0)
-        return rest - self._free(1.0, 0.0, 0.0) or rest - self._free(0.0, 1.0, 0.0) or 1.0
+        return self._free(0.0, 0.0, ctrl) / self._gain, ctrl * self._scale if self._integrates else 0.0
 
     def _free(self, position: float, speed: float, ctrl: float) -> float:
-        return self._effort(self._data(self._unlimited, position, speed, ctrl))
+        return self._effort(self._models.unlimited, position, speed, ctrl)
 
-    def _effort(self, data: Any) -> float:
-        efforts = (factor * data.qfrc_actuator[_places(self._model, joint)[1]] for joint, factor in self._moved.items())
-        return float(sum(each.item() for each in efforts))
-
-    def _data(self, model: Any, position: float, speed: float, ctrl: float) -> Any:
-        """Return MuJoCo's data of a state; an activation has its final value, or an integral the value of `ctrl`."""
-        data, number = mujoco.MjData(model), self._number
+    def _effort(self, model: Any, position: float, speed: float, ctrl: float) -> float:
+        """Return the effort at a state, with an activation that has settled."""
+        data, number = self._models.data, self._number
         for joint, factor in self._moved.items():
             places = _places(model, joint)
             data.qpos[places[0]], data.qvel[places[1]] = factor * position + self._drives.offset(joint), factor * speed
         data.ctrl[:] = ctrl
-        if model.actuator_ctrllimited[number] and not self._integrates:
-            ctrl = float(np.clip(ctrl, *model.actuator_ctrlrange[number]))
-        if model.actuator_actlimited[number]:
-            ctrl = float(np.clip(ctrl, *model.actuator_actrange[number]))
-        data.act[:] = ctrl
+        data.act[:] = _settled(model, number, ctrl)
         for step in (mujoco.mj_fwdPosition, mujoco.mj_fwdVelocity, mujoco.mj_fwdActuation):
             step(model, data)
-        return data
+        efforts = (factor * data.qfrc_actuator[_places(model, joint)[1]] for joint, factor in self._moved.items())
+        return float(sum(each.item() for each in efforts))
+
+
+def _settled(model: Any, actuator: int, ctrl: float) -> float:
+    """Return the activation of an actuator that has had a command for long; the integral of a command is `ctrl`."""
+    integrates = model.actuator_dyntype[actuator] == mujoco.mjtDyn.mjDYN_INTEGRATOR
+    if model.actuator_ctrllimited[actuator] and not integrates:
+        ctrl = float(np.clip(ctrl, *model.actuator_ctrlrange[actuator]))
+    if model.actuator_actlimited[actuator]:
+        ctrl = float(np.clip(ctrl, *model.actuator_actrange[actuator]))
+    return ctrl
 
 
 def _asked(law: Mapping[str, float], command: str, reference: float, position: float, speed: float) -> float:

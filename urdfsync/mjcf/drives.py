@@ -94,8 +94,12 @@ class Drives:
         self.followers = dict[int, Follower]()
         self._read_couplings()
         self.motors = defaultdict[int, list[Motor]](list)
+        groups = scene.model.opt.disableactuator
+        self.disabled = [n for n in range(scene.model.nu) if groups & 1 << int(scene.model.actuator_group[n])]
+        """Actuators that an option switches off."""
         for number in range(scene.model.nu):
-            self._read_motor(number)
+            if number not in self.disabled:
+                self._read_motor(number)
 
     def leave_out(self, what: str, kind: str, number: int, name: str = "") -> None:
         """Note an element that acts on the robot, and that no model has."""

@@ -124,6 +124,8 @@ def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
         for motor in motors[1:]:  # the first one commands the joint, and all of them limit its effort
             line, name = scene.line("actuator", motor.actuator), scene.name("actuator", motor.actuator)
             robot.add("motor", line, name=name or None)
+    for number in drives.disabled:
+        robot.add("inactive", scene.line("actuator", number), name=scene.name("actuator", number) or None)
     _add_soft(robot, scene, drives)
     for key in range(model.nkey):
         if scene.name("key", key) != "home":
