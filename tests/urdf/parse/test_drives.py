@@ -345,6 +345,7 @@ def servo(command: str, **numbers: object) -> str:
      Servo(None, 4.0, None, None, -1.0, 2.0, None, 4.0), 0),
     (servo("velocity", position_gain=50, min_velocity=-1, min_position=-2),
      Servo(50.0, None, -2.0, None, -1.0), 0),
+    (servo("velocity", velocity_gain=4, min_position=-1), Servo(velocity_gain=4.0), 1),
     (servo("velocity_pid", velocity_gain=4), Servo(velocity_gain=4.0), 0),
     (servo("effort", min_effort=0), Servo(min_effort=0.0), 0),
     (servo("effort", max_effort=3, position_gain=1), Servo(max_effort=3.0), 1),

@@ -418,6 +418,12 @@ def test_a_package_whose_record_was_deleted_is_compared() -> None:
     assert compare(URDF.encode(), change).differences == ()
 
 
+def test_a_law_without_an_integral_has_no_range_of_positions() -> None:
+    law = '<param name="velocity_gain">4</param><param name="min_position">-1</param>'
+    numbers = compare(URDF.replace(LAW, law).encode())
+    assert numbers.differences == ()
+
+
 OPTIONS: dict[str, dict[str, Any]] = {
     "commands": {"commands": {"shoulder": "effort", "slide": "position"}},
     "start": {"start": {"shoulder": 0.5}},

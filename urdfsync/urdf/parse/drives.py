@@ -208,6 +208,8 @@ def _read_servo(reader: Reader, interface: Element, command: Command, path: str,
     params = {param.get("name", ""): param for param in reversed(interface.findall("param"))}  # the first counts
     if params.keys().isdisjoint(needed):
         return None
+    if command == "velocity" and "position_gain" not in params:  # the command is not integrated
+        others = [field for field in others if not field.endswith("position")]
     numbers = dict[str, float]()
     for field in (field for field in (*needed, *others) if field in params):
         reader.used.add(params[field])

@@ -467,6 +467,8 @@ def _servo(joint: Any, command: str | None) -> dict[str, tuple[float, Any]]:
         field, number = first + "".join(map(str.capitalize, rest)), _at(param, ".")
         if field in (*needed, *others) and number is not None:
             numbers.setdefault(field, (number, param))
+    if command == "velocity" and "positionGain" not in numbers:  # nothing has a position to limit
+        numbers = {field: each for field, each in numbers.items() if "Position" not in field}
     return {} if numbers.keys().isdisjoint(needed) else numbers
 
 
