@@ -77,6 +77,23 @@ def test_one_number_changes_one_record(project: Path, execute: Execute) -> None:
     assert "1.75" in RECORD.read_text()
 
 
+def test_a_gain_changes_one_record(project: Path, execute: Execute) -> None:
+    """A law that comes changes Run, too."""
+    edit("</mujoco>", '<actuator><motor joint="elbow"/></actuator></mujoco>')
+    execute("build")
+    edit('<motor joint="elbow"/>', '<position joint="elbow" kp="50" kv="5"/>')
+    told = execute("diff", code=1).out
+    assert "joint elbow: servo added: position_gain 50, velocity_gain 5" in told
+    assert "ArmRun.mo" in told
+    execute("build")
+    edit('kp="50"', 'kp="60"')
+    told = execute("diff", code=1).out
+    assert "arm: 1 parameter change since the last build" in told
+    assert "joint elbow: servo / position_gain 50 → 60 N·m/rad (+20 %)" in told
+    assert "1 file written" in execute("build").out
+    assert "positionGain = 60" in Path("modelica/Arm/Joints/ElbowParameters.mo").read_text()
+
+
 def test_an_included_file_and_a_mesh_are_inputs(project: Path, execute: Execute) -> None:
     asset = '<asset><mesh name="m" file="m.stl"/></asset>'
     Path("mjcf/m.stl").write_bytes(stl())

@@ -49,6 +49,7 @@ TENDON = '<tendon><fixed name="t"><joint joint="a" coef="0.5"/><joint joint="d" 
         ('<position joint="a" kp="50" ctrlrange="-1 1" forcerange="-4 4"/>', "4.0"),
         ('<intvelocity joint="a" kp="5" actrange="-1 1" forcerange="-3 3"/>', "3.0"),
         ('<general joint="a" gainprm="40" biasprm="0 -40 -2" biastype="affine" forcerange="-7 7"/>', "7.0"),
+        ('<general joint="a" gainprm="4" dyntype="filter" dynprm="0.1" ctrlrange="-2 1"/>', "8.0"),
         ('<motor joint="a" ctrlrange="-2 2"/><motor joint="a" gear="-3" ctrlrange="-2 2"/>', "8.0"),
         ('<motor tendon="t" forcerange="-4 4"/>', "6.0"),
     ],

@@ -54,14 +54,17 @@ def test_an_actuator_gives_a_command_and_a_limit(motor: str, command: str | None
     ("motor", "words"),
     [
         ('<motor joint="a" gear="3" ctrlrange="-1 1"/>', ""),
-        ('<position joint="a" kp="50"/>', "1 <feedback>"),
-        ('<velocity joint="a" kv="5"/>', "1 <feedback>"),
-        ('<general joint="a" biastype="affine" biasprm="2 0 0"/>', "1 <feedback>"),
+        ('<position joint="a" kp="50"/>', ""),
+        ('<general joint="a" biastype="affine" biasprm="2 0 0"/>', ""),
+        ('<general joint="a" biastype="affine" biasprm="2 3 0" forcerange="-4 4"/>', "1 <feedback>"),
+        ('<general joint="a" biastype="affine" biasprm="0 -3 1" forcerange="-4 3"/>', "1 <feedback>, 1 <forcerange>"),
+        ('<general joint="a" dyntype="integrator" dynprm="1"/>', "1 <feedback>"),
+        ('<position joint="a" kp="50" timeconst="0.1"/>', "1 <activation>"),
         ('<general joint="a" dyntype="filter" dynprm="0.1"/>', "1 <activation>"),
     ],
 )
-def test_the_law_of_an_actuator_is_noted(motor: str, words: str) -> None:
-    """Run moves a joint exactly as commanded."""
+def test_what_a_law_lacks_is_noted(motor: str, words: str) -> None:
+    """A force that grows with position or speed, the integral of a force, and delays: the joint moves exactly."""
     assert noted(with_motor(motor)) == (f"not modelled: {words}" if words else "")
 
 
@@ -77,7 +80,7 @@ def test_the_first_motor_of_a_joint_commands_it_and_all_limit_its_effort() -> No
     found = joint(read(text), "a")
     assert found.limit is not None
     assert (found.command, found.limit.effort) == (None, 7)
-    assert noted(text) == "not modelled: 1 <feedback>, 1 <motor>"
+    assert noted(text) == "not modelled: 1 <motor>"
 
 
 def test_a_gear_is_a_reduction() -> None:

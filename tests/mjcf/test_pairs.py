@@ -87,6 +87,11 @@ def test_two_equal_sources_do_not_differ(pair: Path, execute: Execute) -> None:
                 "link fore: inertial / mass 3 → 3.3 kg (+10 %)",
             ],
         ),
+        (
+            "</mujoco>",
+            '<actuator><position joint="elbow" kp="5"/><position joint="shoulder" kp="5"/></actuator></mujoco>',
+            [],
+        ),
         ('damping="2"', "", ["joint shoulder: dynamics removed: damping 2, friction 0"]),
     ],
 )

@@ -34,6 +34,7 @@ TARGETS = {
     "rig": Target("Rig", "Rig"),
     "mill": Target("Zoo.Mill", "Mill"),
     "post": Target("Post", "Post"),
+    "hoist": Target("Hoist", "Hoist"),
 }
 """Sources below `tests/golden`, and the names of their packages."""
 
@@ -80,6 +81,8 @@ VARIANTS: Mapping[str, Variant] = {
             "approach": ("package", "record"),
         },
     ),
+    "servos": Variant("hoist", {"saturated": ("swing", "rope")}),
+    "vector": Variant("hoist", {"saturated": ("drum", "fan"), "inputs": "vector"}),
     "bare": Variant("post", {"inputs": "vector", "approach": ("package", "record")}),
 }
 

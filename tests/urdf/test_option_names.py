@@ -146,6 +146,20 @@ def test_laws_and_drives_that_make_no_model() -> None:
     ]
 
 
+def test_a_drive_with_a_law_saturates_without_a_spring() -> None:
+    """It gives an effort, so a spring needs an inertia before it."""
+    drive = '<command_interface name="position"><param name="position_gain">50</param></command_interface>'
+    arm = urdfs.robot(
+        *map(urdfs.link, ("base", "a")),
+        urdfs.joint("lift", "revolute", "base", "a", inside=['<dynamics damping="1"/>']),
+        f'<ros2_control name="c"><joint name="lift">{drive}</joint></ros2_control>',
+    )
+    assert found(arm, saturated="all") == []
+    assert ["has no inertia before the spring" in said for _, _, said in found(arm, elastic="all")] == [True]
+    (refused,) = found(arm, saturated="all", commands={"lift": "position"})
+    assert "prescribes its motion at any effort" in refused[2]
+
+
 def test_an_effort_needs_an_inertia_before_the_spring() -> None:
     for dynamics, count in (('damping="1"', 1), ('damping="1" armature="0.1"', 0)):
         arm = urdfs.robot(

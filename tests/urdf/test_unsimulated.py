@@ -166,6 +166,12 @@ def test_what_is_driven_counts_and_so_does_the_approach(urdf: str, options: dict
     assert [found.message.split("'")[1] for found in passive_warnings(urdf, **options)] == names
 
 
+SERVO = urdfs.robot(
+    *urdfs.links(base=1, arm=1),
+    urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0"),
+    '<ros2_control name="c"><joint name="lift"><command_interface name="position"><param name="position_gain">5</param>'
+    "</command_interface></joint></ros2_control>",
+)
 SENSING = STATUE.replace("</robot>", '<gazebo reference="head"><sensor name="imu" type="imu"/></gazebo></robot>')
 
 
@@ -174,6 +180,8 @@ SENSING = STATUE.replace("</robot>", '<gazebo reference="head"><sensor name="imu
     (SENSING, {"drives": "motor"}, "the record approach has no sensors (imu) and no flanges of motors"),
     (SENSING, {"approach": ("package", "record")}, None),
     (STATUE, {}, None),
+    (SERVO, {}, "the record approach has no laws of drives (lift)"),
+    (SERVO, {"commands": {"lift": "position"}}, None),
 ])  # fmt: skip
 def test_what_the_record_approach_leaves_out_is_a_note(text: str, options: dict[str, Any], message: str | None) -> None:
     reading = DOMAIN.read(text.encode(), "own.urdf", Options(**{"approach": ("record",), **options}))

@@ -3,7 +3,8 @@
 MuJoCo's own reader of URDF shares no code with the translation. It knows neither armature nor springs, so these numbers
 are added to its model; it merges links, and reads shapes from files, unless it is told otherwise. Constraints and
 tendons are in none of the compared forces: the couplings and loops of the URDF are not compared. Of motors, the
-greatest effort is compared.
+greatest effort is compared, and the effort of each law: MuJoCo computes it with the actuator of the MJCF, and this
+module by the documented law from the numbers in the URDF.
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ def compare(document: Document, text: str, body: str = "") -> tuple[int, tuple[s
     """Return how many numbers were compared, and a line for each quantity that differs. Raises TranslationError."""
     scene = read_scene(document, body)
     root = parse(text.encode()).root
-    efforts = list(_efforts(scene, root))
+    efforts = [*_efforts(scene, root), *_laws(scene, root)]
     _leave_out(scene)
     model = _read_urdf(root, scene.links[scene.root] if scene.is_floating else "")
     joints = list(_joints(scene, model))
@@ -170,9 +171,7 @@ def _efforts(scene: Scene, root: Element) -> Iterator[_Numbers]:
     model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
     gains, biases = model.actuator_gainprm.copy(), model.actuator_biasprm.copy()
     for leader, motors in drives.motors.items():
-        moved = {leader: 1.0} | {
-            joint: factor for joint in drives.followers for top, factor in [drives.leader(joint)] if top == leader
-        }
+        moved = _moved_by(drives, leader)
         if (limit := limits.get(scene.joints[leader])) is None:
             continue
         total = 0.0
@@ -194,10 +193,148 @@ def _effort(model: Any, moved: Mapping[int, float], side: int, gear: float) -> f
         position, velocity = _places(model, joint)
         data.qpos[position], data.qvel[velocity] = -side * factor * _FAR, -side * factor * _FAR
     data.ctrl[:] = data.act[:] = side * np.sign(gear) * _FAR
+    for number in np.flatnonzero(model.actuator_actadr >= 0):
+        data.act[model.actuator_actadr[number]] = _settled(model, int(number), float(data.ctrl[0]))
     for step in (mujoco.mj_fwdPosition, mujoco.mj_fwdVelocity, mujoco.mj_fwdActuation):
         step(model, data)
     efforts = (factor * data.qfrc_actuator[_places(model, joint)[1]] for joint, factor in moved.items())
     return float(sum(each.item() for each in efforts))
+
+
+def _laws(scene: Scene, root: Element) -> Iterator[_Numbers]:
+    """Yield the effort of each drive whose law is in the URDF, at random positions, speeds and commands.
+
+    Far commands show the limits of the command, without those of the effort, and then the limits of the effort. For an
+    integrated command, the speed of its integral is compared, too.
+    """
+    drives, random, models = Drives(scene), np.random.default_rng(0), _Models.of(scene.model)
+    interfaces = {
+        joint.get("name", ""): part
+        for joint in root.findall("ros2_control/joint")
+        for part in joint.findall("command_interface")
+    }
+    for leader, motors in drives.motors.items():
+        if motors[0].servo is None:
+            continue
+        name = scene.joints[leader]
+        interface = interfaces[name]
+        command = interface.get("name", "")
+        law = {param.get("name", ""): float(param.text or "") for param in interface.findall("param")}
+        actuator = _Actuator(models, scene.model, drives, leader, motors[0].actuator)
+        # a commanded effort has no other limits than those of the effort
+        for far, is_cut in ((1.0, True), (_FAR, True), *(((_FAR, False),) if command != "effort" else ())):
+            expected, written = list[float](), list[float]()
+            for side in (1.0, -1.0) * _STATES:
+                position, speed, share = random.uniform(-1, 1, 3)
+                ctrl = side * far * abs(share)
+                expected += actuator.push(position, speed, ctrl, is_cut=is_cut)
+                reference, rate = actuator.reference(ctrl)
+                effort = _asked(law, command, reference, position, speed)
+                written += [_limited(effort, law, "effort") if is_cut else effort, _limited(rate, law, "velocity")]
+            yield _Numbers("effort of the law", f"joint {name}", np.array(expected), np.array(written))
+
+
+class _Models(NamedTuple):
+    """A model with other limits, and the data for all three. To copy a model with meshes takes 0.1 s: do it once."""
+
+    limited: Any
+    uncut: Any
+    """Without limits of the effort."""
+    unlimited: Any
+    data: Any
+
+    @classmethod
+    def of(cls, source: Any) -> _Models:
+        """Return the models, in which contacts and gravity compensation do not act."""
+        limited = copy.copy(source)
+        limited.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
+        # without this, contacts would take most of the time, and perhaps more memory than MuJoCo has
+        limited.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+        limited.body_gravcomp[:] = 0.0  # the translation leaves it out
+        uncut = copy.copy(limited)
+        uncut.actuator_forcelimited[:], uncut.jnt_actfrclimited[:] = 0, 0
+        unlimited = copy.copy(uncut)
+        unlimited.actuator_ctrllimited[:], unlimited.actuator_actlimited[:] = 0, 0
+        return cls(limited, uncut, unlimited, mujoco.MjData(limited))
+
+
+class _Actuator:
+    """One actuator of a model, the only one that acts."""
+
+    def __init__(self, models: _Models, source: Any, drives: Drives, leader: int, number: int) -> None:
+        self._models, self._number = models, number
+        self._drives, self._moved = drives, _moved_by(drives, leader)
+        for model in (models.limited, models.uncut, models.unlimited):
+            for name in ("actuator_gainprm", "actuator_biasprm"):
+                getattr(model, name)[:] = 0.0
+                getattr(model, name)[number] = getattr(source, name)[number]
+        self._address = int(source.actuator_actadr[number])
+        self._integrates = source.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR
+        rest = self._free(0.0, 0.0, 0.0)
+        # the effort against position or else speed, or 1 without feedback; then the reference for a unit of ctrl
+        self._gain = rest - self._free(1.0, 0.0, 0.0) or rest - self._free(0.0, 1.0, 0.0) or 1.0
+        self._scale = (self._free(0.0, 0.0, 1.0) - rest) / self._gain
+
+    def push(self, position: float, speed: float, ctrl: float, *, is_cut: bool) -> tuple[float, float]:
+        """Return the effort at the leading joint, and the speed of the integral of the command at the joint's side.
+
+        `is_cut` says whether ranges of the effort count.
+        """
+        effort = self._effort(self._models.limited if is_cut else self._models.uncut, position, speed, ctrl)
+        return effort, float(self._models.data.act_dot[self._address]) * self._scale if self._integrates else 0.0
+
+    def reference(self, ctrl: float) -> tuple[float, float]:
+        """Return the reference at the joint's side, and its speed if it is an integral, both without limits.
+
+        At this position or speed the actuator gives no effort; without feedback, the reference is the effort.
+        """
+        return self._free(0.0, 0.0, ctrl) / self._gain, ctrl * self._scale if self._integrates else 0.0
+
+    def _free(self, position: float, speed: float, ctrl: float) -> float:
+        return self._effort(self._models.unlimited, position, speed, ctrl)
+
+    def _effort(self, model: Any, position: float, speed: float, ctrl: float) -> float:
+        """Return the effort at a state, with an activation that has settled."""
+        data, number = self._models.data, self._number
+        for joint, factor in self._moved.items():
+            places = _places(model, joint)
+            data.qpos[places[0]], data.qvel[places[1]] = factor * position + self._drives.offset(joint), factor * speed
+        data.ctrl[:] = ctrl
+        data.act[:] = _settled(model, number, ctrl)
+        for step in (mujoco.mj_fwdPosition, mujoco.mj_fwdVelocity, mujoco.mj_fwdActuation):
+            step(model, data)
+        efforts = (factor * data.qfrc_actuator[_places(model, joint)[1]] for joint, factor in self._moved.items())
+        return float(sum(each.item() for each in efforts))
+
+
+def _settled(model: Any, actuator: int, ctrl: float) -> float:
+    """Return the activation of an actuator that has had a command for long; the integral of a command is `ctrl`."""
+    integrates = model.actuator_dyntype[actuator] == mujoco.mjtDyn.mjDYN_INTEGRATOR
+    if model.actuator_ctrllimited[actuator] and not integrates:
+        ctrl = float(np.clip(ctrl, *model.actuator_ctrlrange[actuator]))
+    if model.actuator_actlimited[actuator]:
+        ctrl = float(np.clip(ctrl, *model.actuator_actrange[actuator]))
+    return ctrl
+
+
+def _asked(law: Mapping[str, float], command: str, reference: float, position: float, speed: float) -> float:
+    """Return the effort that a law asks for, before its limits, as docs/urdf.md has it."""
+    stiffness, damping = law.get("position_gain", 0.0), law.get("velocity_gain", 0.0)
+    if command == "effort":
+        return reference
+    if command == "velocity" and not stiffness:
+        return damping * (_limited(reference, law, "velocity") - speed)
+    return stiffness * (_limited(reference, law, "position") - position) - damping * speed
+
+
+def _limited(value: float, law: Mapping[str, float], quantity: str) -> float:
+    return max(law.get(f"min_{quantity}", -np.inf), min(law.get(f"max_{quantity}", np.inf), value))
+
+
+def _moved_by(drives: Drives, leader: int) -> dict[int, float]:
+    """Return a joint and those that follow it, with their motion for a unit of the leader's."""
+    followers = {joint: factor for joint in drives.followers for top, factor in [drives.leader(joint)] if top == leader}
+    return {leader: 1.0} | followers
 
 
 def _motion(scene: Scene, urdf: Any, joints: list[_Joint], random: np.random.Generator) -> Iterator[_Numbers]:

@@ -3,12 +3,17 @@
 MuJoCo counts the position of a joint from `ref`, URDF from the pose in which the model is written: so `ref` is
 subtracted from limits, starts and references of springs. A motor's gear is a reduction: the joint has `gear` times the
 motor's effort.
+
+The force of an actuator is gain · ctrl + bias + stiffness · length + damping · speed, in its own units. At the joint's
+side, this is the law of a `Servo`. Its command is the position, or the speed, at which the actuator gives no force: so
+commands mean the same as for joints that move exactly. A commanded effort includes the bias.
 """
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import mujoco
@@ -39,6 +44,35 @@ class Motor(NamedTuple):
     gear: float
     effort: float | None
     """The greatest effort at the joint, in N·m or N; None without a limit."""
+    servo: Mapping[str, float] | None
+    """The law at the joint's side, by the names of `urdf.robot.Servo`; None if no `Servo` has it."""
+
+
+class _Limits:
+    """The limits of position, velocity and effort at a joint."""
+
+    def __init__(self) -> None:
+        self._limits = dict[str, tuple[float, float]]()
+
+    def add(self, quantity: str, limits: Any, scale: float, constant: float) -> None:
+        """Limit a quantity that is `scale` · the limited one + `constant`, after the limits before."""
+        first, second = (scale * float(limit) + constant for limit in limits)
+        least, most = min(first, second), max(first, second)
+        lower, upper = self._limits.get(quantity, (least, most))
+        self._limits[quantity] = min(max(lower, least), most), min(max(upper, least), most)
+
+    def greatest_effort(self) -> float | None:
+        """Return the greatest effort; None without a limit."""
+        return _greatest(self._limits["effort"]) if "effort" in self._limits else None
+
+    def numbers(self) -> dict[str, float]:
+        """Return the limits by their names."""
+        names = {quantity: (f"min_{quantity}", f"max_{quantity}") for quantity in self._limits}
+        return {
+            name: value
+            for quantity, limits in self._limits.items()
+            for name, value in zip(names[quantity], limits if quantity == "effort" else rounded(limits), strict=True)
+        }
 
 
 class Part(NamedTuple):
@@ -60,8 +94,12 @@ class Drives:
         self.followers = dict[int, Follower]()
         self._read_couplings()
         self.motors = defaultdict[int, list[Motor]](list)
+        groups = scene.model.opt.disableactuator
+        self.disabled = [n for n in range(scene.model.nu) if groups & 1 << int(scene.model.actuator_group[n])]
+        """Actuators that an option switches off."""
         for number in range(scene.model.nu):
-            self._read_motor(number)
+            if number not in self.disabled:
+                self._read_motor(number)
 
     def leave_out(self, what: str, kind: str, number: int, name: str = "") -> None:
         """Note an element that acts on the robot, and that no model has."""
@@ -97,6 +135,15 @@ class Drives:
             joint = self.followers[joint].leader
         return joint, multiplier
 
+    def offset(self, joint: int) -> float:
+        """Return the position of a joint, as MuJoCo counts it, at which its leader is at zero."""
+        offset, multiplier = float(self.scene.model.qpos0[self.scene.model.jnt_qposadr[joint]]), 1.0
+        while joint in self.followers:
+            joint, factor, constant = self.followers[joint]
+            offset += multiplier * constant
+            multiplier *= factor
+        return offset
+
     def _read_motor(self, number: int) -> None:
         """Read an actuator: a motor of one joint, or of joints that move together; anything else is left out."""
         model, target = self.scene.model, int(self.scene.model.actuator_trnid[number][0])
@@ -123,7 +170,9 @@ class Drives:
         if not gear:
             self.leave_out("actuator without gear", "actuator", number)
             return
-        self.motors[joint].append(Motor(number, command, gear, self._effort(number, command, abs(gear))))
+        length = float(model.actuator_gear[number][0]) * sum(factor * self.offset(joint) for joint, factor in pulls)
+        servo, effort = self._read_law(number, command, gear, length, pulls)
+        self.motors[joint].append(Motor(number, command, gear, effort, servo))
 
     def pulls(self, tendon: int) -> Iterator[tuple[int, float]]:
         """Yield the joints of a fixed tendon with their factors; nothing for a spatial tendon."""
@@ -146,14 +195,44 @@ class Drives:
             return None
         return "position" if stiffness else "velocity" if damping else "effort"
 
-    def _effort(self, number: int, command: Command, gear: float) -> float | None:
-        """Return the greatest effort at the joint."""
-        model, limits = self.scene.model, list[float]()
+    def _read_law(
+        self, number: int, command: Command, gear: float, length: float, pulls: Sequence[tuple[int, float]]
+    ) -> tuple[Mapping[str, float] | None, float | None]:
+        """Return the law of an actuator, by the names of `urdf.robot.Servo`, and the greatest effort at the joint.
+
+        `length` is the actuator's at position zero of the joint. The law is None if no `Servo` has it.
+        """
+        model, limits = self.scene.model, _Limits()
+        gain, (bias, stiffness, damping) = float(model.actuator_gainprm[number][0]), (0.0, 0.0, 0.0)
+        if model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE:
+            bias, stiffness, damping = map(float, model.actuator_biasprm[number][:3])
+        servo, scale, constant = dict[str, float](), gear * gain, gear * bias
+        if stiffness:
+            servo["position_gain"], scale = -stiffness * gear * gear, -gain / (stiffness * gear)
+            constant = -(bias + stiffness * length) / (stiffness * gear)
+        elif damping:
+            scale, constant = -gain / (damping * gear), -bias / (damping * gear)
+        if damping:
+            servo["velocity_gain"] = -damping * gear * gear
+        # `scale` and `constant` make the joint's reference of ctrl, or of the activation that replaces ctrl
+        integrates = model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR
+        reference = "position" if stiffness else "velocity" if damping else "effort"
+        if model.actuator_ctrllimited[number] and not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL:
+            ctrl = model.actuator_ctrlrange[number]
+            limits.add(command if integrates else reference, ctrl, scale, 0.0 if integrates else constant)
+        if model.actuator_actlimited[number]:
+            limits.add(reference, model.actuator_actrange[number], scale, constant)
         if model.actuator_forcelimited[number]:
-            limits.append(_greatest(model.actuator_forcerange[number]))
-        if command == "effort" and model.actuator_ctrllimited[number]:
-            limits.append(_greatest(model.actuator_ctrlrange[number]) * abs(float(model.actuator_gainprm[number][0])))
-        return min(limits) * gear if limits else None
+            limits.add("effort", model.actuator_forcerange[number], gear, 0.0)
+        limited = [joint for joint, _ in pulls if model.jnt_actfrclimited[joint]]
+        if limited and len(pulls) == 1:
+            limits.add("effort", model.jnt_actfrcrange[limited[0]], self.leader(limited[0])[1], 0.0)
+        is_servo = stiffness <= 0 and damping <= 0 and not (integrates and not stiffness)
+        # each joint of a tendon cuts its own share of the effort
+        is_servo = is_servo and (not limited or len(pulls) == 1)
+        servo |= limits.numbers()
+        is_servo = is_servo and all(map(math.isfinite, servo.values()))
+        return servo if is_servo else None, limits.greatest_effort()
 
     def add_numbers(self, joint: Node, number: int, kind: str) -> None:
         """Add limits, losses and coupling of a joint to its element."""
@@ -198,7 +277,9 @@ class Drives:
             line = scene.line("actuator", motors[0].actuator) if motors else scene.line("joint", number)
             joint = control.add("joint", line, name=scene.joints[number])
             if motors or not self.motors:
-                joint.add("command_interface", name=motors[0].command if motors else "position")
+                command = joint.add("command_interface", name=motors[0].command if motors else "position")
+                for field, value in (motors[0].servo or {}).items() if motors else ():
+                    command.add("param", text=repr(value), name=field)
             state = joint.add("state_interface", name="position")
             if starts:
                 state.add("param", text=repr(starts[number]), name="initial_value")

@@ -114,13 +114,18 @@ def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
     for motors in drives.motors.values():
         first = motors[0].actuator
         line, name = scene.line("actuator", first), scene.name("actuator", first)
-        if model.actuator_biasprm[first].any():  # Run moves the joint exactly, or pushes it as commanded
+        if motors[0].servo is None:  # Run moves the joint exactly, and its limits of effort are the same on both sides
             robot.add("feedback", line, name=name or None)
+            limits = model.actuator_forcerange[first]
+            if model.actuator_forcelimited[first] and limits[0] != -limits[1]:
+                robot.add("forcerange", line, name=name or None)
         if int(model.actuator_dyntype[first]) not in _AT_ONCE:
             robot.add("activation", line, name=name or None)
         for motor in motors[1:]:  # the first one commands the joint, and all of them limit its effort
             line, name = scene.line("actuator", motor.actuator), scene.name("actuator", motor.actuator)
             robot.add("motor", line, name=name or None)
+    for number in drives.disabled:
+        robot.add("inactive", scene.line("actuator", number), name=scene.name("actuator", number) or None)
     _add_soft(robot, scene, drives)
     for key in range(model.nkey):
         if scene.name("key", key) != "home":

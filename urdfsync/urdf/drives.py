@@ -40,6 +40,11 @@ def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
     return frozenset(joint.name for joint in joints if is_passive(joint))
 
 
+def by_effort(joint: Joint) -> bool:
+    """Return whether the drive of a joint gives an effort; any other drive moves the joint exactly as commanded."""
+    return joint.command == "effort" or joint.servo is not None
+
+
 def has_motor(joint: Joint, options: Options) -> bool:
     """Return whether the motor's side of the joint's gear has a flange."""
     return options.drives == "motor" and joint.transmission is not None and can_be_driven(joint)

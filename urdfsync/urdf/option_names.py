@@ -14,7 +14,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
 from urdfsync.urdf import validate
 from urdfsync.urdf.assembly import Assembly
-from urdfsync.urdf.drives import can_be_driven, chosen_law, is_chosen, passive_joints, wanted_joints
+from urdfsync.urdf.drives import by_effort, can_be_driven, chosen_law, is_chosen, passive_joints, wanted_joints
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
@@ -116,7 +116,7 @@ def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str
     driven, named = wanted_joints(joints, options), _named(options.friction)
     for joint in filter(can_be_driven, joints):
         law, is_dry = chosen_law(joint, options), joint.dynamics is not None and joint.dynamics.friction > 0
-        is_driven, by_effort = joint.name in driven, joint.command == "effort"
+        is_driven, gives_effort = joint.name in driven, by_effort(joint)
         is_elastic = is_driven and is_chosen(joint, options.elastic)
         faults = []
         if law != "smooth" and not is_dry and (joint.dynamics or joint.name in named):
@@ -126,10 +126,10 @@ def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str
             faults.append(
                 ("friction", "sticks while Test prescribes its motion", 'add the joint to `elastic`, or take "lugre"')
             )
-        if is_elastic and by_effort and not reflected_inertia(joint):
+        if is_elastic and gives_effort and not reflected_inertia(joint):
             hint = "give the joint an armature or a rotor, or take the joint out of `elastic`"
             faults.append(("elastic", "is driven by an effort, but has no inertia before the spring", hint))
-        if is_driven and is_chosen(joint, options.saturated) and not is_elastic and not by_effort:
+        if is_driven and is_chosen(joint, options.saturated) and not is_elastic and not gives_effort:
             hint = "name the joint in `elastic`, or give it the command `effort`"
             faults.append(("saturated", "has a drive that prescribes its motion at any effort", hint))
         for option, reason, hint in faults:

@@ -30,7 +30,7 @@ class Unit(NamedTuple):
 _NAME = operator.attrgetter("name")
 _LENGTH, _ANGLE, _INERTIA = Unit("m"), Unit("rad"), Unit("kg·m²")
 _POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad", "N·s/m")
-_ACCELERATION, _STIFFNESS = Unit("rad/s²", "m/s²"), Unit("N·m/rad", "N/m")
+_SPEED, _ACCELERATION, _STIFFNESS = Unit("rad/s", "m/s"), Unit("rad/s²", "m/s²"), Unit("N·m/rad", "N/m")
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating", "ball"]
 SensorKind = Literal["imu", "accelerometer", "gyroscope", "force_torque", "camera", "lidar"]
@@ -240,7 +240,7 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
     lower: Annotated[float, _POSITION] = 0.0
     upper: Annotated[float, _POSITION] = 0.0
     effort: Annotated[float | None, _LOAD] = None
-    velocity: Annotated[float | None, Unit("rad/s", "m/s")] = None
+    velocity: Annotated[float | None, _SPEED] = None
     acceleration: Annotated[float | None, _ACCELERATION] = None
     deceleration: Annotated[float | None, _ACCELERATION] = None
     """None stands for the value of `acceleration`."""
@@ -277,6 +277,26 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
     joint: str | None = None
     """Another joint that the motor moves, as in a differential; None for the motor of one joint."""
     joint_reduction: float | None = None
+
+
+class Servo(msgspec.Struct, frozen=True, gc=False):
+    """The law of a drive: the effort that it gives for a command, all at the joint's side of the gear.
+
+    Effort = `position_gain` · (reference - position) - `velocity_gain` · velocity. The reference is the command, or the
+    integral of a commanded velocity. Without `position_gain`, a commanded velocity gives `velocity_gain` · (command -
+    velocity). A commanded effort is only limited. None stands for 0, and for no limit.
+    """
+
+    position_gain: Annotated[float | None, _STIFFNESS] = None
+    velocity_gain: Annotated[float | None, _LOSS] = None
+    min_position: Annotated[float | None, _POSITION] = None
+    """Limits of the reference."""
+    max_position: Annotated[float | None, _POSITION] = None
+    min_velocity: Annotated[float | None, _SPEED] = None
+    """Limits of a commanded velocity."""
+    max_velocity: Annotated[float | None, _SPEED] = None
+    min_effort: Annotated[float | None, _LOAD] = None
+    max_effort: Annotated[float | None, _LOAD] = None
 
 
 class Motor(msgspec.Struct, frozen=True, gc=False):
@@ -335,6 +355,8 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     start: Annotated[float | None, _POSITION] = None
     """Position at the start of a simulation; None leaves it to `kinematics.poses.start_positions`."""
     motor: Motor | None = None
+    servo: Servo | None = None
+    """The law of the drive; None if the drive moves the joint as commanded, or gives the commanded effort."""
 
 
 class Loop(msgspec.Struct, frozen=True, gc=False):
@@ -386,6 +408,7 @@ def effective(joint: Joint) -> Joint:
         safety_controller=joint.safety_controller if kind.motion else None,
         transmission=joint.transmission if kind.motion else None,
         command=joint.command if kind.motion and joint.mimic is None else None,
+        servo=joint.servo if kind.motion and joint.mimic is None else None,
         start=joint.start if kind.motion and joint.mimic is None else None,
     )
 

@@ -25,6 +25,8 @@ def find_unsimulated(assembly: Assembly) -> Iterator[Finding]:
     if "package" not in options.approach:
         names = ", ".join(sensor.name for sensor in tree.sensors)
         parts = [f"sensors ({names})"] * bool(names) + ["flanges of motors"] * (options.drives == "motor")
+        servos = ", ".join(joint.name for joint in tree.joints if joint.servo)
+        parts += [f"laws of drives ({servos})"] * bool(servos)
         if parts:
             yield Finding("not-in-record", "", f"the record approach has no {' and no '.join(parts)}")
         return

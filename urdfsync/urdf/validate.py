@@ -94,6 +94,7 @@ _ERRORS = {
     "part-left-out": 'leave the part out by `allow = ["part-left-out"]`, or remove it from the source',
     "stray-inertial": 'move the element into a link, or leave the element out by `allow = ["stray-inertial"]`',
     # numbers and relations
+    "bad-servo": "write a decimal number",
     "negative-mass": "correct the mass; a massless link has no mass, or 0",
     "negative-inertia": "correct its sign",
     "zero-axis": 'write for example xyz="0 0 1"',

@@ -15,6 +15,9 @@ record PrismaticJoint "Numbers of a prismatic joint"
   TranslationalTransmission transmission
     "Gear and rotor of the drive";
 
+  TranslationalServo servo
+    "Law of the drive, if the source states one";
+
   TranslationalMimic mimic
     "How the joint follows another one, if it does";
 

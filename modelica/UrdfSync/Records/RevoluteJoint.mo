@@ -15,6 +15,9 @@ record RevoluteJoint "Numbers of a revolute joint"
   RotationalTransmission transmission
     "Gear and rotor of the drive";
 
+  RotationalServo servo
+    "Law of the drive, if the source states one";
+
   RotationalMimic mimic
     "How the joint follows another one, if it does";
 

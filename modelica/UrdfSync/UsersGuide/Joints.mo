@@ -73,6 +73,14 @@ tau = -c*(phi - phi_0)
 <p>
 The stiffness is in N&middot;m/rad for turning and N/m for sliding joints. A spring of a joint that follows acts back on the leader.
 </p>
+<h4>Laws of drives</h4>
+<p>
+Where the source states the law of a drive, the record of the joint has its gains and limits as <code>servo</code>. In Run, a drive of
+<a href=\"modelica://UrdfSync.Drives\">Drives</a> then pushes the axis, and no longer moves it exactly. In a model of your own, connect such a drive between axis and support:
+</p>
+<blockquote><pre>
+UrdfSync.Drives.RotationalPositionServo drive(parameters = robot.elbow.parameters.servo);
+</pre></blockquote>
 <h4>Mimic</h4>
 <p>
 A joint with a <code>&lt;mimic&gt;</code> element follows another joint, its leader. A

@@ -273,6 +273,12 @@ def geared(inside: str) -> str:
     return WHEEL.replace("</trans", f"<actuator name='m'>{inside}</actuator></trans")
 
 
+def servo(command: str = "position", **numbers: float) -> str:
+    """The command of the wheel, with the law of its drive."""
+    params = "".join(f'<param name="{name}">{number}</param>' for name, number in numbers.items())
+    return COMMAND.replace('"{}"/>', f'"{command}">{params}</command_interface>')
+
+
 def with_caster(old: str, new: str) -> tuple[str, ...]:
     """The robot with the drive of its wheel, and another text about its caster."""
     return (*CASTERS[:5], CASTERS[5].replace(old, new), *CASTERS[6:], WHEEL)
@@ -323,6 +329,26 @@ DRIVES = {
         (*CASTERS, COMMAND.format("position")),
         (*CASTERS, COMMAND.format("velocity")),
         {"joint wheel / command: added, structural"},
+    ),
+    "a drive gets a law": (
+        (*CASTERS, COMMAND.format("position")),
+        (*CASTERS, servo(position_gain=50)),
+        {"joint wheel / servo: added, structural"},
+    ),
+    "another gain": (
+        (*CASTERS, servo(position_gain=50, velocity_gain=5)),
+        (*CASTERS, servo(position_gain=50, velocity_gain=6)),
+        {"joint wheel / servo / velocity_gain: changed, parameter"},
+    ),
+    "a law gets a limit": (
+        (*CASTERS, servo(position_gain=50)),
+        (*CASTERS, servo(position_gain=50, max_effort=9)),
+        {"joint wheel / servo / max_effort: added, parameter"},
+    ),
+    "a law becomes one of an integral": (
+        (*CASTERS, servo("velocity", velocity_gain=5)),
+        (*CASTERS, servo("velocity", velocity_gain=5, position_gain=50)),
+        {"joint wheel / servo / position_gain: added, structural"},
     ),
     "another start position": (
         (*CASTERS, START.format(0.5)),

@@ -7,7 +7,7 @@ from support import urdfs
 
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.robot import Dynamics, Joint, Mimic, Transmission
+from urdfsync.urdf.robot import Command, Dynamics, Joint, Mimic, Servo, Transmission
 
 BASE = (
     *map(urdfs.link, ("base", "arm", "wheel", "caster")),
@@ -330,6 +330,56 @@ def test_an_unknown_interface_is_told_with_its_line(element: str, words: str) ->
 def test_commands(names: tuple[str, ...], command: str) -> None:
     interfaces = "".join(f'<command_interface name="{name}"/>' for name in names)
     assert (elbow(read(control(f'<joint name="elbow">{interfaces}</joint>'))).command or "position") == command
+
+
+def servo(command: str, **numbers: object) -> str:
+    """The elbow, commanded by a law; each param has a line of its own."""
+    params = "".join(f'\n<param name="{name}">{number}</param>' for name, number in numbers.items())
+    return control(f'<joint name="elbow"><command_interface name="{command}">{params}</command_interface></joint>')
+
+
+@pytest.mark.parametrize(("element", "law", "unread"), [
+    (servo("position", position_gain=50, velocity_gain=4, min_position=-1, max_position=2, min_effort=-3, max_effort=4),
+     Servo(50.0, 4.0, -1.0, 2.0, None, None, -3.0, 4.0), 0),
+    (servo("velocity", velocity_gain=4, min_velocity=-1, max_velocity=2, max_effort=4),
+     Servo(None, 4.0, None, None, -1.0, 2.0, None, 4.0), 0),
+    (servo("velocity", position_gain=50, min_velocity=-1, min_position=-2),
+     Servo(50.0, None, -2.0, None, -1.0), 0),
+    (servo("velocity", velocity_gain=4, min_position=-1), Servo(velocity_gain=4.0), 1),
+    (servo("velocity_pid", velocity_gain=4), Servo(velocity_gain=4.0), 0),
+    (servo("effort", min_effort=0), Servo(min_effort=0.0), 0),
+    (servo("effort", max_effort=3, position_gain=1), Servo(max_effort=3.0), 1),
+    (servo("position", velocity_gain=4, max_effort=3), None, 2),
+    (servo("position", min=-1, max=1), None, 2),
+    (servo("position", position_gain=50).replace("</command", '<param name="position_gain">60</param></command'),
+     Servo(50.0), 1),
+])  # fmt: skip
+def test_a_command_interface_may_state_a_law(element: str, law: Servo | None, unread: int) -> None:
+    """Params that the law of the command lacks are noted, as any other."""
+    reading = read(element)
+    assert elbow(reading).servo == law
+    assert [str(each.message) for each in reading.unmodelled] == [f"not modelled: {unread} <param>"] * bool(unread)
+
+
+@pytest.mark.parametrize(("element", "words"), [
+    (servo("position", position_gain="stiff"), "11: error: ros2_control c / joint elbow / position_gain: <param> "
+     "'stiff' is not a decimal number; write a decimal number"),
+    (servo("position", position_gain=5, velocity_gain=-4), "12: error: ros2_control c / joint elbow: velocity_gain is "
+     "-4, but a gain is never negative; correct its sign"),
+    (servo("effort", min_effort=3, max_effort=-3), "11: error: ros2_control c / joint elbow: min_effort is 3, and "
+     "max_effort is -3; exchange or correct the limits"),
+])  # fmt: skip
+def test_a_faulty_law_is_an_error_with_its_line(element: str, words: str) -> None:
+    reading = read(element)
+    assert [str(found) for found in reading.diagnostics] == [f"own.urdf:{words} [bad-servo]"]
+    assert reading.robot is None
+
+
+@pytest.mark.parametrize("command", ["position", "velocity", "effort"])
+def test_a_command_in_the_configuration_switches_a_law_off(command: Command) -> None:
+    content = urdfs.robot(*BASE, servo("position", position_gain=50)).encode()
+    reading = read_robot(content, "own.urdf", Options(commands={"elbow": command}))
+    assert (elbow(reading).command or "position", elbow(reading).servo) == (command, None)
 
 
 def plugin(leader: str = "roll", numbers: str = "") -> str:

@@ -170,6 +170,20 @@ def test_a_law_is_tried_without_the_spring_of_its_joint() -> None:
     assert ["springStiffness = 0" in trial.probe.source for trial in trials if trial] == [False, True]
 
 
+def test_a_drive_with_a_law_saturates_in_run_also_with_a_spring() -> None:
+    """Any other drive with a spring saturates in its joint."""
+    gain = '<param name="position_gain">5</param>'
+    drive = f'<joint name="elbow"><command_interface name="position">{gain}</command_interface></joint>'
+    heavy = ARM.replace("<dynamics ", '<dynamics armature="0.1" ')
+    details = list[list[str]]()
+    for source in (heavy, heavy.replace("</robot>", f'<ros2_control name="c">{drive}</ros2_control></robot>')):
+        one = experiment(source, saturated=("elbow",), elastic=("elbow",))
+        assert one.laws is not None
+        details.append([each.detail for each in one.laws.compared])
+        assert any("(saturated)" in sentence for sentence in one.unchecked) == (source == heavy)
+    assert details == [["saturated spring"] * 2, ["spring"] * 2 + ["saturated drive in Run"]]
+
+
 @pytest.mark.parametrize("base", ["fixed", "floating"])
 def test_a_robot_with_loops_is_moved_by_its_states_and_its_loops_are_compared(base: str) -> None:
     one = experiment(to_urdf(FOUR_BAR), **to_options(FOUR_BAR), base=base, approach=("package", "record"))

@@ -24,7 +24,7 @@ from support.urdfs import robot as urdf
 from urdfsync import config
 from urdfsync.urdf.model.numbers import camel
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Box, Dynamics, Joint, Link, Loop, Origin, Robot
+from urdfsync.urdf.robot import Box, Dynamics, Joint, Link, Loop, Origin, Robot, Servo
 
 UNCOMPARED = {f"{kind}.{path}" for kind in ("visual", "collision") for path in ("lower", "upper", "color", "opacity")}
 UNCOMPARED.add("reach")
@@ -71,9 +71,10 @@ RED = '<material name="red"><color rgba="1 0.5 0.25 0.75"/></material>'
 MESH = '<visual><geometry><mesh filename="cube.stl" scale="0.5 0.7 1"/></geometry></visual>'
 SHAPES = f'<visual>{BOX}{RED}</visual><collision><origin xyz="1 2 3" rpy="0.1 0.2 0.3"/>{BOX}</collision>{MESH}'
 SHAPES += MESH.replace("visual", "collision")
+LAW = "".join(f'<param name="{name}">{k + 0.5}</param>' for k, name in enumerate(Servo.__struct_fields__, 1))
 CONTROL = (
-    '<ros2_control name="c"><joint name="slide"><command_interface name="velocity"/><state_interface name="position">'
-    '<param name="initial_value">0.2</param></state_interface></joint></ros2_control>'
+    f'<ros2_control name="c"><joint name="slide"><command_interface name="velocity">{LAW}</command_interface>'
+    '<state_interface name="position"><param name="initial_value">0.2</param></state_interface></joint></ros2_control>'
 )
 GEAR = (
     '<transmission name="t"><joint name="shoulder"><offset>0.1</offset></joint>'
@@ -164,6 +165,11 @@ READER: dict[str, tuple[Callable[[Robot], Robot], str, str]] = {
     "an effort interface that is none": (
         of("joints", "shoulder", command="effort"), "Joints/ShoulderParameters.mo", "command"),
     "a start with the other sign": (of("joints", "slide", start=-0.2), "BotStart.mo", "start"),
+    "a gain read as another": (
+        of("joints", "slide", servo=lambda j: replace(j.servo, position_gain=2.5)), "Joints/SlideParameters.mo",
+        "servo.positionGain"),
+    "a law that is none": (
+        of("joints", "slide", servo=None), "Joints/SlideParameters.mo", "servo.maxEffort"),
     "no start": (of("joints", "slide", start=None), "BotStart.mo", "start"),
     "kd read as kp": (of("links", "arm", contact=lambda own: replace(own.contact, kp=20.0)), "Links/ArmParameters.mo",
                       "contact.kp"),
@@ -304,6 +310,7 @@ def test_each_number_of_a_record_is_compared(file: str, sound: Package) -> None:
             same.append(line.strip())
     assert same == []
     assert not path.startswith("Joints/Sh") or all(f"{camel(name)} = " in text for name in Dynamics.__struct_fields__)
+    assert not path.startswith("Joints/Sl") or all(f"{camel(name)} = " in text for name in Servo.__struct_fields__)
 
 
 # Loops, and options
@@ -409,6 +416,12 @@ def test_a_package_whose_record_was_deleted_is_compared() -> None:
         return {path: text for path, text in texts.items() if path != "BotParameters.mo"}
 
     assert compare(URDF.encode(), change).differences == ()
+
+
+def test_a_law_without_an_integral_has_no_range_of_positions() -> None:
+    law = '<param name="velocity_gain">4</param><param name="min_position">-1</param>'
+    numbers = compare(URDF.replace(LAW, law).encode())
+    assert numbers.differences == ()
 
 
 OPTIONS: dict[str, dict[str, Any]] = {

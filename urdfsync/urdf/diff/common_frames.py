@@ -116,7 +116,7 @@ def _motion_of(joint: Joint) -> Joint:
         inertia = reflected_inertia(joint)
         dynamics = replace(dynamics or Dynamics(), armature=inertia) if inertia else dynamics
         gear = None
-    without = dict.fromkeys(("calibration", "safety_controller", "start", "motor"))
+    without = dict.fromkeys(("calibration", "safety_controller", "start", "motor", "servo"))
     return replace(joint, dynamics=None if dynamics == Dynamics() else dynamics, transmission=gear, **without)
 
 

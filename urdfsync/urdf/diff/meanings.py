@@ -76,6 +76,8 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
             driven = (name in wanted_joints(side.joints.values(), options) for side in (old, new))
             reach = ChangeClass.STRUCTURAL if any(driven) else ChangeClass.UNMODELLED
             return difference.change((f"joint {name}", "command"), reach)
+        case ("joints", str(name), "servo", *fields) if _changes_law(difference, new.joints[name], options):
+            return difference.change(_path([f"joint {name}", "servo", *fields]), ChangeClass.STRUCTURAL, _unit(fields))
         case ("joints", _, "motor", *_):
             return None  # the change of the option and of each number is reported instead
         case ("joints", str(name), *fields):
@@ -99,6 +101,16 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
         case ("extensions", str(owner), *fields):
             return difference.change(_path([owner or "robot", *(fields or ["extensions"])]), ChangeClass.UNMODELLED)
     return difference.change(_path(["robot", *difference.path]), ChangeClass.PARAMETER)
+
+
+def _changes_law(difference: Difference, joint: Joint, options: Options) -> bool:
+    """Return whether a drive gets or loses its law, or integrates its command no more: Run has another drive then.
+
+    Another number of a law stands in the record, as do laws of joints that Run does not drive.
+    """
+    is_other = len(difference.path) == 3 or (joint.command == "velocity" and difference.path[3] == "position_gain")
+    is_driven = "package" in options.approach and (options.driven is None or joint.name in options.driven)
+    return is_other and is_driven and difference.kind is not ChangeKind.CHANGED
 
 
 def _path(words: _Fields) -> tuple[str, ...]:

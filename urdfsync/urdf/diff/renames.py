@@ -15,9 +15,7 @@ from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.robot import SENSOR_KINDS, Collision, Link, Mesh, Robot, Visual
 
-_NAMES = frozenset(
-    {"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start", "motor"}
-)
+_NAMES = frozenset("name parent child joint actuated measured drive transmission command servo start motor".split())
 """Fields of joints and loops that are names, or depend on names in other places, such as the configuration."""
 _Said: TypeAlias = tuple[Any, Mapping[str, str]]
 """An element and further facts about the element."""

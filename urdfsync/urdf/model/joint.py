@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfsync.urdf.drives import friction_law, has_motor, is_chosen, sharing_joint
+from urdfsync.urdf.drives import by_effort, friction_law, has_motor, is_chosen, sharing_joint
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, limits_acceleration, reflected_inertia
 
@@ -18,7 +18,7 @@ def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, An
     """Return the parts of a joint's model.
 
     If the motor has a flange, the rotor is a separate part. The spring of an elastic drive limits effort and velocity.
-    If Run commands an effort, Run limits both.
+    If the drive gives an effort, Run limits both.
     """
     # if a motor also moves another joint, the robot model has its gear and its rotor
     armature, sharing = joint.dynamics and joint.dynamics.armature, sharing_joint(joint, options.drives)
@@ -35,5 +35,5 @@ def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, An
         "sharing": sharing,
         "friction": friction_law(joint, options),
         "elastic": is_driven and is_chosen(joint, options.elastic),
-        "saturated": is_driven and is_chosen(joint, options.saturated) and joint.command != "effort",
+        "saturated": is_driven and is_chosen(joint, options.saturated) and not by_effort(joint),
     }

@@ -68,6 +68,7 @@ def _joint_numbers(joint: Joint) -> dict[str, Any]:
     parts = {
         "dynamics": dynamics,
         "transmission": transmission,
+        "servo": _given(joint.servo),
         "mimic": mimic,
         "calibration": calibration,
         "safetyController": safety,

@@ -15,7 +15,7 @@ import msgspec
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.diagram.layout import find_rows, layout
-from urdfsync.urdf.drives import is_chosen
+from urdfsync.urdf.drives import by_effort, is_chosen
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.joint import joint_title
 from urdfsync.urdf.model.loop import loop_reaches, loop_title
@@ -124,6 +124,10 @@ def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
     tree, names, options, closed = assembly.tree, assembly.connectors, assembly.options, assembly.closed
     reaches, sensors, top, rows = loop_reaches(closed), sensor_outputs(tree, names), robot["top"], robot["drives"]
     saturated = {joint.name for joint in tree.joints if is_chosen(joint, options.saturated)}
+    moved = {joint.name for joint in tree.joints if not by_effort(joint)} & closed.driven
+    servos = {joint.name: joint.servo for joint in tree.joints if joint.servo}
+    by_speed = {joint.name for joint in tree.joints if joint.command == "velocity"}
+    integrating = {name for name in by_speed & servos.keys() if servos[name].position_gain is not None}
     drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
         "drives": [
@@ -131,14 +135,14 @@ def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
             | {
                 "input": row[row["command"]],
                 "saturated": row["name"] in saturated,
+                "servo": row["name"] in servos,
+                "integrates": row["name"] in integrating,
                 "reach": reaches.get(row["name"]),
             }
             for row in drives
         ],
         "starts": [tree.joint(joint.name).component for joint in tree.starts()],
-        "free": [
-            row["joint"] for row in rows if row["command"] in (None, "effort") and row["name"] not in closed.dependent
-        ],
+        "free": [row["joint"] for row in rows if row["name"] not in moved | closed.dependent],
         "has_loops": bool(tree.loops),
         "inputs": options.inputs,
         "vector": input_vector(names),

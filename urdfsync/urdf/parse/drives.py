@@ -20,7 +20,7 @@ from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.closures import Closures
 from urdfsync.urdf.parse.fields import Reader, quoted
-from urdfsync.urdf.robot import MOTION_KINDS, Command, Joint, Mimic, Transmission
+from urdfsync.urdf.robot import MOTION_KINDS, Command, Joint, Mimic, Servo, Transmission
 from urdfsync.urdf.validate import Finding, perhaps
 
 _REDUCTIONS = (
@@ -60,6 +60,15 @@ _INTERFACES: Mapping[str, Command | None] = {
     "JointStateInterface": None,
 }
 """The command of each interface of ROS 1; None for the interface that only measures."""
+_SERVOS: Mapping[Command, tuple[Sequence[str], Sequence[str]]] = {
+    "position": (("position_gain",), ("velocity_gain", "min_position", "max_position", "min_effort", "max_effort")),
+    "velocity": (
+        ("position_gain", "velocity_gain"),
+        ("min_velocity", "max_velocity", "min_position", "max_position", "min_effort", "max_effort"),
+    ),
+    "effort": (("min_effort", "max_effort"), ()),
+}
+"""Params of a command interface that state the law of the drive: any of the first make a law, others add to it."""
 _STATES = ("position", "velocity", "acceleration", "effort")
 """State interfaces that the model of a joint has."""
 _KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
@@ -82,6 +91,7 @@ class Drive(NamedTuple):
     command: Command | None = None
     mimic: Mimic | None = None
     start: float | None = None
+    servo: Servo | None = None
     is_driven: bool = True
     """Whether the element drives the joint."""
     is_measured: bool = False
@@ -187,7 +197,33 @@ def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive
     params = {param.get("name", ""): param for param in joint.findall("param")}
     mimic = _read_mimic(reader, params, "mimic", path)
     start = _read_start(reader, states, path, name)
-    return Drive(path, name, joint, None, command, mimic, start, bool(interfaces), bool(states) and not interfaces)
+    servo = _read_servo(reader, interfaces[command], command, path, name) if command else None
+    is_measured = bool(states) and not interfaces
+    return Drive(path, name, joint, None, command, mimic, start, servo, bool(interfaces), is_measured)
+
+
+def _read_servo(reader: Reader, interface: Element, command: Command, path: str, name: str) -> Servo | None:
+    """Return the law of a drive; None if the command interface states none."""
+    needed, others = _SERVOS[command]
+    params = {param.get("name", ""): param for param in reversed(interface.findall("param"))}  # the first counts
+    if params.keys().isdisjoint(needed):
+        return None
+    if command == "velocity" and "position_gain" not in params:  # the command is not integrated
+        others = [field for field in others if not field.endswith("position")]
+    numbers = dict[str, float]()
+    for field in (field for field in (*needed, *others) if field in params):
+        reader.used.add(params[field])
+        reader.place(params[field], f"joint {name} / servo / {field}")
+        if found := reader.numbers(params[field], ("",), f"{path} / {field}", "bad-servo"):
+            numbers[field] = found[0]
+            if field.endswith("gain") and found[0] < 0:
+                message = f"{path}: {field} is {found[0]:g}, but a gain is never negative"
+                reader.add(params[field], "bad-servo", message, "correct its sign")
+    for lower, upper in ((f"min_{quantity}", f"max_{quantity}") for quantity in _COMMANDS):
+        if lower in numbers and upper in numbers and numbers[lower] > numbers[upper]:
+            message = f"{path}: {lower} is {numbers[lower]:g}, and {upper} is {numbers[upper]:g}"
+            reader.add(params[lower], "bad-servo", message, "exchange or correct the limits")
+    return Servo(**numbers)
 
 
 def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str) -> float | None:
@@ -376,4 +412,5 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
         mimic=mimic.mimic if mimic else None,
         start=start.start if start else None,
         command=command.command if command and command.command != "position" else None,
+        servo=command.servo if command else None,
     )

@@ -51,7 +51,7 @@ _REPEATED = ("visual", "collision")
 _LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
 """Vectors that an unknown attribute with so many numbers may mean."""
 _POSE = 6
-_ELSEWHERE = ("transmission", "start", "motor")
+_ELSEWHERE = ("transmission", "start", "motor", "servo")
 """Fields that other modules read."""
 _STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *get_args(Geometry)})
 """Structs whose unknown parts do not change the motion."""

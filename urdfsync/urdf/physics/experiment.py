@@ -9,7 +9,7 @@ import numpy as np
 
 from urdfsync.checks.experiment import Aspect, Compared, Experiment, Quantity, Sample, Trial
 from urdfsync.diagnostics import SourceError
-from urdfsync.urdf.drives import friction_law, is_chosen, sharing_joint
+from urdfsync.urdf.drives import by_effort, friction_law, is_chosen, sharing_joint
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import obstacles
 from urdfsync.urdf.options import Options
@@ -165,7 +165,7 @@ def _simplified(subject: Subject, options: Options) -> Iterator[str]:
     joints = {
         **{law: [j.name for j in every if friction_law(j, options) == law] for law in ("stiction", "lugre")},
         "elastic": [joint.name for joint in drives if is_chosen(joint, options.elastic)],
-        "saturated": [j.name for j in drives if is_chosen(j, options.saturated) and j.command != "effort"],
+        "saturated": [j.name for j in drives if is_chosen(j, options.saturated) and not by_effort(j)],
     }
     for law, names in joints.items():
         if names:

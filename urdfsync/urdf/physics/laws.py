@@ -40,7 +40,7 @@ def laws_trial(subject: Subject, reading: SecondReading) -> Trial | None:
     chosen = dict[tuple[object, ...], tuple[Element, str]]()
     for joint in (joint for joint in reading.joints.values() if joint.type in MOVES):
         parts = frozenset(path.partition(".")[0] for path in joint.values)
-        is_limited = joint.is_saturated and joint.command != "effort"
+        is_limited = joint.is_saturated and joint.command != "effort" and "servo" not in parts
         spring = ("saturated " if is_limited else "") + "spring" if joint.is_elastic and joint.name in driven else ""
         friction = joint.friction if joint.friction != "smooth" else ""
         if laws := " and ".join(filter(None, (friction, spring))):

@@ -40,6 +40,12 @@ _LOSSES = {
 """Paths of damping and friction in the records, by type of joint."""
 _OF_DYNAMICS = {"armature": "armature", "springStiffness": "spring_stiffness", "springReference": "spring_reference"}
 """Numbers of the records of axes that records leave out if the source does, with their attributes in `<dynamics>`."""
+_SERVOS = {
+    "position": "positionGain; velocityGain minPosition maxPosition minEffort maxEffort",
+    "velocity": "positionGain velocityGain; minVelocity maxVelocity minPosition maxPosition minEffort maxEffort",
+    "effort": "minEffort maxEffort;",
+}
+"""Numbers of a drive's law by its command; without any of those before the semicolon there is no law."""
 _SHAPES = {"box": "size", "cylinder": "radius length", "capsule": "radius length", "sphere": "radius", "mesh": ""}
 _WHEEL = re.compile("(left|right)((Front|Rear)?Joint|_joint)")
 _SENSORS = {
@@ -417,6 +423,9 @@ def _put_drive(
             joint.put(f"mimic.{field}", number, at)
         return
     joint.command = options.commands.get(joint.name) or first.get("command", ("position",))[0]
+    if "command" in first and joint.name not in options.commands:
+        for field, (number, at) in next(drive for drive in drives if drive.get("command")).get("servo", {}).items():
+            joint.put(f"servo.{field}", number, at)
     start, at = first.get("start", (None, element))
     if start is not None and not joint.number("limits.lower") - 1e-6 <= start <= joint.number("limits.upper") + 1e-6:
         start = None
@@ -433,6 +442,7 @@ def _drives(root: Any) -> Iterator[dict[str, Any]]:
             drive = {"joint": joint.get("name"), "at": joint, "is_driven": bool(names), **_coupling(params, "mimic")}
             drive["is_measured"] = not names and joint.find("state_interface") is not None
             drive["command"] = next((command for command in COMMANDS if command in names), None)
+            drive["servo"] = _servo(joint, drive["command"])
             for param in joint.xpath("state_interface[@name='position']/param[@name='initial_value']"):
                 drive["start"], drive["at"] = _at(param, "."), param
             yield drive
@@ -444,6 +454,22 @@ def _drives(root: Any) -> Iterator[dict[str, Any]]:
             yield {"joint": name, "at": plugin, **_coupling(parts, "joint" if "joint" in parts else "jointName")}
         for part in (part for part in plugin if _WHEEL.fullmatch(part.tag)):
             yield {"joint": (part.text or "").strip(), "at": part, "is_driven": True, "command": "velocity"}
+
+
+def _servo(joint: Any, command: str | None) -> dict[str, tuple[float, Any]]:
+    """Return the numbers of a drive's law with their elements; none without a law."""
+    places = [part for part in joint.iterchildren("command_interface") if command]
+    place = next((part for part in reversed(places) if part.get("name", "").removesuffix("_pid") == command), None)
+    needed, others = (words.split() for words in _SERVOS.get(command or "", ";").split(";"))
+    numbers = dict[str, tuple[float, Any]]()
+    for param in () if place is None else place.iterchildren("param"):
+        first, *rest = param.get("name", "").split("_")
+        field, number = first + "".join(map(str.capitalize, rest)), _at(param, ".")
+        if field in (*needed, *others) and number is not None:
+            numbers.setdefault(field, (number, param))
+    if command == "velocity" and "positionGain" not in numbers:  # nothing has a position to limit
+        numbers = {field: each for field, each in numbers.items() if "Position" not in field}
+    return {} if numbers.keys().isdisjoint(needed) else numbers
 
 
 def _coupling(parts: Mapping[Any, Any], leader: str) -> dict[str, Any]:
