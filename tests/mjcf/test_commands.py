@@ -51,6 +51,7 @@ def test_init_guesses_the_options(folder: Path, execute: Execute) -> None:
     assert 'base = "floating"  guessed: its root moves freely' in printed.out
     assert 'allow = ["part-left-out"]  guessed: the model leaves this part out' in printed.out
     assert "leg.xml:2: warning: spring toe_joint: this acts on the robot, but no model has it" in printed.err
+    assert "bolted down" not in printed.err
 
 
 def test_a_spring_of_a_ball_stops_a_build_unless_it_is_allowed(project: Path, execute: Execute) -> None:

@@ -80,6 +80,11 @@ def test_each_file_is_recorded_with_a_hash_even_a_missing_one() -> None:
 @pytest.mark.parametrize(
     ("text", "files", "told"),
     [
+        (
+            '<mujoco><worldbody>\n<body name="line 1"/>\n<body name="line 1"/></worldbody></mujoco>',
+            {},
+            "arm.xml:3: MuJoCo: repeated name 'line 1' in body",
+        ),
         (ARM[:200], {}, "arm.xml:5: this is not well-formed XML: unclosed token"),
         ("<mujoco>\n<include/></mujoco>", {}, "arm.xml:2: <include> names no file; write file="),
         ('<mujoco>\n<include file="a.xml"/></mujoco>', {}, "arm.xml:2: a.xml can't be read: No such file or directory"),

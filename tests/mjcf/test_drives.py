@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from support.mjcfs import joint, left_out, noted, read, world
+from support.mjcfs import joint, left_out, noted, read, urdf, world
 
 from urdfsync.urdf.drives import passive_joints
 from urdfsync.urdf.named_poses import named_poses
@@ -58,7 +58,6 @@ def test_an_actuator_gives_a_command_and_a_limit(motor: str, command: str | None
         ('<general joint="a" biastype="affine" biasprm="2 0 0"/>', ""),
         ('<general joint="a" biastype="affine" biasprm="2 3 0" forcerange="-4 4"/>', "1 <feedback>"),
         ('<general joint="a" biastype="affine" biasprm="0 -3 1" forcerange="-4 3"/>', "1 <feedback>, 1 <forcerange>"),
-        ('<general joint="a" dyntype="integrator" dynprm="1"/>', "1 <feedback>"),
         ('<position joint="a" kp="50" timeconst="0.1"/>', "1 <activation>"),
         ('<general joint="a" dyntype="filter" dynprm="0.1"/>', "1 <activation>"),
     ],
@@ -157,7 +156,21 @@ def test_a_motor_of_joints_that_move_by_themselves_is_left_out() -> None:
         '<muscle name="m" joint="a" lengthrange="0 1"/>',
         '<adhesion name="m" body="b" ctrlrange="0 1"/>',
         '<damper name="m" joint="a" kv="1" ctrlrange="0 1"/>',
+        '<general name="m" joint="a" dyntype="integrator" gainprm="5"/>',
     ],
 )
 def test_an_actuator_that_is_no_motor_is_left_out(motor: str) -> None:
     assert left_out(with_motor(motor)) == ["actuator m"]
+
+
+def test_a_motor_of_another_robot_is_none_of_this_one() -> None:
+    other = '<body name="o"><freejoint/><geom size="0.1"/><site name="s"/></body><body name="b">'
+    text = with_motor('<motor site="s" gear="0 0 1 0 0 0"/>').replace('<body name="b">', other)
+    assert "left_out" not in urdf(text, robot="b")
+    assert "left_out" in urdf(text, robot="o")
+
+
+def test_a_sliding_joint_without_a_range_loses_its_effort_with_a_note() -> None:
+    text = with_motor('<motor joint="a" ctrlrange="-3 3"/>').replace('name="a"', 'name="a" type="slide"')
+    assert joint(read(text), "a").limit is None
+    assert noted(text) == "not modelled: 1 <effort>"

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from support.mjcfs import body, left_out, noted, read, world
+from support.mjcfs import SOURCE, body, document, left_out, noted, read, urdf, world
+
+from urdfsync.mjcf.urdf import translated
+from urdfsync.urdf.parse.source import read_robot
 
 SITES = '<site name="s" pos="0 0 1"/><site name="t"/>'
 
@@ -18,7 +21,14 @@ SITES = '<site name="s" pos="0 0 1"/><site name="t"/>'
         ('<joint name="j" type="free" damping="1"/>', "", "losses of a free joint j"),
         ("<joint/>", '<option gravity="0 0 0"/>', "gravity 0 0 0"),
         ("<joint/>", '<option><flag gravity="disable"/></option>', "disabled flag gravity"),
-        ("<joint/>", '<option density="1.2"/>', "fluid"),
+        ("<joint/>", '<option><flag constraint="disable"/></option>', "disabled flag constraint"),
+        ("<freejoint/>", '<option><flag contact="disable"/></option>', "disabled flag contact"),
+        (
+            "<freejoint/>",
+            '<contact><exclude body1="world" body2="part"/></contact>',
+            "contact without the ground",
+        ),
+        ("<joint/>", '<option density="1.2"/>', "fluid density"),
         (
             '<joint name="j"/>',
             '<actuator><motor name="m" joint="j" armature="1"/></actuator>',
@@ -45,6 +55,25 @@ def test_what_acts_on_the_robot_otherwise_is_left_out_with_an_error(inside: str,
     text = body(inside).replace("</mujoco>", f"{outside}</mujoco>")
     assert left_out(text) == [what]
     read(text)  # with `allow`, it is a warning
+
+
+def test_gravity_has_its_line() -> None:
+    text = body("<joint/>", '<option timestep="0.1"/>\n<option gravity="0 0 -1"/>\n')
+    (finding,) = [
+        each for each in read_robot(urdf(text).encode(), SOURCE).diagnostics if each.severity.value == "error"
+    ]
+    _, places = translated(document(text))
+    assert [line for number, _, line in places if number <= finding.line][-1] == 3
+
+
+def test_margins_are_noted() -> None:
+    assert noted(body('<joint range="-1 1" margin="0.2"/>')) == "not modelled: 1 <margin>"
+    assert noted(body('<joint/><geom size="0.1" margin="0.2"/>')) == ""
+
+
+def test_a_pose_at_home_that_is_no_number_of_a_joint_is_noted() -> None:
+    key = '<keyframe><key name="home" qpos="0 1 0 0"/></keyframe></mujoco>'
+    assert noted(body('<joint type="ball"/>').replace("</mujoco>", key)) == "not modelled: 1 <qpos>"
 
 
 def test_gravity_compensation_is_left_out_with_an_error() -> None:

@@ -190,7 +190,9 @@ def _guess(
     templates = domain.starter(snapshot) if domain.starter else {}
     guess = Guess(robot, path.as_posix(), values, package, proposals, templates)
     judged = judge(domain, Version(snapshot), reading, text.name)
-    return guess, (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *judged)))
+    settled = {proposal.settles for proposal in proposals}
+    of_source = [finding for finding in reading.diagnostics if finding.code not in settled]
+    return guess, (*text.diagnostics, *map(text.locate, (*of_source, *judged)))
 
 
 def _free_names(

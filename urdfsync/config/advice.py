@@ -17,6 +17,8 @@ class Proposal(msgspec.Struct, frozen=True):
     option: str
     value: Any
     reason: str
+    settles: str = ""
+    """The code of findings that the value settles; empty for none."""
 
 
 Starter: TypeAlias = Callable[[Snapshot], Mapping[str, str]]

@@ -255,7 +255,8 @@ def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dic
             if used := {name: new for name, new in used.items() if name != new}:
                 uses[str(path)] = Use(_facts(path), used)
     elements = {**{name: _MAYBE for _, name in differences.matching.doubts}, **differences.other_elements}
-    if used := {name: elements[name] for name in _texts(msgspec.to_builtins(inputs.robot.options)) if name in elements}:
+    options = msgspec.to_builtins(inputs.robot.options).values()  # its keys are names of options
+    if used := {name: elements[name] for value in options for name in _texts(value) if name in elements}:
         uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)
     return uses
 

@@ -25,6 +25,8 @@ from urdfsync.urdf.robot import Command
 _HOME = "home"
 """The key with the start positions."""
 _AXES = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
+_SIZES = {int(mujoco.mjtJoint.mjJNT_BALL): 4, int(mujoco.mjtJoint.mjJNT_FREE): 7}
+"""Numbers of a pose."""
 _OF_JOINT = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
 
 
@@ -158,7 +160,9 @@ class Drives:
             if pulls and not any(joint in self.joints for joint, _ in pulls):
                 return
         else:
-            pulls = []
+            pulls, at = [], target if kind == mujoco.mjtTrn.mjTRN_BODY else int(model.site_bodyid[target])
+            if at not in self.scene.bodies:
+                return
         for joint, factor in pulls:
             leader, multiplier = self.leader(joint)
             moved[leader] = moved.get(leader, 0.0) + factor * multiplier
@@ -188,7 +192,8 @@ class Drives:
         if model.actuator_gaintype[number] != mujoco.mjtGain.mjGAIN_FIXED or model.actuator_plugin[number] >= 0:
             return None
         if model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR:
-            return "velocity"
+            is_fed_back = model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE and stiffness
+            return "velocity" if is_fed_back else None  # without feedback, the effort grows with time
         if model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_NONE:
             return "effort"
         if model.actuator_biastype[number] != mujoco.mjtBias.mjBIAS_AFFINE:
@@ -248,7 +253,9 @@ class Drives:
                 lower, upper = map(float, model.jnt_range[number])
                 if reference := float(model.qpos0[model.jnt_qposadr[number]]):
                     lower, upper = rounded((lower - reference, upper - reference))
-            if effort is not None or lower is not None:
+            if kind == "prismatic" and lower is None and effort is not None:
+                joint.add("effort")  # in URDF, a limit of a sliding joint has a range
+            elif effort is not None or lower is not None:
                 joint.add("limit", lower=lower, upper=upper, effort=effort)
         damping, friction, armature = model.dof_damping[dof], model.dof_frictionloss[dof], model.dof_armature[dof]
         stiffness = model.jnt_stiffness[number] if kind != "ball" else 0.0
@@ -301,6 +308,14 @@ class Drives:
         model = self.scene.model
         places = {joint: model.jnt_qposadr[joint] for joint in self.joints if self._has_axis(joint)}
         return {joint: rounded([model.key_qpos[key][at] - model.qpos0[at]])[0] for joint, at in places.items()}
+
+    def poses(self, key: int) -> Iterator[int]:
+        """Yield the ball and free joints that have another pose at a key: no model begins there."""
+        model = self.scene.model
+        for joint in self.joints:
+            at, size = model.jnt_qposadr[joint], _SIZES.get(int(model.jnt_type[joint]), 0)
+            if (model.key_qpos[key][at : at + size] != model.qpos0[at : at + size]).any():
+                yield joint
 
 
 def _greatest(limits: Any) -> float:

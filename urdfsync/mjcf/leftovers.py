@@ -13,7 +13,7 @@ from urdfsync.mjcf.scene import Scene
 from urdfsync.translation.writer import Node
 
 _GRAVITY = (0.0, 0.0, -9.81)
-_SWITCHES = ("GRAVITY", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION", "PASSIVE", "SPRING", "DAMPER")
+_SWITCHES = ("GRAVITY", "CONSTRAINT", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION", "PASSIVE", "SPRING", "DAMPER")
 """What the flags of an option may switch off for all joints, as versions of MuJoCo name it."""
 _SOLREF, _SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
 """MuJoCo's usual softness of a constraint."""
@@ -56,19 +56,32 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
             drives.leave_out("contact pair", "pair", pair)
     for flex in range(model.nflex):
         drives.leave_out("flexible body", "flex", flex)
-    _find_global(model, drives)
+    for number in range(model.nexclude if scene.is_floating else 0):
+        signature = int(model.exclude_signature[number])
+        if not signature >> 16 or not signature & 0xFFFF:
+            drives.left_out.append(Part("contact without the ground", "", _option_line(scene, "exclude", "body1")))
+    _find_global(scene, drives)
 
 
-def _find_global(model: Any, drives: Drives) -> None:
+def _find_global(scene: Scene, drives: Drives) -> None:
     """Add what acts on all bodies: switches, another gravity, or a fluid."""
-    for name in _SWITCHES:
+    model = scene.model
+    for name in (*_SWITCHES, *["CONTACT"] * scene.is_floating):
         if model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0):
-            drives.left_out.append(Part("disabled flag", name.lower(), 0))
+            drives.left_out.append(Part("disabled flag", name.lower(), _option_line(scene, "flag", name.lower())))
     if not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
         words = " ".join(f"{value:g}" for value in model.opt.gravity)
-        drives.left_out.append(Part("gravity", words, 0))
-    if model.opt.density or model.opt.viscosity:
-        drives.left_out.append(Part("fluid", "", 0))
+        drives.left_out.append(Part("gravity", words, _option_line(scene, "option", "gravity")))
+    for name in ("density", "viscosity"):
+        if getattr(model.opt, name):
+            drives.left_out.append(Part("fluid", name, _option_line(scene, "option", name)))
+
+
+def _option_line(scene: Scene, tag: str, attribute: str) -> int:
+    """Return the last line of the text with an element that has an attribute: later options count; 0 for none."""
+    lines = scene.document.text.split("\n")
+    has = (line.lstrip().startswith(f"<{tag} ") and f' {attribute}="' in line for line in reversed(lines))
+    return next((len(lines) - number for number, is_it in enumerate(has) if is_it), 0)
 
 
 def _add_soft(robot: Node, scene: Scene, drives: Drives) -> None:
@@ -78,6 +91,11 @@ def _add_soft(robot: Node, scene: Scene, drives: Drives) -> None:
         numbers = *model.jnt_solref[joint], *model.jnt_solimp[joint]
         if model.jnt_limited[joint] and not np.allclose(numbers, (*_SOLREF, *_SOLIMP)):
             robot.add("solreflimit", scene.line("joint", joint), name=scene.joints[joint])
+        if model.jnt_limited[joint] and model.jnt_margin[joint]:
+            robot.add("margin", scene.line("joint", joint), name=scene.joints[joint])
+    for geom in range(model.ngeom if scene.is_floating else 0):
+        if int(model.geom_bodyid[geom]) in scene.bodies and model.geom_margin[geom]:
+            robot.add("margin", scene.line("geom", geom), name=scene.name("geom", geom) or None)
     for number in range(model.neq):
         if not model.eq_active0[number]:
             robot.add("inactive", scene.line("equality", number), name=scene.name("equality", number) or None)
@@ -128,7 +146,10 @@ def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
         robot.add("inactive", scene.line("actuator", number), name=scene.name("actuator", number) or None)
     _add_soft(robot, scene, drives)
     for key in range(model.nkey):
-        if scene.name("key", key) != "home":
+        if scene.name("key", key) == "home":
+            for joint in drives.poses(key):
+                robot.add("qpos", scene.line("key", key), name=scene.joints[joint])
+        else:
             pose = robot.add("group_state", scene.line("key", key), name=scene.name("key", key) or f"key {key + 1}")
             for joint, position in drives.positions(key).items():
                 pose.add("joint", name=scene.joints[joint], value=position)

@@ -16,7 +16,8 @@ from urdfsync.translation.writer import free_name
 WORLD = "world"
 _MOST_BODIES = 2_000
 """The most bodies of a robot: a package has two files for each."""
-_LINE = re.compile(r"\(?\bline (\d+)\)?")
+_LINE = re.compile(r"('[^']*')|\(?\bline (\d+)\)?")
+"""A name in quotes, or the number of a line."""
 _KINDS = {
     "body": (mujoco.mjtObj.mjOBJ_BODY, "bodies"),
     "joint": (mujoco.mjtObj.mjOBJ_JOINT, "joints"),
@@ -54,8 +55,7 @@ class Scene:
 
     def line(self, kind: str, number: int) -> int:
         """Return the line of an element in the document's text; 0 if MuJoCo made the element."""
-        found = _LINE.search(getattr(self._elements[kind].get(number), "info", ""))
-        return int(found[1]) if found else 0
+        return _line_in(getattr(self._elements[kind].get(number), "info", ""))
 
     def element(self, kind: str, number: int) -> Any:
         """Return an element of the `MjSpec`."""
@@ -156,15 +156,20 @@ def read_scene(document: Document, body: str = "") -> Scene:
     return Scene(document, spec, model, body)
 
 
+def _line_in(text: str) -> int:
+    """Return the number of a line in MuJoCo's words; 0 for none."""
+    return next((int(found[2]) for found in _LINE.finditer(text) if found[2]), 0)
+
+
 def _in_words(document: Document, text: str) -> TranslationError:
     """Return MuJoCo's error with the user's file and line."""
-    found = _LINE.search(text)
-    words = " ".join(_LINE.sub("", text).split()).removeprefix("XML Error: ").removeprefix("Error: ")
+    words = " ".join(_LINE.sub(lambda found: found[1] or "", text).split())
+    words = words.removeprefix("XML Error: ").removeprefix("Error: ")
     words = words.replace(" Element ", ", element ").rstrip(" ,")
     for name, path in document.meshes.items():
         words = words.replace(f"'{name}'", path)
     hint = f"correct it, or install a newer MuJoCo than {mujoco.__version__}" if "Schema violation" in text else ""
-    return TranslationError(f"MuJoCo: {words}", document.place(int(found[1]) if found else 0), hint)
+    return TranslationError(f"MuJoCo: {words}", document.place(_line_in(text)), hint)
 
 
 def _listed(names: Sequence[str]) -> str:

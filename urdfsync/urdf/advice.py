@@ -34,7 +34,7 @@ def propose(robot: Robot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposa
     """Propose a base, a start for loops at a dead point, and the errors to allow."""
     codes = {entry.code for entry in diagnostics}
     is_free = "free-root" in codes
-    proposals = [Proposal("base", "floating", "its root moves freely") if is_free else guess_base(robot)]
+    proposals = [Proposal("base", "floating", "its root moves freely", "free-root") if is_free else guess_base(robot)]
     if "loop-singular" in codes and (start := Assembly(robot, Options()).closed.proposed):
         proposals.append(Proposal("start", start, "with all joints at zero, loops are at a dead point"))
     if needed := [code for code in get_args(LeftOut) if code in codes]:
