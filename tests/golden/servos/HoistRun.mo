@@ -102,6 +102,14 @@ model HoistRun "Run robot Hoist with commands from outside: the model to export 
     "Pushes joint \"rope\""
     annotation (Placement(transformation(extent={{-40, 210}, {-20, 230}})));
 
+  Modelica.Blocks.Interfaces.RealOutput level_a[3](each unit = "m/s2") = robot.level.a
+    "Acceleration minus gravity that sensor \"level\" shows"
+    annotation (Placement(transformation(extent={{340, 70}, {360, 90}}), iconTransformation(extent={{100, 86}, {108, 94}})));
+
+  Modelica.Blocks.Interfaces.RealOutput sway_w[3](each unit = "rad/s") = robot.sway.w
+    "Angular velocity that sensor \"sway\" shows"
+    annotation (Placement(transformation(extent={{340, 50}, {360, 70}}), iconTransformation(extent={{100, 76}, {108, 84}})));
+
 equation
   connect(world.frame_b, robot.frame_a)
     annotation (Line(points={{-80, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
