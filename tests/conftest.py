@@ -163,6 +163,15 @@ def modelica_library() -> Iterator[Path]:
         yield folder
 
 
+@pytest.fixture
+def without_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """No Modelica Standard Library, in this process and in those of a check: nothing is compiled."""
+    monkeypatch.setattr("urdfsync.checks.libraries.library_folders", list)
+    for name in ("MODELICAPATH", "OPENMODELICALIBRARY", "OPENMODELICAHOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+
+
 @pytest.fixture(scope="session")
 def rc_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder that makes the RC network domain an installed distribution, once it is on Python's path."""
@@ -307,23 +316,46 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 _SAME = tuple(f"tests/{name}" for name in (
-    *("engine/", "merge/", "modelica/", "urdf/", "versions/", "test_branches", "test_edits_meet_exports"),
-    *("test_forged_states", "test_merges", "test_renumbered_parts", "test_unions", "test_united", "test_verdicts"),
+    # computed texts and numbers, and the decisions of a build
+    *("engine/", "merge/", "modelica/", "output/", "pages/", "patches/", "simulation/", "urdf/", "versions/"),
+    *("table/test_catalogue", "table/test_units", "test_changes", "test_forged_states", "test_hostile_templates"),
+    *("test_ignored", "test_loops", "test_matching", "test_renumbered", "test_templates", "test_verdicts"),
+    *(f"identification/test_{name}" for name in ("excite", "fit", "records", "run", "signals")),
+    # other formats and checks, but for their processes and for rumoca
+    *("mjcf/", "sdf/", "checks/compilers/test_omc", "watch/test_checks", "watch/test_report", "watch/test_view"),
+    *(f"checks/test_{name}" for name in ("afterbuild", "fingerprint", "flags", "names", "packed", "report", "robot")),
+    "checks/test_texts",
+    # git's merges
+    *("test_branches", "test_clones", "test_edits_meet_exports", "test_merge", "test_unions", "test_unite"),
+    "test_unmerged",
+    # texts of the project itself
+    *("test_corpus_page", "test_docs", "test_domains_page", "test_spelling", "test_urdf_page"),
 ))  # fmt: skip
+# beside those: processes, and libraries that load
+_MAY_DIFFER = tuple(f"tests/{name}" for name in (
+    *("mjcf/test_worker", "sdf/test_worker", "pages/test_browser", "simulation/test_fmu", "simulation/test_plot"),
+))  # fmt: skip
+
+
+def _is_file_of_same(path: str) -> bool:
+    return path.startswith(_SAME) and not path.startswith(_MAY_DIFFER)
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Leave out files of which `-m "not once"` deselects all tests: a process takes 13 s to find all tests."""
     is_one_more = "not once" in config.option.markexpr and collection_path.is_relative_to(REPOSITORY)
-    return True if is_one_more and str(collection_path.relative_to(REPOSITORY)).startswith(_SAME) else None
+    if not is_one_more or not collection_path.is_file():
+        return None
+    return _is_file_of_same(collection_path.relative_to(REPOSITORY).as_posix()) or None
 
 
 def _is_same_with_every_python(item: pytest.Item) -> bool:
-    """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own.
+    """Whether a test compiles models, reads the corpus or draws random cases; rumoca has tests of its own.
 
-    So do computed texts and numbers, git's merges, and the decisions of a build.
+    So do the files in `_SAME`. A further Python shows that all modules and libraries load and work, that processes
+    start, end and exchange values, and what files, paths, threads and the command line do.
     """
-    if item.nodeid.startswith(_SAME):
+    if _is_file_of_same(item.nodeid):
         return True
     needs = {"modelica_library", "corpus"} & set(getattr(item, "fixturenames", ()))
     is_random = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)

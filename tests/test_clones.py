@@ -113,7 +113,7 @@ def test_a_text_that_an_undo_brought_back_is_the_users_in_each_clone(
     assert record.read_bytes() == old
 
 
-@pytest.mark.parametrize("later", ["", "another name", "another mass"])
+@pytest.mark.parametrize("later", [pytest.param("", marks=pytest.mark.slow), "another name", "another mass"])
 @pytest.mark.parametrize("merging", [False, True])
 def test_an_edit_follows_a_rename_over_a_merge(
     repository: Repository, execute: Execute, monkeypatch: pytest.MonkeyPatch, merging: bool, later: str

@@ -130,8 +130,11 @@ def _started(
 @pytest.mark.parametrize(
     ("attack", "command"),
     [
-        *(("modules", command) for command in (["status"], ["diff"], *WRITING, ["record", "r0.urdf"])),
-        pytest.param("modules", ["check", "r0"], marks=pytest.mark.slow),
+        *(("modules", command) for command in (["status"], ["build"])),
+        *(
+            pytest.param("modules", command, marks=pytest.mark.slow)
+            for command in (["diff"], *WRITING[1:], ["record", "r0.urdf"], ["check", "r0"])
+        ),
         ("modules", ["watch", "--settle", "10", "--sample", "10"]),
         ("a domain of the repository", ["build"]),
     ],

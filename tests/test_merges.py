@@ -126,8 +126,12 @@ def first_conflict(text: str) -> str:
 @pytest.mark.parametrize(
     ("case", "path", "side"),
     [
-        *(("edits-in-two-conflicts", MODEL, side) for side in ("ours", "theirs", "both", "neither", "line")),
-        ("renamed-by-both", MODEL, "line"),
+        *(("edits-in-two-conflicts", MODEL, side) for side in ("ours", "line")),
+        *(
+            pytest.param("edits-in-two-conflicts", MODEL, side, marks=pytest.mark.slow)
+            for side in ("theirs", "both", "neither")
+        ),
+        pytest.param("renamed-by-both", MODEL, "line", marks=pytest.mark.slow),
         ("renamed-by-both", f"{LADDER}/Elements/ShuntParameters.mo", "ours"),
         ("renamed-by-both", f"{LADDER}/Elements/package.order", "both"),
     ],
@@ -172,7 +176,7 @@ def test_a_file_that_a_build_writes_can_be_named(stop: Stop, execute: Execute, c
     assert add_all().in_step
 
 
-@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("style", [STYLES[0], *(pytest.param(style, marks=pytest.mark.slow) for style in STYLES[1:])])
 @pytest.mark.parametrize("case", ["edits-that-contradict", "edits-that-contradict-alone"])
 def test_a_contradiction_is_for_people(stop: Stop, execute: Execute, case: str, style: str) -> None:
     stop(case, style=style)

@@ -28,9 +28,3 @@ def compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Compiling:
     monkeypatch.setattr(libraries, "copy_named", lambda *_: tmp_path)
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
     return found
-
-
-@pytest.fixture
-def without_library(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No Modelica Standard Library: nothing is compiled."""
-    monkeypatch.setattr(libraries, "library_folders", list)

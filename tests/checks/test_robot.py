@@ -115,6 +115,7 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
 
 
+@pytest.mark.slow
 def test_a_robot_of_which_a_joint_is_left_out_agrees_with_nothing(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:

@@ -132,6 +132,7 @@ def test_a_truncated_file_is_one_error(folder: Path, storage: str, share: float)
             list(Log(file, [ELBOW], IdentifyOptions()).pieces())
 
 
+@pytest.mark.slow
 def test_a_recording_is_fitted(gripper: Path, execute: Execute, recording: measured.Recording) -> None:
     rows = zip(recording.times, recording.positions, recording.efforts, strict=True)
     write("bag", {"/joint_states": [(t + 5, state(recording.joints, q, tau, t + 5)) for t, q, tau in rows]})

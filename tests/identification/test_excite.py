@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 from support.commands import Execute
 from support.files import unchanged
 
@@ -29,6 +30,7 @@ def test_a_motion_begins_and_ends_at_rest_within_the_limits(leg: Path, execute: 
     assert "condition" in printed.lines[0]
 
 
+@pytest.mark.slow
 def test_the_condition_number_falls(leg: Path, execute: Execute) -> None:
     (result,) = execute("identify", "leg", "--excite", "motion.csv", "--format=json").json["results"]
     assert result["condition"] < 0.7 * result["first_condition"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.mjcfs import ARM, body, stl, world
 
-from urdfsync import config
+from urdfsync import cli, config
 from urdfsync.checks import robot as checks
 from urdfsync.checks.results import CheckOptions, CheckResult
 
@@ -19,14 +20,21 @@ RECORD = Path("modelica/Arm/Links/UpperParameters.mo")
 EXPANDED = Path(".urdfsync/robots/arm.expanded")
 
 
-@pytest.fixture
-def project(folder: Path, execute: Execute) -> Path:
-    """A project with the arm, in step."""
-    Path("mjcf").mkdir()
-    Path("mjcf/arm.xml").write_text(ARM)
-    execute("init", "mjcf/arm.xml")
-    execute("build")
+@pytest.fixture(scope="module")
+def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project with the arm, in step; tests work on copies of it, since a translation takes half a second."""
+    folder = tmp_path_factory.mktemp("built")
+    (folder / "mjcf").mkdir()
+    (folder / "mjcf/arm.xml").write_text(ARM)
+    with contextlib.chdir(folder):
+        assert [cli.main(command.split()) for command in ("init mjcf/arm.xml", "build")] == [0, 0]
     return folder
+
+
+@pytest.fixture
+def project(folder: Path, in_step: Path) -> Path:
+    """A project with the arm, in step."""
+    return shutil.copytree(in_step, folder, dirs_exist_ok=True)
 
 
 def edit(old: str, new: str, file: str = "mjcf/arm.xml") -> None:
@@ -120,6 +128,7 @@ def test_a_clone_needs_no_mujoco(project: Path, execute: Execute, monkeypatch: p
     assert "pip install mujoco [not-installed]" in execute("build", code=2).err
 
 
+@pytest.mark.slow
 def test_a_robot_of_a_scene_is_chosen_by_an_argument(folder: Path, execute: Execute) -> None:
     Path("scene.xml").write_text(
         world("".join(f'<body name="{name}"><joint/><geom size="0.1"/></body>' for name in ("left", "right")))
@@ -149,6 +158,7 @@ def test_a_revision_is_compared(project: Path, execute: Execute, monkeypatch: py
     assert "1.5 → 1.75 kg" in execute("diff", "--against", "HEAD", code=1).out
 
 
+@pytest.mark.slow
 @NEEDS_GIT
 def test_a_hook_passes_a_commit_in_step(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     repository = Repository(project, monkeypatch)

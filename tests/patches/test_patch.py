@@ -217,6 +217,7 @@ def test_defaults_and_properties_of_nested_files(repository: Repository, execute
     assert Path("a/b/b.xacro").read_bytes().decode() == inner.replace("2.5", "3")
 
 
+@pytest.mark.slow
 def test_a_literal_that_feeds_two_parts_stays(repository: Repository, execute: Execute) -> None:
     calls = "".join(CALL.format(name, "${m}") for name in "ab")
     text = f'{HEAD}<xacro:property name="m" value="2.5"/>\n{WHEEL}{BASE}{calls}</robot>'
@@ -241,6 +242,7 @@ def test_two_edits_of_one_number_stay(repository: Repository, execute: Execute) 
     assert all(line.endswith("or another edit changes the same number") for line in told)
 
 
+@pytest.mark.slow
 def test_what_a_macro_leaves_out_is_inserted_for_one_part(repository: Repository, execute: Execute) -> None:
     one = f"{HEAD}{WHEEL}{BASE}{CALL.format('a', '2')}</robot>"
     build(execute, {"arm.xacro": one}, CONFIG.replace("arm.urdf", "arm.xacro"))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import shutil
 from pathlib import Path
 
 import pytest
@@ -10,19 +12,28 @@ from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.sdfs import ARM, hinge, model, sdf
 
+from urdfsync import cli
+
 RECORD = Path("modelica/Arm/Links/UpperParameters.mo")
 HAND = sdf('<model name="hand"><link name="palm"><inertial><mass>0.25</mass></inertial></link></model>')
 CONFIG = '<model><sdf version="1.9">hand.sdf</sdf></model>'
 
 
-@pytest.fixture
-def project(folder: Path, execute: Execute) -> Path:
-    """A project with the arm, in step."""
-    Path("sdf").mkdir()
-    Path("sdf/arm.sdf").write_text(ARM)
-    execute("init", "sdf/arm.sdf")
-    execute("build")
+@pytest.fixture(scope="module")
+def in_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project with the arm, in step; tests work on copies of it, since a translation takes half a second."""
+    folder = tmp_path_factory.mktemp("built")
+    (folder / "sdf").mkdir()
+    (folder / "sdf/arm.sdf").write_text(ARM)
+    with contextlib.chdir(folder):
+        assert [cli.main(command.split()) for command in ("init sdf/arm.sdf", "build")] == [0, 0]
     return folder
+
+
+@pytest.fixture
+def project(folder: Path, in_step: Path) -> Path:
+    """A project with the arm, in step."""
+    return shutil.copytree(in_step, folder, dirs_exist_ok=True)
 
 
 def edit(old: str, new: str, file: str = "sdf/arm.sdf") -> None:

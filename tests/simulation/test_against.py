@@ -108,6 +108,7 @@ def test_the_table_has_both_series(repository: Repository, compiler: Compiler, e
     assert rows == [["0.0", "0.0", "0.0"], ["1.0", "1.0", "1.5"], ["2.0", "2.0", ""]]
 
 
+@pytest.mark.slow
 def test_the_picture_and_the_page_have_both_curves(
     repository: Repository, compiler: Compiler, execute: Execute
 ) -> None:

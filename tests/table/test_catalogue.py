@@ -46,7 +46,9 @@ def test_a_european_catalogue_gives_the_same_numbers(project: Path, execute: Exe
     assert "arm: in step" in execute("build").out
 
 
-def test_both_readings_know_the_torque_of_american_data_sheets(project: Path, execute: Execute) -> None:
+def test_both_readings_know_the_torque_of_american_data_sheets(
+    project: Path, execute: Execute, without_library: None
+) -> None:
     edit(SERVOS, "[N.cm]", "[oz-in]")
     execute("build")
     assert "effort = 2.89" in ELBOW.read_text()

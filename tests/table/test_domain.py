@@ -190,6 +190,7 @@ def test_the_record_of_a_domain_without_templates_has_all_columns() -> None:
     assert DOMAIN.unit(table, ["elements", "MX-64", "maker"]) == ""
 
 
+@pytest.mark.slow
 def test_a_package_without_a_system_is_checked_model_by_model(
     project: Path, execute: Execute, modelica_library: Path
 ) -> None:
@@ -197,7 +198,7 @@ def test_a_package_without_a_system_is_checked_model_by_model(
     assert "2 models compile" in found, modelica_library
 
 
-def test_a_check_names_each_edited_file(project: Path, execute: Execute) -> None:
+def test_a_check_names_each_edited_file(project: Path, execute: Execute, without_library: None) -> None:
     edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6\n", "= 7\n")
     edit(Path("modelica/Motors/Records/XM_430.mo"), "end XM_430;", "  // a comment alone\nend XM_430;")
     found = execute("check", code=None)

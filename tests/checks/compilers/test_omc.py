@@ -149,6 +149,7 @@ def test_what_never_changes_is_a_series_and_a_parameter(ask: Ask, tmp_path: Path
     assert run.parameters == {"q[1,2]": 7}
 
 
+@pytest.mark.slow
 def test_a_result_of_another_form_is_a_problem(ask: Ask, tmp_path: Path) -> None:
     write_trajectory(tmp_path / "x_res.mat", {}, {"time": (0.0, 0.25), "p": (1.0, 1.0)})
     (run,) = simulated(ask, tmp_path, f"{tmp_path}/x_res.mat").runs

@@ -331,6 +331,7 @@ def test_loops_that_have_no_model_are_faults() -> None:
     assert faults(far) == [("loop-open", "pin")]
 
 
+@pytest.mark.slow
 def test_rounding_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     robots = [four_bar(), FIVE_BAR, SPATIAL, delta(), hand()]
     before = [assembled(robot) for robot in robots]
