@@ -23,6 +23,7 @@ import msgspec
 
 from urdfsync import config
 from urdfsync.config import STATE_FOLDER, Config, warnings
+from urdfsync.dependencies.facts import LISTINGS, Entry, look
 from urdfsync.dependencies.reads import Reads, read_file
 from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
@@ -87,10 +88,10 @@ class Daemon:
         self._next_rescan = 0.0
         self._next_look = math.inf
         """When to look at files, after an event."""
-        self._robots_of: Mapping[str, set[str]] = {}
-        """The robots to look at after an event, by the path of the event; for a list of names, by its folder."""
-        self._touched: set[str] = set()
-        """The robots to look at next."""
+        self._entries_at: Mapping[str, set[Entry]] = {}
+        """The entries to look at after an event, by the path of the event; for a list of names, by its folder."""
+        self._touched: set[Entry] = set()
+        """The entries to look at next."""
         self._earliest_look = 0.0
         """The earliest time of the next look: endless events must leave pauses."""
         self._has_new_places = False
@@ -219,8 +220,9 @@ class Daemon:
                     case FileEvent():
                         self._has_new_places |= message.is_place
                         for path in message.paths:
-                            self._touched |= self._robots_of.get(path, set())
-                            self._touched |= self._robots_of.get(os.path.dirname(path), set())  # noqa: PTH120
+                            beside = self._entries_at.get(os.path.dirname(path), ())  # noqa: PTH120
+                            self._touched |= self._entries_at.get(path, set())
+                            self._touched |= {entry for entry in beside if entry[0].startswith(LISTINGS)}
                         if self._touched or self._has_new_places:
                             self._next_look = self._earliest_look
                     case CommandEnded():
@@ -242,7 +244,9 @@ class Daemon:
         touched, self._touched = self._touched, set()
         if has_new_places:
             self._watch_folders()
-        robots = [watched for name, watched in self._robots.items() if has_new_places or name in touched]
+        # what all robots have read, such as the folder of their sources, seldom changes with one robot's file
+        present = {entry: look(*entry) for entry in touched}
+        robots = [watched for watched in self._robots.values() if has_new_places or not watched.has_seen(present)]
         looks = [(watched, watched.look()) for watched in robots]
         self._touch([watched for watched, is_new in looks if is_new and (watched.is_told or watched.has_changed)])
         self._earliest_look = time.monotonic() + _REST * (time.monotonic() - begin)
@@ -264,8 +268,8 @@ class Daemon:
             self._listener(event)
 
     def _watch_folders(self) -> None:
-        entries_of = {name: watched.places for name, watched in self._robots.items()}
-        self._robots_of, entries = find_places(entries_of), set().union(*entries_of.values())
+        entries = set[Entry]().union(*(watched.places for watched in self._robots.values()))
+        self._entries_at = find_places(entries)
         folders = find_watched_folders(self._config, entries, self._options.build.package_paths)
         unwatched = self._observer.watch_folders(folders)
         told = {diagnostic.hint for diagnostic in self._unwatched}

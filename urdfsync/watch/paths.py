@@ -62,25 +62,25 @@ def find_watched_folders(
     return WatchedFolders(frozenset(singles), frozenset(trees))
 
 
-def find_places(entries: Mapping[str, Collection[Entry]]) -> Mapping[str, set[str]]:
-    """Return the robots to look at after an event, by the path of the event; `entries` are those of each robot.
+def find_places(entries: Iterable[Entry]) -> Mapping[str, set[Entry]]:
+    """Return the entries to look at after an event, by the path of the event.
 
     The paths contain no symbolic links, like those of events; for a list of names, the path is that of its folder.
     """
-    places, ways = dict[str, set[str]](), dict[str, str]()
-    for robot, read in entries.items():
-        for kind, path in read:
-            folder, _, name = path.rpartition(os.sep)
-            if kind.startswith(LISTINGS):
-                on_the_way = _way_to(path)[-1:]
-            elif not folder or os.path.islink(path):  # noqa: PTH114
-                on_the_way = _way_to(path)
-            else:
-                if folder not in ways:
-                    ways[folder] = _way_to(folder)[-1]
-                on_the_way = [os.path.join(ways[folder], name)]  # noqa: PTH118
-            for place in on_the_way:
-                places.setdefault(place, set()).add(robot)
+    places, ways = dict[str, set[Entry]](), dict[str, str]()
+    for entry in entries:
+        kind, path = entry
+        folder, _, name = path.rpartition(os.sep)
+        if kind.startswith(LISTINGS):
+            on_the_way = _way_to(path)[-1:]
+        elif not folder or os.path.islink(path):  # noqa: PTH114
+            on_the_way = _way_to(path)
+        else:
+            if folder not in ways:
+                ways[folder] = _way_to(folder)[-1]
+            on_the_way = [os.path.join(ways[folder], name)]  # noqa: PTH118
+        for place in on_the_way:
+            places.setdefault(place, set()).add(entry)
     return places
 
 

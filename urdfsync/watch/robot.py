@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+import time
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import msgspec
 
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies.facts import PATH, VARIABLE, Entry, Facts
+from urdfsync.dependencies.facts import PATH, VARIABLE, Entry, Facts, is_young
 from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import Diagnostic
 
@@ -21,6 +22,8 @@ class WatchedRobot(msgspec.Struct):
     robot: RobotConfig
     facts: FactList = msgspec.field(default_factory=FactList)
     """Facts about all that the last build has read or written, and about the configuration."""
+    index: Mapping[Entry, int] = {}
+    """The number of each entry."""
     seen: Sequence[Facts] = ()
     """The facts at the last look."""
     changes: Sequence[Entry] = ()
@@ -56,7 +59,15 @@ class WatchedRobot(msgspec.Struct):
         before = set(self.facts.entries)
         # without entries, a bug ended the build: do not repeat the build
         self.facts = facts.extended(config) if facts.entries else self.facts.renewed()
+        self.index, self.seen = {entry: number for number, entry in enumerate(self.facts.entries)}, ()
         return before != set(self.facts.entries)
+
+    def has_seen(self, present: Mapping[Entry, Facts]) -> bool:
+        """Return whether the last look found these facts. A file that is young now may have changed since."""
+        now = time.time_ns()
+        own = {entry: self.index[entry] for entry in present.keys() & self.index.keys()}
+        is_same = all(self.seen[number : number + 1] == [present[entry]] for entry, number in own.items())
+        return is_same and not any(entry[0] == PATH and is_young(present[entry], now) for entry in own)
 
     def look(self) -> bool:
         """Look at all entries; return whether one of them changed since the last look."""
