@@ -289,8 +289,10 @@ def _origin(at: _Array, same: Origin | None) -> Origin:
 
 
 def _inertial(inertial: Inertial, change: _Array, same: Inertial | None) -> Inertial:
-    """Return mass and inertia in the axes of a link; `change` is the pose of the frame in which they are given."""
-    reference = _inertial(same, np.eye(4), None) if same else None
+    """Return mass and inertia in the axes of a link; `change` is the pose of the frame in which they are given.
+
+    `same` is in the axes of the link already. To round it again would change its last digit.
+    """
     at = change @ _matrix(pose(inertial.origin))
     rows = tuple(tuple(map(float, row)) for row in at[:3, :3])
     tensor, size = turned_inertia(rows, inertial.inertia), inertial.inertia.trace or 1.0  # type: ignore[arg-type]
@@ -299,11 +301,11 @@ def _inertial(inertial: Inertial, change: _Array, same: Inertial | None) -> Iner
         mass = same.mass
     places = {"ixx": (0, 0), "iyy": (1, 1), "izz": (2, 2), "ixy": (0, 1), "ixz": (0, 2), "iyz": (1, 2)}
     numbers = {name: tensor[row][column] for name, (row, column) in places.items()}
-    known = reference.inertia if reference else None
+    known = same.inertia if same else None
     groups = [("ixx", "iyy", "izz"), ("ixy", "ixz", "iyz")]
     found = dict[str, float]()
     for names in groups:
         others: Any = known and tuple(getattr(known, name) for name in names)
         found |= dict(zip(names, _near([numbers[name] for name in names], others, size), strict=True))
-    xyz = _near(at[:3, 3], reference.origin.xyz if reference else None)
+    xyz = _near(at[:3, 3], same.origin.xyz if same else None)
     return Inertial(mass, Origin(xyz), Inertia(**found))
