@@ -199,3 +199,28 @@ def test_a_new_part_is_not_the_removed_part_at_its_place(folder: Path, execute: 
     names = renamed(execute)
     assert len(names) == 15
     assert not {"FR_calf", "FR_knee"} & {*names}
+
+
+def with_tool(tool: str, place: str, friction: str, motor: str) -> str:
+    """An MJCF of a floating arm, whose names of the tool, place of the tool, friction and kind of motor may differ."""
+    inertial = '<inertial pos="0 0 0" mass="2" diaginertia="0.1 0.1 0.1"/>'
+    arm = f'<body name="arm"><joint name="j"/>{inertial}<site name="{tool}" pos="0 0 {place}"/></body>'
+    trunk = f'<freejoint/><inertial pos="0 0 0" mass="5" diaginertia="1 1 1"/><geom size="0.1" friction="{friction}"/>'
+    robot = f'<worldbody><body name="trunk">{trunk}{arm}</body></worldbody>'
+    return f'<mujoco model="arm">{robot}<actuator><{motor} joint="j"/></actuator></mujoco>'
+
+
+def test_frames_contacts_and_commands_make_no_difference_in_motion(pair: Path, execute: Execute) -> None:
+    Path("arm.xml").write_text(with_tool("tool", "0.3", "0.7", "motor"))
+    Path("other.xml").write_text(with_tool("tcp", "0.295", "0.6", "position"))
+    assert "other.xml: no difference in motion against arm.xml" in execute("diff", "arm.xml", "other.xml").lines
+
+
+def test_a_frame_without_mass_counts_if_the_other_source_has_a_mass_there(pair: Path, execute: Execute) -> None:
+    text = with_tool("tool", "0.3", "0.7", "motor")
+    Path("arm.xml").write_text(text)
+    inertial = '<inertial pos="0 0 0" mass="0.2" diaginertia="0.001 0.001 0.001"/>'
+    site = '<site name="tool" pos="0 0 0.3"/>'
+    Path("other.xml").write_text(text.replace(site, f'<body name="tool" pos="0 0 0.3">{inertial}</body>'))
+    (line,) = [line for line in changed(execute, "arm.xml", "other.xml") if "free-root" not in line]
+    assert line.startswith("link tool: inertial added: ")

@@ -1,9 +1,10 @@
 """Two robots from different sources, as far as they differ in motion: both in the frames of the first.
 
-A URDF and an MJCF of one robot have other frames, shapes and names, and move alike. So shapes, sensors, starts and
-frames without mass are left out, and the frames of the second robot are moved to those of the first, with all joints at
-zero. A frame stays on the axis of its joint: if the axis is elsewhere, the origin of the joint differs. A rotor behind
-a gear counts as armature. Files have numbers with six digits or more: what agrees up to that is the same.
+A URDF and an MJCF of one robot have other frames, shapes and names, and move alike. So shapes, contacts, sensors,
+starts, commands, and frames without mass are left out. The frames of the second robot are moved to those of the first,
+with all joints at zero. A frame stays on the axis of its joint: if the axis is elsewhere, the origin of the joint
+differs. A rotor behind a gear counts as armature. Files have numbers with six digits or more: what agrees up to that is
+the same.
 """
 
 from __future__ import annotations
@@ -48,9 +49,11 @@ def in_common_frames(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) 
         {renames.get((kind, name), name): name for name in names if (kind, name) not in gone}
         for kind, names in (("link", [each.name for each in old.links]), ("joint", [each.name for each in old.joints]))
     )
-    there = {link.name for link in new.links}
-    old = _in_link_axes(_moving(old, {name for new_name, name in links.items() if new_name in there}))
-    new = replace(_moving(new, {*links}), name=old.name)
+    # a frame without mass counts if the other robot has a mass or a joint there
+    olds, news = ({link.name for link in _moving(robot, set()).links} for robot in (old, new))
+    pairs = [(new_name, name) for new_name, name in links.items() if name in olds or new_name in news]
+    old = _in_link_axes(_moving(old, {name for _, name in pairs}))
+    new = replace(_moving(new, {new_name for new_name, _ in pairs}), name=old.name)
     return old, _Frames(old, new, links, joints).moved()
 
 
@@ -90,10 +93,10 @@ def _coarse(number: float) -> float:
     return float(f"{number:.4g}")
 
 
-def _moving(robot: Robot, matched: set[str]) -> Robot:
-    """Return the robot without its shapes, and without unmatched frames that have no mass and no freedom."""
+def _moving(robot: Robot, needed: set[str]) -> Robot:
+    """Return the robot without its shapes, and without frames that have no mass and no freedom and are not `needed`."""
     links, joints = {link.name: link for link in robot.links}, {joint.child: effective(joint) for joint in robot.joints}
-    held = {end for loop in robot.loops for end in (loop.parent, loop.child)} | matched
+    held = {end for loop in robot.loops for end in (loop.parent, loop.child)} | needed
     loose = [link.name for link in robot.links if link.inertial is None and link.name not in held]
     for name in loose:
         above, below = joints.get(name), [joint for joint in joints.values() if joint.parent == name]
@@ -104,7 +107,7 @@ def _moving(robot: Robot, matched: set[str]) -> Robot:
             del links[name], joints[name]
         elif above is None and [joint.type for joint in below] == ["fixed"]:
             del links[name], joints[below[0].child]
-    kept = tuple(replace(link, visuals=(), collisions=()) for link in links.values())
+    kept = tuple(replace(link, visuals=(), collisions=(), contact=None) for link in links.values())
     moving = tuple(map(_motion_of, joints.values()))
     return replace(robot, links=kept, joints=moving, sensors=(), extensions={})
 
@@ -116,7 +119,7 @@ def _motion_of(joint: Joint) -> Joint:
         inertia = reflected_inertia(joint)
         dynamics = replace(dynamics or Dynamics(), armature=inertia) if inertia else dynamics
         gear = None
-    without = dict.fromkeys(("calibration", "safety_controller", "start", "motor"))
+    without = dict.fromkeys(("calibration", "safety_controller", "start", "motor", "command"))
     return replace(joint, dynamics=None if dynamics == Dynamics() else dynamics, transmission=gear, **without)
 
 
