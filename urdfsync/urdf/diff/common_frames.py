@@ -5,6 +5,9 @@ starts, commands, and frames without mass are left out. The frames of the second
 with all joints at zero. A frame stays on the axis of its joint: if the axis is elsewhere, the origin of the joint
 differs. A rotor behind a gear counts as armature. Files have numbers with six digits or more: what agrees up to that is
 the same.
+
+The root frame's z-axis points upwards. If the robots, brought together, disagree about this direction, both stand on a
+joint `world_fixed`, whose origin tells it. Numbers of the robots themselves would then differ everywhere.
 """
 
 from __future__ import annotations
@@ -24,6 +27,7 @@ from urdfsync.urdf.robot import (
     Inertia,
     Inertial,
     Joint,
+    Link,
     Loop,
     Origin,
     Robot,
@@ -40,6 +44,7 @@ _ALIKE = 1e-5
 _NEAR = 0.01
 """In m: if the links of two robots are no farther apart, the robots have one root frame."""
 _DIGITS = 9
+_UP = np.array([0.0, 0.0, 1.0])
 
 
 def in_common_frames(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> tuple[Robot, Robot]:
@@ -52,9 +57,15 @@ def in_common_frames(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) 
     # a frame without mass counts if the other robot has a mass or a joint there
     olds, news = ({link.name for link in _moving(robot, set()).links} for robot in (old, new))
     pairs = [(new_name, name) for new_name, name in links.items() if name in olds or new_name in news]
-    old = _in_link_axes(_moving(old, {name for _, name in pairs}))
-    new = replace(_moving(new, {new_name for new_name, _ in pairs}), name=old.name)
-    return old, _Frames(old, new, links, joints).moved()
+    old_part = _in_link_axes(_moving(old, {name for _, name in pairs}))
+    new_part = replace(_moving(new, {new_name for new_name, _ in pairs}), name=old.name)
+    stands = _stand(old, old_part), _stand(new, new_part)
+    frames = _Frames(old_part, new_part, links, joints, (stands[0][2], stands[1][2]))
+    moved = frames.moved()
+    up = stands[0] @ frames.placed[:3, :3] @ stands[1][2]
+    if np.abs(up - _UP).max() < _SAME:
+        return old_part, moved
+    return _mounted(old_part, stands[0]), _mounted(moved, _upright(up) @ stands[0])
 
 
 def coarse_features(robot: Robot) -> Mapping[ElementKey, Features]:
@@ -112,6 +123,31 @@ def _moving(robot: Robot, needed: set[str]) -> Robot:
     return replace(robot, links=kept, joints=moving, sensors=(), extensions={})
 
 
+def _stand(robot: Robot, part: Robot) -> _Array:
+    """Return the axes of the root link of `part` in the root frame of the robot, whose z-axis points upwards."""
+    root = KinematicTree.of(part).links[0].name
+    return _poses(robot)[root][:3, :3]
+
+
+def _upright(up: _Array) -> _Array:
+    """Return the smallest turn that brings a unit vector to the z-axis."""
+    x, y, z = up
+    if z < _SAME - 1:  # upside down: any horizontal axis will do
+        return np.diag([1.0, -1.0, -1.0])
+    cross = np.array([[0.0, 0.0, -x], [0.0, 0.0, -y], [x, y, 0.0]])
+    return np.asarray(np.eye(3) + cross + cross @ cross / (1 + z))
+
+
+def _mounted(robot: Robot, turn: _Array) -> Robot:
+    """Return the robot on a link `world`, to which its root is fixed in this orientation."""
+    root, names = KinematicTree.of(robot).links[0].name, {link.name for link in robot.links}
+    world = "world" if "world" not in names else "upright_world"
+    at = np.eye(4)
+    at[:3, :3] = turn
+    mount = Joint(f"{world}_fixed", "fixed", world, root, _origin(at, None))
+    return replace(robot, links=(Link(world), *robot.links), joints=(mount, *robot.joints))
+
+
 def _motion_of(joint: Joint) -> Joint:
     """Return a joint without numbers that do not move it; what its drive adds to the inertia is its armature."""
     gear, dynamics = joint.transmission, joint.dynamics
@@ -150,8 +186,18 @@ def _in_link_axes(robot: Robot) -> Robot:
 class _Frames:
     """The frames of two robots in the root frame of the first, with all joints at zero."""
 
-    def __init__(self, old: Robot, new: Robot, links: Mapping[str, str], joints: Mapping[str, str]) -> None:
-        """`links` and `joints` are the old names of matched elements, by their new names."""
+    def __init__(
+        self,
+        old: Robot,
+        new: Robot,
+        links: Mapping[str, str],
+        joints: Mapping[str, str],
+        upwards: tuple[_Array, _Array],
+    ) -> None:
+        """`links` and `joints` are the old names of matched elements, by their new names.
+
+        `upwards` are the vertical directions in both root frames.
+        """
         self.old, self.new = old, new
         poses, others = _poses(old), _poses(new)
         olds = {joint.name: joint for joint in old.joints}
@@ -163,15 +209,18 @@ class _Frames:
             for name, first in links.items()
             if first == link.name and (inertial := link.inertial)
         }
-        placed = self._alignment(others)
-        self.before = {name: placed @ at for name, at in others.items()}
+        self.placed = self._alignment(others, upwards)
+        self.before = {name: self.placed @ at for name, at in others.items()}
         self.after = dict(self.before)
         above = {joint.child: joint for joint in new.joints}
         for name, at in self.links.items():
             self.after[name] = self._on_axis(at, self.before[name], above.get(name))
 
-    def _alignment(self, others: Mapping[str, _Array]) -> _Array:
-        """Return the pose of the second root frame in the first that brings masses and axes together best."""
+    def _alignment(self, others: Mapping[str, _Array], upwards: tuple[_Array, _Array]) -> _Array:
+        """Return the pose of the second root frame in the first that brings masses and axes together best.
+
+        If several are best, both robots stand upright in the pose, if they can.
+        """
         centres = [
             (self.links[each.name] @ _point(self.inertials[each.name]), others[each.name] @ _point(each.inertial))
             for each in self.new.links
@@ -188,6 +237,9 @@ class _Frames:
             turned = sum(1 - abs(float(first @ (placed[:3, :3] @ second))) for first, second in axes)
             return round(apart + turned, 9)
 
+        def rank(placed: _Array) -> tuple[float, bool]:
+            return gap(placed), bool(np.abs(upwards[0] - placed[:3, :3] @ upwards[1]).max() > _SAME)
+
         candidates = [np.eye(4)]
         for name, at in self.links.items():
             turned = np.eye(4)
@@ -197,7 +249,7 @@ class _Frames:
                 turned = turned.copy()
                 turned[:, 3] += np.median([first - turned @ second for first, second in centres], axis=0)
                 candidates.append(turned)
-        best = min(candidates, key=gap)
+        best = min(candidates, key=rank)
         # the roots stay together if the robots do so, too: then the height of a shoulder shows at the shoulder
         best_turn = np.eye(4)
         best_turn[:3, :3] = best[:3, :3]
