@@ -98,3 +98,8 @@ def test_frames_that_are_turned_in_a_robot_that_stands_alike_make_no_difference(
     first, second = in_common_frames(old, new, {})
     assert first == second
     assert len(mounts(old, without_world(new))) == 2
+
+
+def test_a_rounded_angle_is_no_tilt() -> None:
+    """Exporters write 1.5708 for a right angle, which other formats have with all digits."""
+    assert mounts(standing((pi / 2, 0.0, 0.0)), standing((1.5708, 0.0, 0.0))) == []

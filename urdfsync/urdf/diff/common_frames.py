@@ -40,7 +40,7 @@ _Array: TypeAlias = NDArray[np.float64]
 _SAME = 1e-6
 """The greatest difference of equal numbers: in m, as a sine, or as a fraction of an inertia's trace."""
 _ALIKE = 1e-5
-"""The greatest relative difference of other equal numbers."""
+"""The greatest relative difference of other equal numbers, and the greatest tilt in rad."""
 _NEAR = 0.01
 """In m: if the links of two robots are no farther apart, the robots have one root frame."""
 _DIGITS = 9
@@ -63,7 +63,7 @@ def in_common_frames(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) 
     frames = _Frames(old_part, new_part, links, joints, (stands[0][2], stands[1][2]))
     moved = frames.moved()
     up = stands[0] @ frames.placed[:3, :3] @ stands[1][2]
-    if np.abs(up - _UP).max() < _SAME:
+    if np.abs(up - _UP).max() < _ALIKE:  # files have angles such as 1.5708
         return old_part, moved
     return _mounted(old_part, stands[0]), _mounted(moved, _upright(up) @ stands[0])
 
@@ -238,7 +238,7 @@ class _Frames:
             return round(apart + turned, 9)
 
         def rank(placed: _Array) -> tuple[float, bool]:
-            return gap(placed), bool(np.abs(upwards[0] - placed[:3, :3] @ upwards[1]).max() > _SAME)
+            return gap(placed), bool(np.abs(upwards[0] - placed[:3, :3] @ upwards[1]).max() > _ALIKE)
 
         candidates = [np.eye(4)]
         for name, at in self.links.items():
