@@ -92,7 +92,7 @@ class Formats(Protocol):
     def coarse_features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
         """Return features that another format of the same model has, too.
 
-        They count if hardly any element of two versions matches by the domain's `features`.
+        They count for elements of two versions that do not match by the domain's `features`.
         """
         ...
 

@@ -123,3 +123,109 @@ def test_edits_follow_a_source_that_changes_its_format(pair: Path, execute: Exec
     assert [file.stem for file in joints.glob("*.mo") if "mine = 1" in file.read_text()] == (
         ["Elbow"] if second == "arm.xml" else ["Elbow_joint"]
     )
+
+
+LEGS = {"FL": ("leg1", 0.2, 0.1), "FR": ("leg2", 0.2, -0.1), "RL": ("leg3", -0.2, 0.1), "RR": ("leg0", -0.2, -0.1)}
+"""Names of a leg in both formats, and the place of its hip."""
+CAMERA = (
+    '<body name="camera"><joint name="pan"/><inertial pos="0 0 0" mass="0.2" diaginertia="0.001 0.002 0.003"/></body>'
+)
+
+
+def dog_urdf() -> str:
+    """A trunk with four equal legs, and equal knees in them."""
+    limits = '<limit lower="-2" upper="-0.1" effort="20" velocity="10"/>'
+    bodies = {"thigh": ("1", "0.01", "0.002"), "calf": ("0.3", "0.001", "0.0002")}
+    parts = [f'<link name="trunk"><inertial><mass value="5"/>{inertia("0.02", "0.04")}</inertial></link>']
+    for leg, (_, x, y) in LEGS.items():
+        for part, (mass, *moments) in bodies.items():
+            inertial = f'<origin xyz="0 0 -0.1"/><mass value="{mass}"/>{inertia(*moments)}'
+            parts.append(f'<link name="{leg}_{part}"><inertial>{inertial}</inertial></link>')
+        for name, parent, child, place in (
+            ("hip", "trunk", f"{leg}_thigh", f"{x} {y} 0"),
+            ("knee", f"{leg}_thigh", f"{leg}_calf", "0 0 -0.2"),
+        ):
+            ends = f'<parent link="{parent}"/><child link="{child}"/><origin xyz="{place}"/><axis xyz="0 1 0"/>'
+            parts.append(f'<joint name="{leg}_{name}" type="revolute">{ends}{limits}</joint>')
+    return f'<robot name="dog" version="1.2">{"".join(parts)}</robot>'
+
+
+def inertia(across: str, along: str) -> str:
+    return f'<inertia ixx="{across}" iyy="{across}" izz="{along}" ixy="0" ixz="0" iyz="0"/>'
+
+
+def dog_mjcf(*, without_calf: str = "") -> str:
+    """The same dog with other names, and in another order; a camera is in the place of the calf of one leg."""
+    bodies = []
+    for leg, x, y in sorted(LEGS.values()):
+        hinge = 'axis="0 1 0" range="-2 -0.1" actuatorfrcrange="-20 20"'
+        calf = (
+            f'<body name="{leg}_lower" pos="0 0 -0.2"><joint name="{leg}_q2" {hinge}/>'
+            '<inertial pos="0 0 -0.1" mass="0.3" diaginertia="0.001 0.001 0.0002"/></body>'
+        )
+        bodies.append(
+            f'<body name="{leg}_upper" pos="{x} {y} 0"><joint name="{leg}_q1" {hinge}/>'
+            '<inertial pos="0 0 -0.1" mass="1" diaginertia="0.01 0.01 0.002"/>'
+            f"{CAMERA if leg == without_calf else calf}</body>"
+        )
+    trunk = '<inertial pos="0 0 0" mass="5" diaginertia="0.02 0.02 0.04"/>'
+    return (
+        '<mujoco model="dog"><compiler angle="radian"/><worldbody>'
+        f'<body name="base">{trunk}{"".join(bodies)}</body></worldbody></mujoco>'
+    )
+
+
+def renamed(execute: Execute) -> dict[str, str]:
+    """Return the new names of all elements."""
+    (found,) = execute("diff", "--format=json", "dog.urdf", "dog.xml", code=1).json["results"]
+    changes = found["result"]["changes"]["changes"]
+    return {each["path"][0].partition(" ")[2]: each["new"] for each in changes if each["kind"] == "renamed"}
+
+
+def test_equal_legs_match_in_another_format(folder: Path, execute: Execute) -> None:
+    """Their places on the trunk tell them apart, and an edit of a knee follows its leg."""
+    Path("dog.urdf").write_text(dog_urdf())
+    Path("dog.xml").write_text(dog_mjcf())
+    new_parts = {"thigh": "upper", "calf": "lower", "hip": "q1", "knee": "q2"}
+    names = {f"{old}_{part}": f"{new}_{to}" for old, (new, *_) in LEGS.items() for part, to in new_parts.items()}
+    assert renamed(execute) == {"trunk": "base", **names}
+    execute("init", "dog.urdf")
+    execute("build")
+    edit("modelica/Dog/Joints/FR_knee.mo", "equation\n", "  parameter Real mine = 1;\n\nequation\n")
+    edit("urdfsync.toml", "dog.urdf", "dog.xml")
+    execute("build", code=None)
+    assert "mine = 1" in Path("modelica/Dog/Joints/Leg2_q2.mo").read_text()
+
+
+def test_a_new_part_is_not_the_removed_part_at_its_place(folder: Path, execute: Execute) -> None:
+    """The rest of the dog matches, so the camera is no calf."""
+    Path("dog.urdf").write_text(dog_urdf())
+    Path("dog.xml").write_text(dog_mjcf(without_calf="leg2"))
+    names = renamed(execute)
+    assert len(names) == 15
+    assert not {"FR_calf", "FR_knee"} & {*names}
+
+
+def with_tool(tool: str, place: str, friction: str, motor: str) -> str:
+    """An MJCF of a floating arm, whose names of the tool, place of the tool, friction and kind of motor may differ."""
+    inertial = '<inertial pos="0 0 0" mass="2" diaginertia="0.1 0.1 0.1"/>'
+    arm = f'<body name="arm"><joint name="j"/>{inertial}<site name="{tool}" pos="0 0 {place}"/></body>'
+    trunk = f'<freejoint/><inertial pos="0 0 0" mass="5" diaginertia="1 1 1"/><geom size="0.1" friction="{friction}"/>'
+    robot = f'<worldbody><body name="trunk">{trunk}{arm}</body></worldbody>'
+    return f'<mujoco model="arm">{robot}<actuator><{motor} joint="j"/></actuator></mujoco>'
+
+
+def test_frames_contacts_and_commands_make_no_difference_in_motion(pair: Path, execute: Execute) -> None:
+    Path("arm.xml").write_text(with_tool("tool", "0.3", "0.7", "motor"))
+    Path("other.xml").write_text(with_tool("tcp", "0.295", "0.6", "position"))
+    assert "other.xml: no difference in motion against arm.xml" in execute("diff", "arm.xml", "other.xml").lines
+
+
+def test_a_frame_without_mass_counts_if_the_other_source_has_a_mass_there(pair: Path, execute: Execute) -> None:
+    text = with_tool("tool", "0.3", "0.7", "motor")
+    Path("arm.xml").write_text(text)
+    inertial = '<inertial pos="0 0 0" mass="0.2" diaginertia="0.001 0.001 0.001"/>'
+    site = '<site name="tool" pos="0 0 0.3"/>'
+    Path("other.xml").write_text(text.replace(site, f'<body name="tool" pos="0 0 0.3">{inertial}</body>'))
+    (line,) = [line for line in changed(execute, "arm.xml", "other.xml") if "free-root" not in line]
+    assert line.startswith("link tool: inertial added: ")

@@ -27,8 +27,8 @@ def find_matching(
 
     Declared renames of a kind (links, joints) are ignored if the old version has the new names already. That is so if
     an element with one of the old names is equal in both versions. If `is_pending`, this element must also differ from
-    the element with the new name: elements that look alike prove nothing. If the new version `has_other_format`, and
-    fewer than half of the elements match, the others match by features that all formats have.
+    the element with the new name: elements that look alike prove nothing. If the new version `has_other_format`, the
+    elements without a match match by features that all formats have, and by places alone if they are more than half.
     """
     if old == new and not (declared and is_pending):
         return Matching()
@@ -42,10 +42,16 @@ def find_matching(
     }
     named = {key: new for key, new in named.items() if key[0] not in done}
     matching = match(before, after, named)
-    if not has_other_format or 2 * len(_pairs(before, after, matching)) >= min(len(before), len(after)):
+    pairs = _pairs(before, after, matching) if has_other_format else {}
+    count = min(len(before), len(after))
+    if not has_other_format or len(pairs) == count:
         return matching
     formats = domain.formats  # loads numpy, which takes as long as a build of a changed mass
-    return _matched_coarsely(formats, old, new, matching) if formats else matching
+    if formats is None:
+        return matching
+    # if most elements match, a part that matches by its place alone may be a new part at the place of a removed one
+    further = _coarse_renames(formats, old, new, matching, pairs, by_places=2 * len(pairs) < count)
+    return Matching({**further, **matching.renames}, matching.doubts)
 
 
 def _has_other_format(inputs: Inputs) -> bool:
@@ -60,18 +66,31 @@ def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[Elemen
     return {key: to for key, to in new.items() if to in after}
 
 
-def _matched_coarsely(formats: Formats, old: Snapshot, new: Snapshot, matching: Matching) -> Matching:
-    """Return a matching with further pairs: by features that other formats have, too, then by unique places alone."""
-    before, after = formats.coarse_features(old), formats.coarse_features(new)
-    for has_contents in (True, False):
+def _coarse_renames(
+    formats: Formats,
+    old: Snapshot,
+    new: Snapshot,
+    matching: Matching,
+    pairs: Mapping[ElementKey, ElementKey],
+    *,
+    by_places: bool,
+) -> dict[ElementKey, str]:
+    """Return the renames of elements that are not in `pairs`: by features of all formats, then `by_places` alone.
+
+    `pairs` are the matched elements. A pair stays as it is even if its elements have no coarse features.
+    """
+    before, after, renames = formats.coarse_features(old), formats.coarse_features(new), dict[ElementKey, str]()
+    matched, taken = set(pairs), set(pairs.values())
+    for has_contents in (True, False) if by_places else (True,):
         sides = [before, after]
         if not has_contents:
             sides = [{key: Features({}, each.neighbours) for key, each in side.items()} for side in sides]
-        further = match(sides[0], sides[1], _pairs(sides[0], sides[1], matching))
-        taken = {(kind, name) for (kind, _), name in matching.renames.items()}
-        added = {key: name for key, name in further.renames.items() if (key[0], name) not in taken}
-        matching = Matching({**added, **matching.renames}, matching.doubts)
-    return matching
+        known = _pairs(sides[0], sides[1], Matching({**renames, **matching.renames}))
+        for key, name in match(sides[0], sides[1], known).renames.items():
+            if key not in matched and (key[0], name) not in taken:
+                renames[key] = name
+        matched, taken = {*matched, *renames}, {*taken, *((kind, name) for (kind, _), name in renames.items())}
+    return renames
 
 
 def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:

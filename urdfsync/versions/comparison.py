@@ -282,7 +282,10 @@ def _with_version(
         formats = domain.formats
         if formats is not None:
             old, new = map(Version, formats.in_common_frames(old.snapshot, new.snapshot, matching.renames))
-        matching = Matching(matching.renames)  # no file has the name of a doubtful element
+        existing = domain.features(old.snapshot), domain.features(new.snapshot)
+        pairs = [(key, (key[0], name)) for key, name in matching.renames.items()]
+        renames = {key: to[1] for key, to in pairs if key in existing[0] and to in existing[1]}
+        matching = Matching(renames)  # no file has the name of a doubtful element
     differences = changes.compare(old, new, domain, robot.options, matching)
     if is_pair:
         told = tuple(robot.without_ignored(finding for finding in told if (finding.code, finding.message) not in known))

@@ -1,9 +1,13 @@
 """Two robots from different sources, as far as they differ in motion: both in the frames of the first.
 
-A URDF and an MJCF of one robot have other frames, shapes and names, and move alike. So shapes, sensors, starts and
-frames without mass are left out, and the frames of the second robot are moved to those of the first, with all joints at
-zero. A frame stays on the axis of its joint: if the axis is elsewhere, the origin of the joint differs. A rotor behind
-a gear counts as armature. Files have numbers with six digits or more: what agrees up to that is the same.
+A URDF and an MJCF of one robot have other frames, shapes and names, and move alike. So shapes, contacts, sensors,
+starts, commands, and frames without mass are left out. The frames of the second robot are moved to those of the first,
+with all joints at zero. A frame stays on the axis of its joint: if the axis is elsewhere, the origin of the joint
+differs. A rotor behind a gear counts as armature. Files have numbers with six digits or more: what agrees up to that is
+the same.
+
+The root frame's z-axis points upwards. If the robots, brought together, disagree about this direction, both stand on a
+joint `world_fixed`, whose origin tells it. Numbers of the robots themselves would then differ everywhere.
 """
 
 from __future__ import annotations
@@ -23,6 +27,7 @@ from urdfsync.urdf.robot import (
     Inertia,
     Inertial,
     Joint,
+    Link,
     Loop,
     Origin,
     Robot,
@@ -35,10 +40,11 @@ _Array: TypeAlias = NDArray[np.float64]
 _SAME = 1e-6
 """The greatest difference of equal numbers: in m, as a sine, or as a fraction of an inertia's trace."""
 _ALIKE = 1e-5
-"""The greatest relative difference of other equal numbers."""
+"""The greatest relative difference of other equal numbers, and the greatest tilt in rad."""
 _NEAR = 0.01
 """In m: if the links of two robots are no farther apart, the robots have one root frame."""
 _DIGITS = 9
+_UP = np.array([0.0, 0.0, 1.0])
 
 
 def in_common_frames(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> tuple[Robot, Robot]:
@@ -48,10 +54,18 @@ def in_common_frames(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) 
         {renames.get((kind, name), name): name for name in names if (kind, name) not in gone}
         for kind, names in (("link", [each.name for each in old.links]), ("joint", [each.name for each in old.joints]))
     )
-    there = {link.name for link in new.links}
-    old = _in_link_axes(_moving(old, {name for new_name, name in links.items() if new_name in there}))
-    new = replace(_moving(new, {*links}), name=old.name)
-    return old, _Frames(old, new, links, joints).moved()
+    # a frame without mass counts if the other robot has a mass or a joint there
+    olds, news = ({link.name for link in _moving(robot, set()).links} for robot in (old, new))
+    pairs = [(new_name, name) for new_name, name in links.items() if name in olds or new_name in news]
+    old_part = _in_link_axes(_moving(old, {name for _, name in pairs}))
+    new_part = replace(_moving(new, {new_name for new_name, _ in pairs}), name=old.name)
+    stands = _stand(old, old_part), _stand(new, new_part)
+    frames = _Frames(old_part, new_part, links, joints, (stands[0][2], stands[1][2]))
+    moved = frames.moved()
+    up = stands[0] @ frames.placed[:3, :3] @ stands[1][2]
+    if np.abs(up - _UP).max() < _ALIKE:  # files have angles such as 1.5708
+        return old_part, moved
+    return _mounted(old_part, stands[0]), _mounted(moved, _upright(up) @ stands[0])
 
 
 def coarse_features(robot: Robot) -> Mapping[ElementKey, Features]:
@@ -90,10 +104,10 @@ def _coarse(number: float) -> float:
     return float(f"{number:.4g}")
 
 
-def _moving(robot: Robot, matched: set[str]) -> Robot:
-    """Return the robot without its shapes, and without unmatched frames that have no mass and no freedom."""
+def _moving(robot: Robot, needed: set[str]) -> Robot:
+    """Return the robot without its shapes, and without frames that have no mass and no freedom and are not `needed`."""
     links, joints = {link.name: link for link in robot.links}, {joint.child: effective(joint) for joint in robot.joints}
-    held = {end for loop in robot.loops for end in (loop.parent, loop.child)} | matched
+    held = {end for loop in robot.loops for end in (loop.parent, loop.child)} | needed
     loose = [link.name for link in robot.links if link.inertial is None and link.name not in held]
     for name in loose:
         above, below = joints.get(name), [joint for joint in joints.values() if joint.parent == name]
@@ -104,9 +118,34 @@ def _moving(robot: Robot, matched: set[str]) -> Robot:
             del links[name], joints[name]
         elif above is None and [joint.type for joint in below] == ["fixed"]:
             del links[name], joints[below[0].child]
-    kept = tuple(replace(link, visuals=(), collisions=()) for link in links.values())
+    kept = tuple(replace(link, visuals=(), collisions=(), contact=None) for link in links.values())
     moving = tuple(map(_motion_of, joints.values()))
     return replace(robot, links=kept, joints=moving, sensors=(), extensions={})
+
+
+def _stand(robot: Robot, part: Robot) -> _Array:
+    """Return the axes of the root link of `part` in the root frame of the robot, whose z-axis points upwards."""
+    root = KinematicTree.of(part).links[0].name
+    return _poses(robot)[root][:3, :3]
+
+
+def _upright(up: _Array) -> _Array:
+    """Return the smallest turn that brings a unit vector to the z-axis."""
+    x, y, z = up
+    if z < _SAME - 1:  # upside down: any horizontal axis will do
+        return np.diag([1.0, -1.0, -1.0])
+    cross = np.array([[0.0, 0.0, -x], [0.0, 0.0, -y], [x, y, 0.0]])
+    return np.asarray(np.eye(3) + cross + cross @ cross / (1 + z))
+
+
+def _mounted(robot: Robot, turn: _Array) -> Robot:
+    """Return the robot on a link `world`, to which its root is fixed in this orientation."""
+    root, names = KinematicTree.of(robot).links[0].name, {link.name for link in robot.links}
+    world = "world" if "world" not in names else "upright_world"
+    at = np.eye(4)
+    at[:3, :3] = turn
+    mount = Joint(f"{world}_fixed", "fixed", world, root, _origin(at, None))
+    return replace(robot, links=(Link(world), *robot.links), joints=(mount, *robot.joints))
 
 
 def _motion_of(joint: Joint) -> Joint:
@@ -116,7 +155,7 @@ def _motion_of(joint: Joint) -> Joint:
         inertia = reflected_inertia(joint)
         dynamics = replace(dynamics or Dynamics(), armature=inertia) if inertia else dynamics
         gear = None
-    without = dict.fromkeys(("calibration", "safety_controller", "start", "motor", "servo"))
+    without = dict.fromkeys(("calibration", "safety_controller", "start", "motor", "servo", "command"))
     return replace(joint, dynamics=None if dynamics == Dynamics() else dynamics, transmission=gear, **without)
 
 
@@ -147,8 +186,18 @@ def _in_link_axes(robot: Robot) -> Robot:
 class _Frames:
     """The frames of two robots in the root frame of the first, with all joints at zero."""
 
-    def __init__(self, old: Robot, new: Robot, links: Mapping[str, str], joints: Mapping[str, str]) -> None:
-        """`links` and `joints` are the old names of matched elements, by their new names."""
+    def __init__(
+        self,
+        old: Robot,
+        new: Robot,
+        links: Mapping[str, str],
+        joints: Mapping[str, str],
+        upwards: tuple[_Array, _Array],
+    ) -> None:
+        """`links` and `joints` are the old names of matched elements, by their new names.
+
+        `upwards` are the vertical directions in both root frames.
+        """
         self.old, self.new = old, new
         poses, others = _poses(old), _poses(new)
         olds = {joint.name: joint for joint in old.joints}
@@ -160,15 +209,18 @@ class _Frames:
             for name, first in links.items()
             if first == link.name and (inertial := link.inertial)
         }
-        placed = self._alignment(others)
-        self.before = {name: placed @ at for name, at in others.items()}
+        self.placed = self._alignment(others, upwards)
+        self.before = {name: self.placed @ at for name, at in others.items()}
         self.after = dict(self.before)
         above = {joint.child: joint for joint in new.joints}
         for name, at in self.links.items():
             self.after[name] = self._on_axis(at, self.before[name], above.get(name))
 
-    def _alignment(self, others: Mapping[str, _Array]) -> _Array:
-        """Return the pose of the second root frame in the first that brings masses and axes together best."""
+    def _alignment(self, others: Mapping[str, _Array], upwards: tuple[_Array, _Array]) -> _Array:
+        """Return the pose of the second root frame in the first that brings masses and axes together best.
+
+        If several are best, both robots stand upright in the pose, if they can.
+        """
         centres = [
             (self.links[each.name] @ _point(self.inertials[each.name]), others[each.name] @ _point(each.inertial))
             for each in self.new.links
@@ -185,6 +237,9 @@ class _Frames:
             turned = sum(1 - abs(float(first @ (placed[:3, :3] @ second))) for first, second in axes)
             return round(apart + turned, 9)
 
+        def rank(placed: _Array) -> tuple[float, bool]:
+            return gap(placed), bool(np.abs(upwards[0] - placed[:3, :3] @ upwards[1]).max() > _ALIKE)
+
         candidates = [np.eye(4)]
         for name, at in self.links.items():
             turned = np.eye(4)
@@ -194,7 +249,7 @@ class _Frames:
                 turned = turned.copy()
                 turned[:, 3] += np.median([first - turned @ second for first, second in centres], axis=0)
                 candidates.append(turned)
-        best = min(candidates, key=gap)
+        best = min(candidates, key=rank)
         # the roots stay together if the robots do so, too: then the height of a shoulder shows at the shoulder
         best_turn = np.eye(4)
         best_turn[:3, :3] = best[:3, :3]
@@ -289,8 +344,10 @@ def _origin(at: _Array, same: Origin | None) -> Origin:
 
 
 def _inertial(inertial: Inertial, change: _Array, same: Inertial | None) -> Inertial:
-    """Return mass and inertia in the axes of a link; `change` is the pose of the frame in which they are given."""
-    reference = _inertial(same, np.eye(4), None) if same else None
+    """Return mass and inertia in the axes of a link; `change` is the pose of the frame in which they are given.
+
+    `same` is in the axes of the link already. To round it again would change its last digit.
+    """
     at = change @ _matrix(pose(inertial.origin))
     rows = tuple(tuple(map(float, row)) for row in at[:3, :3])
     tensor, size = turned_inertia(rows, inertial.inertia), inertial.inertia.trace or 1.0  # type: ignore[arg-type]
@@ -299,11 +356,11 @@ def _inertial(inertial: Inertial, change: _Array, same: Inertial | None) -> Iner
         mass = same.mass
     places = {"ixx": (0, 0), "iyy": (1, 1), "izz": (2, 2), "ixy": (0, 1), "ixz": (0, 2), "iyz": (1, 2)}
     numbers = {name: tensor[row][column] for name, (row, column) in places.items()}
-    known = reference.inertia if reference else None
+    known = same.inertia if same else None
     groups = [("ixx", "iyy", "izz"), ("ixy", "ixz", "iyz")]
     found = dict[str, float]()
     for names in groups:
         others: Any = known and tuple(getattr(known, name) for name in names)
         found |= dict(zip(names, _near([numbers[name] for name in names], others, size), strict=True))
-    xyz = _near(at[:3, 3], reference.origin.xyz if reference else None)
+    xyz = _near(at[:3, 3], same.origin.xyz if same else None)
     return Inertial(mass, Origin(xyz), Inertia(**found))
