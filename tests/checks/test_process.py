@@ -41,6 +41,8 @@ def test_all_that_a_function_yields_comes_back_and_prints_are_no_answers() -> No
     ("leave", BrokenProcessError, "exit code 0"),
     pytest.param("abort", BrokenProcessError, r"\(SIGABRT\): last words",
                  marks=pytest.mark.skipif(sys.platform == "win32", reason="no such signals")),
+    pytest.param("profile", LimitError, "takes more than 60 s of processor time",
+                 marks=pytest.mark.skipif(sys.platform == "win32", reason="no such signals")),
 ])  # fmt: skip
 def test_an_error_and_an_end_before_the_end_are_told(deed: str, kind: type[Exception], words: str) -> None:
     with pytest.raises(kind, match=words) as caught:

@@ -131,6 +131,8 @@ def run(
         take(answers)
         if results and isinstance(results[-1], Exception):
             raise results[-1]
+        if process.returncode == -getattr(signal, "SIGPROF", 0) != 0:  # on a busy machine, before we have looked
+            raise _out_of_time(limits)
         if process.returncode or not results or results[-1] is not None:
             errors.seek(0)
             words = errors.read().decode(errors="replace").strip().splitlines()[-1:]
@@ -164,9 +166,7 @@ def _wait(
         if seconds > limits.times.get(begin, 0.0) + _WORK:
             limits.times[begin], worked = seconds, time.monotonic()
         if limits.used >= limits.seconds:
-            message = f"{limits.owner} takes more than {limits.seconds:g} s of processor time"
-            hint = "allow more with `--timeout`, or try another compiler with `--tool`"
-            raise LimitError.of("out-of-time", message, hint=hint)
+            raise _out_of_time(limits)
         if time.monotonic() - worked >= _MOST_IDLE:
             message = f"{limits.owner} does nothing: a process has waited for {_MOST_IDLE:g} s"
             hint = "try again, or try another compiler with `--tool`"
@@ -175,6 +175,13 @@ def _wait(
             message = f"{limits.owner} takes more memory than its limit, {limits.memory / 1e9:.2g} GB"
             hint = "allow more with `--memory`, if this machine has more"
             raise LimitError.of("out-of-memory", message, hint=hint)
+
+
+def _out_of_time(limits: Limits) -> LimitError:
+    message = f"{limits.owner} takes more than {limits.seconds:g} s of processor time"
+    return LimitError.of(
+        "out-of-time", message, hint="allow more with `--timeout`, or try another compiler with `--tool`"
+    )
 
 
 def _loaded(answers: IO[bytes]) -> Iterator[Any]:
