@@ -122,3 +122,17 @@ def test_to_settle_forgets_earlier_looks(robot: WatchedRobot) -> None:
     earlier = msgspec.structs.replace(robot, sample=robot.seen, invalid_until=5.0)
     earlier.settle(3.0, is_told=True)
     assert earlier == msgspec.structs.replace(robot, due=3.0, is_told=True)
+
+
+def test_facts_that_the_last_look_found_need_no_further_look(robot: WatchedRobot, folder: Path) -> None:
+    """A young file is looked at, since its stat values may hide a change."""
+    for entry in robot.places:
+        is_young = facts.YOUNG > 0 and entry[0] == facts.PATH and Path(entry[1]).exists()
+        assert robot.has_seen({entry: facts.look(*entry)}) != is_young
+    assert robot.has_seen({("path", str(folder / "other.txt")): (0,)})
+    gone = ("path", str(folder / "gone.stl"))
+    Path("gone.stl").write_text("new")
+    assert not robot.has_seen({gone: facts.look(*gone)})
+    names = ("names", str(folder / "own"))
+    Path("own/new.jinja").write_text("new")
+    assert not robot.has_seen({names: facts.look(*names)})
