@@ -87,8 +87,7 @@ def test_edits_follow_when_the_program_gives_an_element_another_identifier(
     edit(robot, "\nequation", f"\n  Real mine = {component}.m;\n\nequation")
     edit(program / "urdfsync/urdf/names.py", "_DIGITS = 6\n", "_DIGITS = 7\n")
     try:
-        assert call(program, "build", "--quiet") == 3
-        assert call(program, "resolve", str(robot), "--merge") == 0
+        assert call(program, "build", "--quiet") == 0
         assert call(program, "build", "--check") == 0
     finally:
         edit(program / "urdfsync/urdf/names.py", "_DIGITS = 7\n", "_DIGITS = 6\n")

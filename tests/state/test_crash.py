@@ -10,6 +10,7 @@ import collections
 import errno
 import itertools
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -350,7 +351,8 @@ def test_a_save_in_the_instant_of_a_kill_survives(scenario: Path, tmp_path: Path
             if targets[0].suffix == ".order":
                 assert MINE in targets[0].read_bytes(), operation
             elif targets[0].exists():
-                assert targets[0].read_bytes() == mine, (operation, killed_at)
+                saved = re.sub(rb"([Bb]2)x", rb"\1", targets[0].read_bytes())  # the save may follow the new name
+                assert saved == re.sub(rb"([Bb]2)x", rb"\1", mine), (operation, killed_at)
             else:  # its element has another name, and the save has moved with it
                 assert any(MINE in path.read_bytes() for path in project.rglob("*.mo")), (operation, killed_at)
             assert not list(project.rglob(f"*{TEMPORARY}*")), operation
