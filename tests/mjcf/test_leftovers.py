@@ -111,3 +111,11 @@ def test_a_body_beside_the_robot_is_noted() -> None:
 
 def test_a_constraint_that_gives_way_is_noted() -> None:
     assert noted(body('<joint range="-1 1" solreflimit="0.1 1"/>')) == "not modelled: 1 <solreflimit>"
+
+
+def test_contacts_of_another_body_with_the_ground_are_its_own() -> None:
+    exclude = '<contact><exclude body1="world" body2="ball"/></contact></mujoco>'
+    ball = '<body name="ball"><freejoint/><geom size="0.1"/></body></worldbody>'
+    text = body('<freejoint/><body name="leg"><joint/><geom size="0.1"/></body>')
+    text = text.replace("</worldbody>", ball).replace("</mujoco>", exclude)
+    assert "left_out" not in urdf(text, robot="part")

@@ -58,7 +58,8 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
         drives.leave_out("flexible body", "flex", flex)
     for number in range(model.nexclude if scene.is_floating else 0):
         signature = int(model.exclude_signature[number])
-        if not signature >> 16 or not signature & 0xFFFF:
+        excluded = {signature >> 16, signature & 0xFFFF}
+        if 0 in excluded and not excluded.isdisjoint(scene.bodies):
             drives.left_out.append(Part("contact without the ground", "", _option_line(scene, "exclude", "body1")))
     _find_global(scene, drives)
 
