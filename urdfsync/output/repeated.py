@@ -5,7 +5,7 @@ This machine notes the shown findings. If the notes are lost, all are shown agai
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 from urdfsync.config import STATE_FOLDER
 from urdfsync.dependencies import record
@@ -17,7 +17,8 @@ from urdfsync.output.console import Console, line
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:
     """Show findings of a robot; findings that its last build has shown already are only counted."""
-    new = untold(result, diagnostics, verbose=console.verbose)
+    before = findings_told(result)
+    new = untold(before, diagnostics, verbose=console.verbose)
     console.findings(new)
     repeated = [finding for finding in diagnostics if finding not in new]
     if repeated and console.counts_robots:
@@ -25,15 +26,19 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
     elif repeated and not console.quiet:
         console.print([line((f"{result.robot}: {still(repeated)}", "dim"))], error=True)
     if not console.quiet:
-        note(result, diagnostics)
+        note(result, before, diagnostics)
 
 
-def untold(result: Result, diagnostics: Sequence[Diagnostic], *, verbose: bool) -> list[Diagnostic]:
-    """Return the findings that the last build of a robot has not shown; all if `verbose`.
+def findings_told(result: Result) -> set[str]:
+    """Return the keys of the findings that the last build of a robot has shown on this machine."""
+    return record.findings_told(str(result.root / STATE_FOLDER), result.robot)
+
+
+def untold(before: Set[str], diagnostics: Sequence[Diagnostic], *, verbose: bool) -> list[Diagnostic]:
+    """Return the findings that are not among those shown `before`; all if `verbose`.
 
     Errors and findings about Modelica files are shown by each build.
     """
-    before = _told(result)
     return [
         diagnostic
         for diagnostic in diagnostics
@@ -44,12 +49,8 @@ def untold(result: Result, diagnostics: Sequence[Diagnostic], *, verbose: bool) 
     ]
 
 
-def note(result: Result, diagnostics: Sequence[Diagnostic]) -> None:
-    """Note the findings that a build has shown or counted."""
+def note(result: Result, before: Set[str], diagnostics: Sequence[Diagnostic]) -> None:
+    """Note the findings that a build has shown or counted; `before` are the noted ones."""
     keys = {*map(finding_key, diagnostics)}
-    if _told(result) != keys and not (result.dry or result.failed):
+    if before != keys and not (result.dry or result.failed):
         record.note_findings(str(result.root / STATE_FOLDER), result.robot, keys)
-
-
-def _told(result: Result) -> set[str]:
-    return record.findings_told(str(result.root / STATE_FOLDER), result.robot)

@@ -26,7 +26,7 @@ from urdfsync.output.console import Console, StyledLine, findings, line, rich_co
 from urdfsync.output.documents import JSON_VERSION, plain
 from urdfsync.output.outline import outline
 from urdfsync.output.phrases import change_counts, generator_change
-from urdfsync.output.repeated import note, untold
+from urdfsync.output.repeated import findings_told, note, untold
 from urdfsync.output.terminal import details
 from urdfsync.spelling import counted
 from urdfsync.streams import has_marks
@@ -229,9 +229,10 @@ class Report:
         shown = [
             finding for finding in result.diagnostics if verbose or (_key(finding) in new and finding not in errors)
         ]
-        yield from self._findings(untold(result, shown, verbose=verbose))
+        before = findings_told(result)
+        yield from self._findings(untold(before, shown, verbose=verbose))
         if not self._console.quiet:
-            note(result, result.diagnostics)
+            note(result, before, result.diagnostics)
         if new_errors:
             more = f", and {len(errors) - 1} more" if len(errors) > 1 else ""
             yield self._line(clock, robot, f"{_with_error('broken', errors)}{more}", "bold red", error=True)
