@@ -242,11 +242,12 @@ class Daemon:
         begin = time.monotonic()
         self._next_look, has_new_places, self._has_new_places = math.inf, self._has_new_places, False
         touched, self._touched = self._touched, set()
+        robots = list(self._robots.values())
         if has_new_places:
             self._watch_folders()
-        # what all robots have read, such as the folder of their sources, seldom changes with one robot's file
-        present = {entry: look(*entry) for entry in touched}
-        robots = [watched for watched in self._robots.values() if has_new_places or not watched.has_seen(present)]
+        else:  # what all robots have read, such as the folder of their sources, seldom changes with one robot's file
+            present = {entry: look(*entry) for entry in touched}
+            robots = [watched for watched in robots if not watched.has_seen(present)]
         looks = [(watched, watched.look()) for watched in robots]
         self._touch([watched for watched, is_new in looks if is_new and (watched.is_told or watched.has_changed)])
         self._earliest_look = time.monotonic() + _REST * (time.monotonic() - begin)
