@@ -52,7 +52,10 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
 
 
 def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> str | None:
-    """Return the key of the check of a package in step; None if an input can't be read."""
+    """Return the key of the check of a package in step; None if an input can't be read.
+
+    This reads all inputs, and may run xacro or a translator. It writes nothing.
+    """
     domain = registry.domain(robot.domain)
     try:
         texts = package_texts(robot.folder)

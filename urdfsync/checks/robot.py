@@ -140,7 +140,10 @@ def _check(
 
 
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
-    """Compare the numbers of a package with its source. A difference only on disk is the user's edit."""
+    """Compare the numbers of a package with its source; write `numbers`, `gaps` and `unchecked` of the result.
+
+    A difference only on disk is the user's edit.
+    """
     tell(f"{package.robot.name}: reading the source again")
     source, snapshot = package.inputs.source, package.generation.now.snapshot
     on_disk = package.on_disk if package.in_step else package.generated

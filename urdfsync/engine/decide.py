@@ -309,7 +309,7 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, judged: _J
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
-    if not names and bases:  # `--undo` came after the build that brought new names
+    if not names and bases and last.record.former:  # `--undo` came after the build that brought new names
         names = names_of(inputs, generation, last.record.former, frozenset(words_in(bases[0])))
         before = last.package if last.record.generator == inputs.generator else None
         if before is None or path not in before.artifacts or before.hash(path) == action.base:

@@ -10,11 +10,12 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, displaced
+from urdfsync.engine.declared import pending
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import NO_MODEL, option_values
-from urdfsync.engine.renames import match_with_last, pending
+from urdfsync.engine.renames import match_with_last
 from urdfsync.engine.unused import IMPORTS, changed_owners, find_unused, with_unshown
 from urdfsync.matching import Matching, without_exchanges
 from urdfsync.modelica.files import class_path

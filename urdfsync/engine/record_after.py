@@ -9,13 +9,14 @@ import msgspec
 from urdfsync.domain import ChangeClass, ElementKey
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide import Decision
+from urdfsync.engine.declared import pending
 from urdfsync.engine.differences import Differences
 from urdfsync.engine.edit_origins import EDITED
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import hash_of, option_values
 from urdfsync.engine.package_files import text_hash
-from urdfsync.engine.renames import match_with_last, pending
+from urdfsync.engine.renames import match_with_last
 from urdfsync.engine.rules import files_after
 from urdfsync.engine.source import expansion_hash
 from urdfsync.files import text_digest

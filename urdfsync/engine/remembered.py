@@ -146,7 +146,10 @@ def _lines(robot: RobotConfig) -> str:
 
 
 def _quick_commands(result: Result) -> str:
-    """Return the commands that say no more than the summary, and how many findings there are; `-` for none."""
+    """Return the commands (`hook build status`) that tell no more than the summary and a number of findings.
+
+    `-` stands for none. `noop` reads these words.
+    """
     findings = (each.severity is Severity.ERROR or each.file.endswith(".mo") for each in result.diagnostics)
     if not result.in_step:
         return noop.NONE

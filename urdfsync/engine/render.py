@@ -95,6 +95,12 @@ class _Environment(jinja2.Environment):
         return obj[attribute] if type(obj) is dict and attribute in obj else super().getattr(obj, attribute)
 
 
+def _compiler_identity() -> str:
+    """Return the stat values of the modules that compile templates: they tell an upgrade of urdfsync or Jinja."""
+    files = map(Path, (__file__, literals.__file__, compiler.__file__))
+    return repr([(file, file.stat().st_size, file.stat().st_mtime_ns) for file in files])
+
+
 class _CodeCache(jinja2.BytecodeCache):
     """Compiled templates of an installed package, in the folder of urdfsync's compiled modules.
 
@@ -105,10 +111,9 @@ class _CodeCache(jinja2.BytecodeCache):
 
     def __init__(self, folder: Path, kind: type[jinja2.Environment]) -> None:
         """`folder` has the installed templates; code for one `kind` of environment does not fit another."""
-        self._folder = str(folder / "_").removesuffix("_")
+        self._folder = str(folder / "_").removesuffix("_")  # with a separator at its end
         self._stem = f"{importlib.util.cache_from_source(__file__).removesuffix('.pyc')}{kind.__name__}"
-        files = map(Path, (__file__, literals.__file__, compiler.__file__))
-        self._compiler = repr([(file, file.stat().st_size, file.stat().st_mtime_ns) for file in files])
+        self._compiler = _compiler_identity()
 
     def get_cache_key(self, name: str, filename: str | None = None) -> str:
         """See Jinja. The user's own templates have no key: each process compiles them."""

@@ -71,7 +71,7 @@ class Source(msgspec.Struct, frozen=True):
 
     @property
     def is_missing(self) -> bool:
-        """Whether the source has no text: no build made it, and this build does not make it."""
+        """Whether a `command` was never run, so that there is no source yet (only in dry runs)."""
         return bool(self.stale) and not self.content
 
     def locate(self, found: Diagnostic) -> Diagnostic:

@@ -30,7 +30,10 @@ _KINDS = {
 
 
 def read(content: bytes, file: str) -> tuple[Sheet, Sheet]:
-    """Return elements and connections. Raises SourceError."""
+    """Return elements and connections. Raises SourceError. `file` is the name in diagnostics.
+
+    wntr reads only files, so this writes the content to a temporary folder.
+    """
     try:
         import wntr
     except ImportError:

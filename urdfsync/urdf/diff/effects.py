@@ -40,7 +40,7 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
     The centre of mass is in metres, in the frame of the root link, with all joints at zero; None without a mass.
     """
     before, after = (KinematicTree.of(version.snapshot) for version in (old, new))
-    (old_mass, old_centre), (new_mass, new_centre) = _mass(before), _mass(after)
+    (old_mass, old_centre), (new_mass, new_centre) = _mass_and_centre(before), _mass_and_centre(after)
     return [
         Effect(("robot", "mass"), old_mass, new_mass, "kg"),
         Effect(("robot", "centre of mass"), old_centre, new_centre, "m"),
@@ -73,8 +73,11 @@ def _extremes(tree: KinematicTree) -> tuple[float | None, Mapping[str, float]]:
     return find_extremes(tree)
 
 
-def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
-    """Return total mass and centre of mass. The exact sum does not depend on names and order."""
+def _mass_and_centre(tree: KinematicTree) -> tuple[float, Vector | None]:
+    """Return total mass (kg) and centre of mass (m, in the root frame, all joints at zero); no centre without a mass.
+
+    The exact sum does not depend on names and order.
+    """
     poses = link_poses(tree, {})
     masses, moments = [], []
     for link in tree.links:
