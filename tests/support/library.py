@@ -7,6 +7,7 @@ from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role
 from urdfsync.urdf.meshes.lookup import key
+from urdfsync.urdf.model.joint import joint_model
 from urdfsync.urdf.model.numbers import shape_part
 from urdfsync.urdf.model.shapes import link_model, link_shapes
 from urdfsync.urdf.options import Options
@@ -16,12 +17,16 @@ from urdfsync.urdf.robot import (
     Capsule,
     Collision,
     Cylinder,
+    Dynamics,
     Geometry,
+    Joint,
     JointType,
+    Limit,
     Link,
     Mesh,
     Sphere,
     Visual,
+    effective,
 )
 
 MESH = Mesh("robots/six_axis_arm/meshes/base_casting.stl")
@@ -42,6 +47,7 @@ JOINT_NOTES: Mapping[JointType, str] = {
     "floating": "Moves freely.",
     "ball": "Turns in all directions. It has no flanges: its motion is free.",
 }
+EVERY_NUMBER = Dynamics(**dict.fromkeys(Dynamics.__struct_fields__, 0.0))
 RECORD_NOTE = "The numbers are those of the record <code>parameters</code>, which can be redeclared."
 
 
@@ -58,22 +64,10 @@ def library_artifacts() -> Iterator[Artifact | Order]:
     for joint in JOINT_KINDS:
         name, note = joint.capitalize(), f"{JOINT_NOTES[joint]} {RECORD_NOTE}"
         data = named_data("Joints", name, f"UrdfSync.Records.{name}Joint")
-        facts = JOINT_KINDS[joint]
-        data |= {"dynamics": facts.has_axis or joint == "ball", "accelerations": True, "note": note}
-        data |= {
-            "motion": facts.motion,
-            "is_endless": joint == "continuous",
-            "inertia": facts.motion is not None,
-            "spring": facts.motion is not None,
-            "motor": False,
-            "sharing": None,
-            "friction": "smooth",
-            "elastic": False,
-            "saturated": False,
-        }
-        yield Artifact(
-            f"Joints/{name}.mo", Role.MODEL, f"joint/{'axis' if facts.motion else joint}.mo.jinja", data, name
-        )
+        full = effective(Joint("", joint, "", "", limit=Limit(acceleration=0.0), dynamics=EVERY_NUMBER))
+        data |= joint_model(full, Options(), is_driven=False) | {"note": note}
+        template = f"joint/{'axis' if JOINT_KINDS[joint].motion else joint}.mo.jinja"
+        yield Artifact(f"Joints/{name}.mo", Role.MODEL, template, data, name)
     note = f"Holds a frame of one link at a frame of another one, and so closes a loop. {RECORD_NOTE}"
     data = named_data("Joints", "Loop", "UrdfSync.Records.Loop") | {"title": "joint that closes a loop", "note": note}
     yield Artifact("Joints/Loop.mo", Role.MODEL, "joint/loop.mo.jinja", data, "Loop")

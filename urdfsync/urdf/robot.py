@@ -29,8 +29,16 @@ class Unit(NamedTuple):
 
 _NAME = operator.attrgetter("name")
 _LENGTH, _ANGLE, _INERTIA = Unit("m"), Unit("rad"), Unit("kg·m²")
-_POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad", "N·s/m")
+POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad", "N·s/m")
 _SPEED, _ACCELERATION, _STIFFNESS = Unit("rad/s", "m/s"), Unit("rad/s²", "m/s²"), Unit("N·m/rad", "N/m")
+
+
+def unit_of(struct: type[msgspec.Struct], field: str) -> Unit:
+    """Return the unit of a number."""
+    unit: Unit
+    (unit,) = struct.__annotations__[field].__metadata__
+    return unit
+
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating", "ball"]
 SensorKind = Literal["imu", "accelerometer", "gyroscope", "force_torque", "camera", "lidar"]
@@ -237,8 +245,8 @@ class Link(msgspec.Struct, frozen=True, gc=False):
 class Limit(msgspec.Struct, frozen=True, gc=False):
     """Limits of a joint; None means no limit. A missing limit of position is 0, as in urdfdom."""
 
-    lower: Annotated[float, _POSITION] = 0.0
-    upper: Annotated[float, _POSITION] = 0.0
+    lower: Annotated[float, POSITION] = 0.0
+    upper: Annotated[float, POSITION] = 0.0
     effort: Annotated[float | None, _LOAD] = None
     velocity: Annotated[float | None, _SPEED] = None
     acceleration: Annotated[float | None, _ACCELERATION] = None
@@ -256,7 +264,7 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
     """Inertia that the drive adds at the joint, as in MuJoCo's `armature`."""
     spring_stiffness: Annotated[float | None, _STIFFNESS] = None
     """A spring pulls with `spring_stiffness` · (`spring_reference` - position), as in SDFormat."""
-    spring_reference: Annotated[float | None, _POSITION] = None
+    spring_reference: Annotated[float | None, POSITION] = None
     """Position at which the spring is relaxed; None stands for 0."""
 
 
@@ -271,7 +279,7 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
     """
 
     reduction: Annotated[float, Unit("", "rad/m")] = 1.0
-    offset: Annotated[float, _POSITION] = 0.0
+    offset: Annotated[float, POSITION] = 0.0
     rotor_inertia: Annotated[float | None, _INERTIA] = None
     """Inertia of the motor, on the motor's side of the gear."""
     joint: str | None = None
@@ -289,9 +297,9 @@ class Servo(msgspec.Struct, frozen=True, gc=False):
 
     position_gain: Annotated[float | None, _STIFFNESS] = None
     velocity_gain: Annotated[float | None, _LOSS] = None
-    min_position: Annotated[float | None, _POSITION] = None
+    min_position: Annotated[float | None, POSITION] = None
     """Limits of the reference."""
-    max_position: Annotated[float | None, _POSITION] = None
+    max_position: Annotated[float | None, POSITION] = None
     min_velocity: Annotated[float | None, _SPEED] = None
     """Limits of a commanded velocity."""
     max_velocity: Annotated[float | None, _SPEED] = None
@@ -311,14 +319,14 @@ class Mimic(msgspec.Struct, frozen=True, gc=False):
 
     joint: str
     multiplier: float = 1.0
-    offset: Annotated[float, _POSITION] = 0.0
+    offset: Annotated[float, POSITION] = 0.0
 
 
 class Calibration(msgspec.Struct, frozen=True, gc=False):
     """Positions of the reference edges."""
 
-    rising: Annotated[float | None, _POSITION] = None
-    falling: Annotated[float | None, _POSITION] = None
+    rising: Annotated[float | None, POSITION] = None
+    falling: Annotated[float | None, POSITION] = None
 
 
 class SafetyController(msgspec.Struct, frozen=True, gc=False):
@@ -326,8 +334,8 @@ class SafetyController(msgspec.Struct, frozen=True, gc=False):
 
     k_velocity: Annotated[float, _LOSS] = 0.0
     k_position: Annotated[float, Unit("1/s")] = 0.0
-    soft_lower_limit: Annotated[float, _POSITION] = 0.0
-    soft_upper_limit: Annotated[float, _POSITION] = 0.0
+    soft_lower_limit: Annotated[float, POSITION] = 0.0
+    soft_upper_limit: Annotated[float, POSITION] = 0.0
 
 
 class Joint(msgspec.Struct, frozen=True, gc=False):
@@ -352,11 +360,15 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     """The gear; None without reduction, offset and rotor."""
     command: Command | None = None
     """Quantity by which the source commands the joint; None for the position."""
-    start: Annotated[float | None, _POSITION] = None
+    start: Annotated[float | None, POSITION] = None
     """Position at the start of a simulation; None leaves it to `kinematics.poses.start_positions`."""
     motor: Motor | None = None
     servo: Servo | None = None
     """The law of the drive; None if the drive moves the joint as commanded, or gives the commanded effort."""
+
+
+STATED_ELSEWHERE: frozenset[str] = frozenset("actuated measured transmission command start motor servo".split())
+"""Fields of `Joint` that the element `<joint>` does not state: other elements, the configuration or a catalogue do."""
 
 
 class Loop(msgspec.Struct, frozen=True, gc=False):
@@ -388,29 +400,24 @@ def reflected_inertia(joint: Joint) -> float | None:
     return (armature or 0.0) + rotor * joint.transmission.reduction * joint.transmission.reduction
 
 
+_NO_DRIVE: Mapping[str, None] = dict.fromkeys(("command", "servo", "start"))
+"""Fields without effect on a joint that follows another one."""
+
+
 def effective(joint: Joint) -> Joint:
     """Return the joint without numbers that have no effect on its type, as records have it."""
-    kind = JOINT_KINDS[joint.type]
-    limit, dynamics = joint.limit if kind.motion else None, joint.dynamics if kind.has_axis else None
-    if limit is not None and not kind.has_limits:
-        limit = replace(limit, lower=0.0, upper=0.0)
-    if joint.type == "ball" and joint.dynamics:
-        dynamics = Dynamics(joint.dynamics.damping)
-    elif dynamics is not None and not kind.motion:
-        dynamics = Dynamics(**{name: getattr(dynamics, name) for name in LOSSES})
-    return replace(
-        joint,
-        axis=joint.axis if kind.has_axis else (1.0, 0.0, 0.0),
-        limit=limit,
-        dynamics=dynamics,
-        mimic=joint.mimic if kind.motion else None,
-        calibration=joint.calibration if kind.motion else None,
-        safety_controller=joint.safety_controller if kind.motion else None,
-        transmission=joint.transmission if kind.motion else None,
-        command=joint.command if kind.motion and joint.mimic is None else None,
-        servo=joint.servo if kind.motion and joint.mimic is None else None,
-        start=joint.start if kind.motion and joint.mimic is None else None,
-    )
+    kind, limit = JOINT_KINDS[joint.type], joint.limit
+    if kind.motion:
+        if limit is not None and not kind.has_limits:
+            limit = replace(limit, lower=0.0, upper=0.0)
+        return replace(joint, limit=limit, **({} if joint.mimic is None else _NO_DRIVE))
+    # without a single position, only the place, the axis and the losses act
+    bare = Joint(joint.name, joint.type, joint.parent, joint.child, joint.origin)
+    bare = replace(bare, actuated=joint.actuated, measured=joint.measured, motor=joint.motor)
+    acting = LOSSES if kind.has_axis else ("damping",) if joint.type == "ball" else ()
+    if joint.dynamics and acting:
+        bare = replace(bare, dynamics=Dynamics(**{name: getattr(joint.dynamics, name) for name in acting}))
+    return replace(bare, axis=joint.axis) if kind.has_axis else bare
 
 
 def structure(joint: Joint) -> Joint:

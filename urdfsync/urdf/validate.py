@@ -17,13 +17,14 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine import file_kinds
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
-    LOSSES,
+    POSITION,
     Box,
     Capsule,
     Cylinder,
     Dynamics,
     Geometry,
     Joint,
+    Limit,
     Link,
     Loop,
     Mesh,
@@ -31,6 +32,7 @@ from urdfsync.urdf.robot import (
     Sphere,
     Vector,
     effective,
+    unit_of,
 )
 
 _EXACT = 1e-12
@@ -39,13 +41,15 @@ _ROUNDING = 1e-5
 _COMPARED = 500
 # In rad: a greater range of a continuous joint stands for no limits.
 _ENDLESS = 1000
-_MAGNITUDES = (
-    ("negative-limit", "limit", ("effort", "velocity", "acceleration", "deceleration", "jerk")),
-    ("negative-dynamics", "dynamics", (*LOSSES, "spring_stiffness")),
-    ("negative-inertia", "dynamics", ("armature",)),
-    ("negative-inertia", "transmission", ("rotor_inertia",)),
-)
-"""Numbers of a joint that must not be negative: code of the finding, field of the joint, names of its numbers."""
+_MAGNITUDES = {
+    **{
+        block: [name for name in struct.__struct_fields__ if unit_of(struct, name) != POSITION]
+        for block, struct in (("limit", Limit), ("dynamics", Dynamics))
+    },
+    "transmission": ["rotor_inertia"],
+}
+"""Numbers that must not be negative, by field of the joint."""
+_INERTIAS = ("armature", "rotor_inertia")
 
 _Element = TypeVar("_Element", Link, Joint)
 
@@ -418,10 +422,11 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
         message = f"{path}: the lower limit {limit.lower:g} is above the upper limit {limit.upper:g}"
         yield Finding("limit-order", f"{path} / limit", message)
     effect = effective(joint)
-    for code, block, names in _MAGNITUDES:
+    for block, names in _MAGNITUDES.items():
         for name in names:
             value = getattr(getattr(effect, block), name, None)
             if value is not None and value < 0:
+                code = "negative-inertia" if name in _INERTIAS else f"negative-{block}"
                 yield Finding(code, f"{path} / {block}", f"{path}: the {name.replace('_', ' ')} {value:g} is negative")
     if limit and joint.type == "ball":
         yield Finding("limit-without-effect", f"{path} / limit", f"{path} is a ball: its <limit> has no effect")

@@ -94,11 +94,11 @@ record Robot "Numbers of a whole robot: what all robots have"
   SlidingLimits slidingLimits
     "Limits of the moving joints that slide";
 
-  TurningLosses turningLosses
-    "Losses of the moving joints that turn";
+  RotationalDynamics turningLosses[turningJoints]
+    "Losses and springs of the moving joints that turn";
 
-  SlidingLosses slidingLosses
-    "Losses of the moving joints that slide";
+  TranslationalDynamics slidingLosses[slidingJoints]
+    "Losses and springs of the moving joints that slide";
 
   Modelica.Units.SI.Inertia turningInertias[turningJoints] = zeros(turningJoints)
     "What the drives of the joints that turn add to the inertia about their axes";

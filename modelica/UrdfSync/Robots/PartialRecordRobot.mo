@@ -310,15 +310,15 @@ equation
   end for;
 
   for k in 1:data.turningJoints loop
-    loss[data.turning[k]] = data.turningLosses.damping[k]*v[data.turning[k]]
-      + data.turningLosses.friction[k]*tanh(0.5*data.turningLosses.steepness[k]*v[data.turning[k]])
-      + data.turningLosses.springStiffness[k]*(q[data.turning[k]] - data.turningLosses.springReference[k]);
+    loss[data.turning[k]] = data.turningLosses[k].damping*v[data.turning[k]]
+      + data.turningLosses[k].friction*tanh(0.5*data.turningLosses[k].steepness*v[data.turning[k]])
+      + data.turningLosses[k].springStiffness*(q[data.turning[k]] - data.turningLosses[k].springReference);
   end for;
 
   for k in 1:data.slidingJoints loop
-    loss[data.sliding[k]] = unitLength*(data.slidingLosses.damping[k]*unitLength*v[data.sliding[k]]
-      + data.slidingLosses.friction[k]*tanh(0.5*data.slidingLosses.steepness[k]*unitLength*v[data.sliding[k]])
-      + data.slidingLosses.springStiffness[k]*(unitLength*q[data.sliding[k]] - data.slidingLosses.springReference[k]));
+    loss[data.sliding[k]] = unitLength*(data.slidingLosses[k].damping*unitLength*v[data.sliding[k]]
+      + data.slidingLosses[k].friction*tanh(0.5*data.slidingLosses[k].steepness*unitLength*v[data.sliding[k]])
+      + data.slidingLosses[k].springStiffness*(unitLength*q[data.sliding[k]] - data.slidingLosses[k].springReference));
   end for;
 
   for k in 1:data.rotationalAxes loop

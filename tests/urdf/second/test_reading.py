@@ -27,7 +27,8 @@ TEXTS = robot(
     '<link name="a"/>',
     '<link name="b"><inertial><pose>0 0 1 0 0 0</pose><mass>2</mass><inertia><ixx>1</ixx></inertia></inertial></link>',
     '<joint name="j" type="revolute"><pose>1 2 3 0.1 0.2 0.3</pose><parent>a</parent><child>b</child>'
-    "<axis><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis></joint>",
+    "<axis><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>1</upper></limit>"
+    "<dynamics><armature>0.1</armature></dynamics></axis></joint>",
 )
 MOVING = robot(
     *links(base=4.0, upper=2.5, fore=1.5, hand=0.7, puck=0.3),
@@ -65,6 +66,7 @@ def test_values_have_the_lines_of_their_elements() -> None:
     assert read.links["b"].values["inertial.mass"][:2] == ((2.0,), 4)
     assert read.joints["j"].values["limits.lower"][:2] == ((-1.0,), 5)
     assert read.joints["j"].values["origin.xyz"].value == (1.0, 2.0, 3.0)
+    assert read.joints["j"].values["dynamics.armature"].value == (0.1,)
     assert (read.joints["j"].parent, read.joints["j"].child) == ("a", "b")
 
 

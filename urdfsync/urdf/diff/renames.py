@@ -13,13 +13,12 @@ from msgspec.structs import replace
 from urdfsync.domain import ElementKey, Features, Numbered, Version, displaced, plain
 from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.robot import SENSOR_KINDS, Collision, Link, Mesh, Robot, Visual
+from urdfsync.urdf.robot import SENSOR_KINDS, STATED_ELSEWHERE, Collision, Link, Mesh, Robot, Visual
 
-_NAMES = frozenset("name parent child joint actuated measured drive transmission command servo start motor".split())
-"""Fields of joints and loops that are names, or depend on names in other places, such as the configuration."""
 _Said: TypeAlias = tuple[Any, Mapping[str, str]]
 """An element and further facts about the element."""
 _KINDS = ("links", "joints", "sensors", "loops")
+_NAMES = frozenset({"name", "parent", "child"})
 _ENDS = {"parent": "link", "child": "link", "joint": "joint"}
 """Fields that name another element, with the kind of this element."""
 _MENTIONING = ("mimic", "transmission")
@@ -46,7 +45,7 @@ def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
         for element in elements:
             data = {key: value for key, value in to_builtins(element).items() if value is not None}
             contents = {"position": {key: value for key, value in data.items() if key in _PLACE}}
-            more = {key: _without_names(data[key]) for key in data.keys() - _PLACE - _NAMES}
+            more = {key: _without_names(data[key]) for key in data.keys() - _PLACE - _NAMES - STATED_ELSEWHERE}
             contents |= {"limits": more} if more else {}
             ends: dict[str, ElementKey] = {"child": ("link", element.child), "parent": ("link", element.parent)}
             existing = {relation: end for relation, end in ends.items() if end in features}

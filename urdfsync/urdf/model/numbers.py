@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.modelica.literals import INFINITY, Expression, matrix
 from urdfsync.urdf.kinematics.loops import Closure
-from urdfsync.urdf.robot import LOSSES, Inertial, Joint, Loop, Mesh
+from urdfsync.urdf.robot import Inertial, Joint, Loop, Mesh
 
 _ABSENT = Expression(INFINITY)
 _NO_LIMITS = {"lower": Expression(f"-{INFINITY}"), "upper": _ABSENT, "velocity": _ABSENT, "effort": _ABSENT}
@@ -44,7 +44,7 @@ def shape_part(shape: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def joint_part(joint: Joint) -> dict[str, Any]:
-    """Return the record of a joint: its class and numbers."""
+    """Return the record of an effective joint: its class and numbers."""
     return {"base": f"{joint.type.capitalize()}Joint", "numbers": _joint_numbers(joint)}
 
 
@@ -57,8 +57,8 @@ def _joint_numbers(joint: Joint) -> dict[str, Any]:
         case "ball":
             return numbers | {name: dynamics[name] for name in dynamics if name == "damping"}
         case "planar":
-            losses = {name: dynamics[name] for name in map(camel, LOSSES) if name in dynamics}
-            return numbers | {"axis": joint.axis} | dict.fromkeys(("translation", "rotation") if losses else (), losses)
+            losses = dict.fromkeys(("translation", "rotation") if dynamics else (), dynamics)
+            return numbers | {"axis": joint.axis} | losses
     transmission = _given(joint.transmission)
     if joint.transmission and transmission.pop("joint", None):
         transmission["otherReduction"] = transmission.pop("jointReduction", _ABSENT)

@@ -21,7 +21,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.numbers import camel, joint_part, link_numbers, shape_part
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.options import USES
-from urdfsync.urdf.robot import LOSSES, MOTION_KINDS, MOTIONS, Joint, Motion, limits_acceleration, reflected_inertia
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Dynamics, Joint, Motion, limits_acceleration, reflected_inertia
 
 _TURNS: Mapping[Motion, int] = {"rotational": 1, "translational": 2}
 _LINE = 10
@@ -176,7 +176,7 @@ def _limits(joints: Sequence[_Named], has_accelerations: bool) -> dict[str, Any]
 
 def _losses(joints: Sequence[_Named]) -> dict[str, Any]:
     """Return the columns of the losses of joints: those of the laws, and those that a source gives."""
-    columns = (*LOSSES, "spring_stiffness", "spring_reference")
+    columns = (name for name in Dynamics.__struct_fields__ if name != "armature")  # `_inertias` has the armatures
     given = [name for name in columns if any(getattr(one.joint.dynamics, name, None) is not None for one in joints)]
     names = dict.fromkeys(("damping", "friction", "steepness", *map(camel, given))) if joints else ()
     return {name: _column(joints, f"dynamics.{name}", 8) for name in names}

@@ -6,7 +6,7 @@ The option `motors` names a row for a joint. The numbers of the row replace thos
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 from msgspec.structs import replace
 
@@ -15,22 +15,29 @@ from urdfsync.domain import Companion
 from urdfsync.spelling import name_and_unit, nearest
 from urdfsync.urdf.options import MotorNumber, Options
 from urdfsync.urdf.parse.fields import Reader
-from urdfsync.urdf.robot import MOTION_KINDS, Dynamics, Joint, Limit, Motor, Transmission
+from urdfsync.urdf.robot import MOTION_KINDS, Dynamics, Joint, Limit, Motor, Transmission, Unit, unit_of
 from urdfsync.urdf.validate import diagnostic
 
+_EMPTY = {"limit": Limit(), "dynamics": Dynamics(), "transmission": Transmission()}
+
+
+def _units(unit: Unit) -> tuple[str, str]:
+    """Return the units of a turning and of a sliding joint, as tables write units."""
+    turning, sliding = (
+        name.replace("·", ".").replace("²", "2") or "1" for name in (unit.name, unit.sliding or unit.name)
+    )
+    return turning, sliding
+
+
 _PLACES: Mapping[MotorNumber, tuple[str, str, str]] = {
-    "effort": ("limit", "N.m", "N"),
-    "velocity": ("limit", "rad/s", "m/s"),
-    "damping": ("dynamics", "N.m.s/rad", "N.s/m"),
-    "friction": ("dynamics", "N.m", "N"),
-    "armature": ("dynamics", "kg.m2", "kg"),
-    "reduction": ("transmission", "1", "rad/m"),
-    "rotor_inertia": ("transmission", "kg.m2", "kg.m2"),
+    number: (field, *_units(unit_of(type(part), number)))
+    for number in get_args(MotorNumber)
+    for field, part in _EMPTY.items()
+    if hasattr(part, number)
 }
 """Numbers of a row: the field of `Joint` with the number, and the units of a turning and of a sliding joint."""
 NUMBERS: Mapping[tuple[str | int, ...], str] = {(field, number): number for number, (field, _, _) in _PLACES.items()}
 """Numbers of a row by their paths in a joint."""
-_EMPTY = {"limit": Limit(), "dynamics": Dynamics(), "transmission": Transmission()}
 
 
 class Row(NamedTuple):

@@ -25,6 +25,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity, cut
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.robot import (
+    STATED_ELSEWHERE,
     Calibration,
     Collision,
     Geometry,
@@ -51,8 +52,6 @@ _REPEATED = ("visual", "collision")
 _LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
 """Vectors that an unknown attribute with so many numbers may mean."""
 _POSE = 6
-_ELSEWHERE = ("transmission", "start", "motor", "servo")
-"""Fields that other modules read."""
 _STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *get_args(Geometry)})
 """Structs whose unknown parts do not change the motion."""
 _NEUTRAL = frozenset({"name", "id", "sensor", "dont_collapse"})
@@ -341,7 +340,7 @@ def _schema(
         kind = get_args(field.type)[0] if get_origin(field.type) is Annotated else field.type
         kinds = (kind, *get_args(kind))
         structs = [part for part in kinds if isinstance(part, type) and issubclass(part, msgspec.Struct)]
-        if field.name in _ELSEWHERE:
+        if field.name in STATED_ELSEWHERE:
             continue
         if structs:
             name = field.name.removesuffix("s") if field.default == () else field.name  # visuals: <visual>
@@ -358,7 +357,8 @@ def _schema(
 @functools.cache
 def _moving_tags() -> frozenset[str]:
     """Return the tags that change the motion in any place."""
-    return frozenset({*_schema(Joint)[1], *_schema(Inertial)[1], "pose"} - {"safety_controller", "calibration"})
+    parts = {**_schema(Joint)[1], **_schema(Inertial)[1]}
+    return frozenset({"pose", *(tag for tag, (kind, _) in parts.items() if kind not in _STILL)})
 
 
 _alike = functools.lru_cache(maxsize=1024)(perhaps)  # takes 0.1 ms; a robot may have 10,000 unknown attributes

@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeAlias
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.shapes import LIGHT, LinkShape
-from urdfsync.urdf.plausibility.symmetry import SIDES, WORD
+from urdfsync.urdf.plausibility.symmetry import JOINT_NUMBERS, SIDES, WORD
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Vector
 from urdfsync.urdf.validate import Finding
 
@@ -89,7 +89,7 @@ def _numbers(row: Sequence[Joint], bodies: Sequence[LinkShape]) -> Iterator[_Num
         yield _Number("link", "inertial", "mass", "kg", masses)
         radii = [body.gyration for body in bodies]
         yield _Number("link", "inertial", "radius of gyration", "m", radii)
-    for block, name in (("limit", "effort"), ("limit", "velocity"), ("dynamics", "damping"), ("dynamics", "friction")):
+    for block, name in JOINT_NUMBERS:
         values = [getattr(getattr(joint, block), name, None) for joint in row]
         yield _Number("joint", block, name, "", [value for value in values if value is not None])
     ranges = [own_range(joint) for joint in row]

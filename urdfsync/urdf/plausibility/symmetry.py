@@ -15,7 +15,7 @@ from typing import NamedTuple
 from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, dot, own_range, pose, turned_inertia
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.shapes import LIGHT, LinkShape
-from urdfsync.urdf.robot import MOTION_KINDS, Collision, Inertial, Joint, Link, Mesh, Vector, Visual
+from urdfsync.urdf.robot import LOSSES, MOTION_KINDS, Collision, Inertial, Joint, Link, Mesh, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
 _SIDES = ("left right", "l r", "fl fr", "rl rr", "bl br", "hl hr", "lf rf", "lh rh", "lb rb", "izquierda derecha")
@@ -24,6 +24,8 @@ _OTHER = {name: other for pair in map(str.split, (*_SIDES, "gauche droite")) for
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", re.ASCII)
 _ALIKE = 0.1
 """The greatest difference of two numbers of one size, relative to the larger one: models of sides are rounded."""
+JOINT_NUMBERS = (("limit", "effort"), ("limit", "velocity"), *(("dynamics", name) for name in LOSSES))
+"""Numbers of a joint that its counterpart has, too: each with the field of the joint."""
 _NEAR, _PLACE = 0.004, 0.01
 """Mirrored points differ by 4 mm, by a tenth of a link's size, or by a hundredth of the distance of two sides."""
 _ANGLE = 0.1
@@ -182,7 +184,7 @@ def _joint_differences(plane: _Plane, one: _Side, other: _Side) -> Iterator[tupl
         yield "", f"it is {mine.type}, the other {others.type}"
     if mine.type != others.type or mine.type not in MOTION_KINDS:
         return
-    for block, what in (("limit", "effort"), ("limit", "velocity"), ("dynamics", "damping"), ("dynamics", "friction")):
+    for block, what in JOINT_NUMBERS:
         a, b = (getattr(getattr(joint, block), what, None) for joint in (mine, others))
         is_told = block == "limit" and not (a and b)  # an effort or velocity of 0 is a fault without the other side
         if a is not None and b is not None and not _are_alike(a, b) and not is_told:

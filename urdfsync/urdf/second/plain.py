@@ -19,11 +19,8 @@ from urdfsync.urdf.second.companions import PATHS, Companions
 
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
 """Elements whose text SDFormat uses instead of an attribute."""
-_NAMES = (
-    "xyz lower upper effort velocity damping friction spring_stiffness spring_reference multiplier offset "
-    "ixx ixy ixz iyy iyz izz size radius length"
-)
-"""Elements that SDFormat uses instead of an attribute of the parent element."""
+_HOLDERS = frozenset("axis box capsule cylinder dynamics inertia limit mimic origin sphere".split())
+"""Elements in which SDFormat uses elements with texts instead of attributes."""
 
 
 _NOTHING = Companions()
@@ -72,9 +69,8 @@ def plain_root(content: bytes, joints: Collection[str] | None = None, companions
         if place is not None and len(numbers) == 6:
             place.tag = "origin"
             place.attrib.update({"xyz": " ".join(numbers[:3]), "rpy": " ".join(numbers[3:])})
-        texts = {
-            part.tag: part.text for part in element if part.tag in _NAMES.split() and not part.attrib and not len(part)
-        }
+        parts = element if element.tag in _HOLDERS else ()
+        texts = {part.tag: part.text for part in parts if not part.attrib and not len(part)}
         if element.tag in _ALONE and not element.attrib:
             texts = texts or {_ALONE[element.tag]: element.text}
         for name, text in texts.items():
