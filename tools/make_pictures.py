@@ -1,7 +1,8 @@
 """Makes the pictures of the documentation: `python tools/make_pictures.py [NAME…]`.
 
-`terminal` is a conflict as people see it, with the arm of the tutorial. The others simulate what docs/simulate.md
-names: they need the extras `check` and `plot` and a Modelica Standard Library, and take minutes.
+`terminal` is a conflict as people see it, with the arm of the tutorial. `axes` draws the table of simulations in
+docs/speed.md. The others simulate what docs/simulate.md names: they need the extras `check` and `plot` and a Modelica
+Standard Library, and take minutes.
 """
 
 from __future__ import annotations
@@ -33,13 +34,39 @@ WIDTH = 124
 
 def main() -> None:
     """Make all pictures, or those that the arguments name."""
-    for name in sys.argv[1:] or ["terminal", *PICTURES]:
+    for name in sys.argv[1:] or ["terminal", "axes", *PICTURES]:
         picture = IMAGES / f"{name}.svg"
         if name == "terminal":
             picture.write_text(draw_conflict(), encoding="utf-8")
             continue
+        if name == "axes":
+            draw_axes(picture)
+            continue
         command = [*URDFSYNC, "simulate", "six_axis_arm", *PICTURES[name], "--plot", str(picture)]
         subprocess.run(command, cwd=REPOSITORY, check=True)  # noqa: S603
+
+
+def draw_axes(picture: Path) -> None:
+    """Draw the processor time of simulations over the number of axes, from the table in docs/speed.md."""
+    import matplotlib as mpl
+    from matplotlib import pyplot
+
+    page = (REPOSITORY / "docs/speed.md").read_text(encoding="utf-8")
+    head, _, *rows = page.partition("\n| axes |")[2].partition("\n\n")[0].splitlines()
+    mpl.rcParams["svg.hashsalt"] = "axes"
+    figure, plot = pyplot.subplots(figsize=(7, 4), layout="constrained")
+    for column, label in enumerate(filter(None, map(str.strip, head.split("|"))), start=2):
+        cells = [(int(cells[1]), re.match(r" (\d+) s", cells[column])) for cells in (row.split("|") for row in rows)]
+        points = [(axes, int(seconds[1])) for axes, seconds in cells if seconds]
+        plot.plot(*zip(*points, strict=True), marker="o", label=label)
+    plot.set(xlabel="axes", ylabel="processor time in s", xscale="log", yscale="log")
+    ticks = [int(row.split("|")[1]) for row in rows]
+    plot.set_xticks(ticks, map(str, ticks))
+    plot.set_yticks([10, 20, 50, 100, 200, 500], ["10", "20", "50", "100", "200", "500"])
+    plot.minorticks_off()
+    plot.grid(alpha=0.3)
+    plot.legend()
+    figure.savefig(picture, metadata={"Date": None})
 
 
 def draw_conflict() -> str:

@@ -123,10 +123,7 @@ def build(
     UrdfsyncError for a bad configuration, and for an unknown robot.
     """
     loaded = load(config)
-    chosen: Sequence[RobotConfig] = loaded.select(robots)
-    if merge:
-        chosen = [msgspec.structs.replace(robot, on_conflict="merge") for robot in chosen]
-    built = build_and_check(loaded, chosen, BuildOptions(**given))
+    built = build_and_check(loaded, loaded.select(robots), BuildOptions(merges=merge, **given))
     return Results(built, build_lines, on_result)
 
 

@@ -36,7 +36,7 @@ def test_joints_are_shown_beside_their_limits(compiler: Compiler, execute: Execu
 def test_a_large_model_is_told_before(compiler: Compiler, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("urdfsync.simulation.run._LONG", 0.0)
     (told,) = [line for line in execute("simulate").errors if "compiling" in line]
-    assert ", 2 axes: some 9 s of processor time and 0.2 GB of memory; the generic robot" in told
+    assert ", 2 axes: some 8 s of processor time and 0.2 GB of memory; the generic robot" in told
 
 
 FOUR_BAR = """\

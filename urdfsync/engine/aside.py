@@ -144,11 +144,11 @@ def _bases_given_back(
     inputs: Inputs, package: Package, action: Action, former: Former
 ) -> tuple[FileRecord, Mapping[str, str]]:
     """Return the bases of a text after `--undo`."""
-    # with the old base, the next build would merge the text again, or take it for generated
-    merging = {robot.name for robot in inputs.config.robots if robot.on_conflict == "merge"}  # not only this command
+    # with the old base, the next build would merge the text again, unless only this command merges; or would take it
+    # for generated
     is_merge = action.reason in (Reason.MERGE, Reason.MOVE) or action.is_left_by_git
     is_own_base = text_digest(former.text) in former.record.hashes
-    is_based_anew = is_own_base or (is_merge and inputs.robot.name in merging)
+    is_based_anew = is_own_base or (is_merge and inputs.robot.on_conflict == "merge")
     if action.generated and action.role is not Role.IMPORT and is_based_anew:
         return known_bases(package.content(inputs.folder.path(action.path)).decode())
     return (FileRecord(), {}) if is_own_base else (former.record, former.bases)

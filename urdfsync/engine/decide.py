@@ -157,7 +157,7 @@ def _merge(inputs: Inputs, generation: Generation, judged: _Judged, differences:
     conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, judged.origins)
     names = {name: new for (_, name), new in differences.renames.items()} | dict(judged.names)
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
-    actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge", renamed=renamed)
+    actions, merged = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
     needed = keep_needed(PackageAfter(inputs, package, actions, merged), judged.origins)
     return _Verdicts(*united.write_meanings(inputs.files, needed, merged), conflicts)
 
@@ -200,11 +200,11 @@ def _follow(
     from urdfsync.engine.followers import find_followers  # imports the parser
     from urdfsync.merge import Merge
 
-    is_merging, texts = inputs.robot.on_conflict == "merge", find_followers(after, keys, renamed)
+    texts = find_followers(after, keys, renamed)
     actions, merged, conflicts = list[Action](), dict(settled.merged), dict(settled.conflicts)
     for action in after.actions:
         key = action.path
-        if key in texts and (is_merging or action.reason in (Reason.MERGE, Reason.MOVE)):
+        if key in texts and (inputs.is_merging or action.reason in (Reason.MERGE, Reason.MOVE)):
             merged[key] = texts[key][1]
             action = msgspec.structs.replace(action, reason=Reason.MOVE if action.origin else Reason.MERGE)
         elif key in texts:

@@ -91,6 +91,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return self.last.name if self.last.name != self.robot.name else None
 
     @property
+    def is_merging(self) -> bool:
+        """Whether the user allows merges: by the configuration, or for this command."""
+        return self.options.merges or self.robot.on_conflict == "merge"
+
+    @property
     def has_moved(self) -> bool:
         """Whether the package has another folder than in the last build."""
         return self.folder != self.last.folder

@@ -32,6 +32,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Renew the recorded state even if the package is in step; otherwise only builds that write a file renew it."""
     adopts: bool = False
     """Treat files that exist before the first build as edited generated files."""
+    merges: bool = False
+    """Merge changes into edited files, as with `on_conflict = "merge"`."""
     removes: bool = False
     """Remove the robots' packages and records, as if their sources were empty."""
     draw: bool = False

@@ -46,8 +46,10 @@ class RecordKeys:
     """The keys of the robots of one configuration: each holds all that decides about a robot and is no file."""
 
     def __init__(self, config: Config, options: BuildOptions) -> None:
-        folders = [(robot.name, str(robot.folder), robot.on_conflict) for robot in config.robots]
-        shared = repr((folders, config.file, config.check, options.package_paths, record.surroundings()))
+        folders = [(robot.name, str(robot.folder)) for robot in config.robots]
+        shared = repr(
+            (folders, options.merges, config.file, config.check, options.package_paths, record.surroundings())
+        )
         self._shared = digest(shared.encode(errors="surrogateescape"))
         self._is_plain = not (options.full or options.draw or options.choices or options.adopts or options.removes)
 

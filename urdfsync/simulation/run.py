@@ -116,8 +116,8 @@ def _beginning(prepared: Prepared, options: SimulateOptions) -> str:
     bench, name, target = prepared.bench, prepared.model.name, prepared.package.robot.target.package
     tool, axes = compilers.COMPILERS[options.tool.name], len(bench.layouts[0]) if bench.layouts else 0
     words = f"compiling {name} with {tool.TITLE}"
-    # fitted to chains of 6, 12, 20 and 29 axes, by rumoca 0.10.2: see docs/speed.md
-    seconds, gigabytes, by_record = 8 + 0.13 * axes**2, 0.2 + 0.0045 * axes**2, 6 + 0.45 * axes
+    # fitted to chains of 6 to 43 axes, of 60 by record, by rumoca 0.10.2: tests/benchmarks/axes.py, docs/speed.md
+    seconds, gigabytes, by_record = 8 + 0.075 * axes**2.3, 0.2 + 0.005 * axes**2, 7 + 0.023 * axes**2
     is_package = name in (f"{target}.{bench.test}", f"{target}.{bench.run}") and bench.test != bench.generic
     if tool is not rumoca or not is_package or seconds < _LONG:
         return words
