@@ -119,6 +119,13 @@ def test_units_that_do_not_fit_are_a_warning_of_their_own_kind(ask: Ask) -> None
     assert complaint.message.endswith('- sub-expression "a" has unit "Hz" - sub-expression "b" has unit "m"')
 
 
+@pytest.mark.parametrize(("name", "number"), [("commands[2]", 0), ("positions[12]", 0), ("mine[2]", 1)])
+def test_a_vector_of_inputs_with_several_units_is_right(ask: Ask, name: str, number: int) -> None:
+    """OpenModelica takes the first unit of an array for all its items."""
+    (result,) = ask({"checkModel": f'{BALANCED}"{UNITS}"\n'.replace('\\"a', f'\\"{name}')})
+    assert len(omc.complaints(result.warnings)) == number
+
+
 def test_an_error_in_a_library_counts_where_the_user_caused_it() -> None:
     said = "[/ws/Elbow.mo:9:5-9:21:writable] Notification: From here:\n"
     said += "[/lib/Parts.mo:15:3-15:75:writable] Error: Type mismatch in\n  binding.\nNotification: Something else.\n"

@@ -58,6 +58,8 @@ _MESSAGE = re.compile(
     re.MULTILINE,
 )
 _UNITS, _UNITS_GO_ON = "INCONSISTENT due to specified unit information", "The units of following sub-expressions"
+_MIXED = re.compile(r'\bsub-expression "(?:commands|positions)\[\d+\]" has unit')
+"""OpenModelica 1.27 takes the first unit of an array for all its items, so it doubts Run's vector of inputs."""
 _FOLLOWS = re.compile(
     r"Failed to load package |Class \S+ not found in scope <top>|Curl error|Failed to download"
     r"|Internal error Failed to move",
@@ -137,6 +139,7 @@ def complaints(problem: str) -> list[Complaint]:
         code = "units" if _UNITS in words else code
         result.append(msgspec.structs.replace(origin if origin.file else place, message=words, code=code))
         origin = Complaint("")
+    result = [one for one in result if one.code != "units" or not _MIXED.search(one.message)]
     result = [complaint for complaint in result if not _FOLLOWS.match(complaint.message)] or result
     return result or ([Complaint(one_line(problem))] if problem.strip() and not messages else [])
 
