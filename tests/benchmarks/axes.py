@@ -1,19 +1,20 @@
 """What compiling a robot costs by its number of axes: `python tests/benchmarks/axes.py [--tool TOOL] [AXES …]`.
 
 Each line is a row of the table in docs/speed.md: processor time with all imports, and the greatest memory. A package of
-60 axes takes ten minutes and 16 GB with the embedded compiler.
+43 axes takes nine minutes and 10 GB with the embedded compiler.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-import resource
-import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
 from pathlib import Path
+
+sys.path[:1] = [str(folder) for folder in Path(__file__).resolve().parents[1:3]]
+
+from benchmarks.measuring import measure  # noqa: E402
 
 _COMMAND = (sys.executable, "-m", "urdfsync")
 _INERTIAL = '<inertial><origin xyz="0 0 0.05"/><mass value="{mass:.3f}"/><inertia {inertia}/></inertial>'
@@ -38,27 +39,16 @@ def chain(axes: int) -> str:
     return "".join([*parts, "</robot>\n"])
 
 
-def measure(axes: int, approach: str, tool: str, cache: str) -> str:
-    """Simulate 0.2 s of a chain; return its seconds of processor time, and its memory."""
-    with tempfile.TemporaryDirectory() as folder:
-        Path(folder, "chain.urdf").write_text(chain(axes), encoding="utf-8")
+def cost(axes: int, approach: str, tool: str) -> str:
+    """Build a chain and simulate 0.2 s of it; return the seconds of processor time, and the memory."""
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        (folder / "chain.urdf").write_text(chain(axes), encoding="utf-8")
         table = f'[robots.chain]\nsource = "chain.urdf"\npackage = "Chain"\napproach = ["{approach}"]\n'
-        Path(folder, "urdfsync.toml").write_text(table, encoding="utf-8")
+        (folder / "urdfsync.toml").write_text(table, encoding="utf-8")
         simulate = ("simulate", "--stop", "0.2", "--tool", tool)
-        # compilers with several threads wait busily for each other
-        environment = os.environ | {"RAYON_NUM_THREADS": "1", "XDG_CACHE_HOME": cache}
-        used = [_run([*_COMMAND, *words], folder, environment) for words in (("build", "-q"), simulate)]
-    seconds = sum(one.ru_utime + one.ru_stime for one in used)
-    return f"{seconds:.0f} s, {max(one.ru_maxrss for one in used) / 1e6:.1f} GB"
-
-
-def _run(command: Sequence[str], folder: str, environment: Mapping[str, str]) -> resource.struct_rusage:
-    """Run a command; return what it and its children have used."""
-    process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.DEVNULL)
-    _, status, used = os.wait4(process.pid, 0)
-    if status:
-        raise SystemExit(f"failed: {' '.join(command)}")
-    return used
+        costs = [measure([*_COMMAND, *words], folder) for words in (("build", "-q"), simulate)]
+    return f"{sum(one.cpu for one in costs):.0f} s, {max(one.peak for one in costs) / 1e9:.1f} GB"
 
 
 def main() -> None:
@@ -68,10 +58,12 @@ def main() -> None:
     parser.add_argument("--tool", default="rumoca")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as cache:
+        # compilers with several threads wait busily for each other
+        os.environ |= {"RAYON_NUM_THREADS": "1", "XDG_CACHE_HOME": cache}
         for approach in ("package", "record"):
-            measure(1, approach, arguments.tool, cache)  # reads the library: once on each machine
+            cost(1, approach, arguments.tool)  # reads the library: once on each machine
         for axes in arguments.axes:
-            package, record = (measure(axes, approach, arguments.tool, cache) for approach in ("package", "record"))
+            package, record = (cost(axes, approach, arguments.tool) for approach in ("package", "record"))
             print(f"| {axes} | {package} | {record} |", flush=True)  # noqa: T201
 
 
