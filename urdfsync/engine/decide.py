@@ -309,12 +309,8 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, judged: _J
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
-    if not names and bases and last.record.former:  # `--undo` came after the build that brought new names
-        names = names_of(inputs, generation, last.record.former, frozenset(words_in(bases[0])))
-        before = last.package if last.record.generator == inputs.generator else None
-        if before is None or path not in before.artifacts or before.hash(path) == action.base:
-            now = known_names(generation.package)  # the base may have the new names already
-            names = {name: new for name, new in names.items() if name not in now}
+    if not names and bases and last.record.former:
+        names = _names_since_undo(inputs, generation, action, frozenset(words_in(bases[0])))
     numbers = renumbered.names(action, itertools.chain.from_iterable(map(words_in, bases)))
     conflict = find_conflict(action, bases, mine, generated, {**names, **numbers})
     proposal = conflict.merge.proposal if conflict.merge else ""
@@ -324,6 +320,21 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, judged: _J
             without = conflict.merge and conflict.merge.rejected
             return msgspec.structs.replace(conflict, merge=without, rejected=rejected)
     return msgspec.structs.replace(conflict, renumbered=renumbered.describe(action, numbers)) if numbers else conflict
+
+
+def _names_since_undo(
+    inputs: Inputs, generation: Generation, action: Action, words: frozenset[str]
+) -> Mapping[str, str]:
+    """Return the new names of words in a base: `--undo` came after the build that brought these names."""
+    last, path = inputs.last, inputs.folder.path(action.path)
+    names = names_of(inputs, generation, last.record.former, words)
+    if not names:
+        return names  # the rest renders and parses texts
+    before = last.package if last.record.generator == inputs.generator else None
+    if before is None or path not in before.artifacts or before.hash(path) == action.base:
+        now = known_names(generation.package)  # the base may have the new names already
+        return {name: new for name, new in names.items() if name not in now}
+    return names
 
 
 def _without_misfits(
