@@ -170,6 +170,7 @@ def followed(path: Path) -> bool:
     return path.read_text() == BRAKE.replace("extends Elbow", "extends Knee")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["at once", "one by one", "build --merge"])
 def test_a_users_own_class_follows_like_an_edit(
     repository: Repository, brake: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, how: str
@@ -201,6 +202,7 @@ def test_nothing_but_its_new_names_can_be_taken_for_a_users_own_class(brake: Pat
     assert "MyBrake" not in MODEL.read_text()
 
 
+@pytest.mark.slow
 def test_a_users_own_class_that_is_kept_and_used_makes_the_package_broken(brake: Path, execute: Execute) -> None:
     write_source(elbow="knee")
     execute("build", code=3)

@@ -108,6 +108,7 @@ def test_a_template_takes_no_more_memory_than_it_may(marker: Path, capsys: Captu
     assert resource.getrlimit(resource.RLIMIT_AS) == before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "attack",
     [

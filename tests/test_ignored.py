@@ -50,6 +50,7 @@ def test_no_command_tells_what_is_ignored(noted: Path, execute: Execute, command
     assert "nowhere" not in told
 
 
+@pytest.mark.slow
 def test_check_does_not_either(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("urdfsync.checks.run.workers", checks.thread_workers)
     execute("build", "-q")

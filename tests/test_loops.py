@@ -80,6 +80,7 @@ def test_a_fault_stops_the_build_with_its_line(project: Path, execute: Execute, 
     assert words in execute("build", code=2).err
 
 
+@pytest.mark.slow
 def test_joints_that_start_elsewhere_and_the_chosen_drive_are_told_once(project: Path, execute: Execute) -> None:
     configure(project, 'output = "modelica"', 'output = "modelica"\nstart = { drive = 0.1, elbow = 2.0 }')
     said = execute("build").err

@@ -83,6 +83,7 @@ def report(**inputs: str) -> tuple[int, dict[str, str]]:
     return code, dict(line.split("=", 1) for line in Path(files["GITHUB_OUTPUT"]).read_text().splitlines())
 
 
+@pytest.mark.slow
 @posix
 @NEEDS_GIT
 def test_the_action_reports_what_changed_and_that_the_package_is_out_of_step(arm: Repository) -> None:
@@ -97,6 +98,7 @@ def test_the_action_reports_what_changed_and_that_the_package_is_out_of_step(arm
     assert "out-of-step" in {result["ruleId"] for result in log["runs"][0]["results"]}
 
 
+@pytest.mark.slow
 @posix
 @NEEDS_GIT
 def test_the_action_passes_if_all_is_in_step_though_the_sources_differ(arm: Repository, execute: Execute) -> None:
@@ -175,6 +177,7 @@ def check_out(origin: Repository, monkeypatch: pytest.MonkeyPatch, depth: int = 
     monkeypatch.chdir(clone.folder)
 
 
+@pytest.mark.slow
 @posix
 @NEEDS_GIT
 @pytest.mark.parametrize(("against", "depth"), [("HEAD^1", 2), ("origin/main", 0)])
@@ -197,6 +200,7 @@ def test_the_action_passes_a_merge_commit(pull_request: Repository, monkeypatch:
     assert json.loads(Path(outputs["sarif"]).read_text())["runs"][0]["results"] == []
 
 
+@pytest.mark.slow
 @posix
 @NEEDS_GIT
 def test_the_action_compares_with_a_revision_and_no_file_of_the_checkout(arm: Repository) -> None:

@@ -196,6 +196,7 @@ def unclear(execute: Execute) -> None:
     export((1.5, 0.15), (1.1, 0.25), (5.5, 0.1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("answer", "number"), [(["--keep"], 1), (["--moved", "link_3"], 3), (["--take"], 0)])
 def test_what_cannot_be_known_is_asked(folder: Path, execute: Execute, answer: list[str], number: int) -> None:
     Path("urdfsync.toml").write_text(CONFIGURATION)
@@ -329,6 +330,7 @@ def test_an_edit_of_a_part_that_is_gone_is_asked_about(edited: Path, execute: Ex
     assert "mine" not in Path(LINK.format(2)).read_text()
 
 
+@pytest.mark.slow
 def test_edits_change_places_once_while_a_number_conflicts(edited: Path, execute: Execute) -> None:
     """Conflicts about numbers delay only exchanged names."""
     record = LINK.format(1).replace(".mo", "Parameters.mo")
@@ -429,6 +431,7 @@ def test_a_model_that_extends_the_robot_uses_names_alone(edited: Path, execute: 
     assert "Mine.mo:4: warning: `joint_2Axis` names another part now" in execute("build").words
 
 
+@pytest.mark.slow
 @NEEDS_GIT
 def test_edits_that_git_left_with_exchanged_names_change_places_together(
     repository: Repository, execute: Execute

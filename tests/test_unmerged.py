@@ -164,6 +164,7 @@ def contradictory(repository: Repository, execute: Execute, request: pytest.Fixt
     return repository
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("side", "mass"), [("mine", "5.4"), ("theirs", "4.5")])
 def test_one_side_of_a_contradiction_can_be_chosen(
     contradictory: Repository, execute: Execute, side: str, mass: str
@@ -243,6 +244,7 @@ def test_an_unmerged_source_is_not_in_step(repository: Repository, execute: Exec
     execute("build", "--check")
 
 
+@pytest.mark.slow
 def test_an_unmerged_file_that_the_source_names_is_not_in_step(repository: Repository, execute: Execute) -> None:
     """Our version stays without markers: only the index shows that theirs is missing."""
     text = Path("arm.urdf").read_text().replace("<robot ", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" ')

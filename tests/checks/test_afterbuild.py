@@ -117,6 +117,7 @@ def test_a_package_is_checked_after_each_build_until_it_is_right(
     assert [one.checked for one in build_all()] == [Checked.WRONG], "what is wrong was right before"
 
 
+@pytest.mark.slow
 def test_what_could_not_be_checked_is_said_once_for_all_robots_and_at_each_build(
     project: Path, modelica_library: Path, monkeypatch: pytest.MonkeyPatch, compiling: Compiling
 ) -> None:

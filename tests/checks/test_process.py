@@ -56,6 +56,7 @@ def test_progress_is_told_until_the_end() -> None:
     assert told
 
 
+@pytest.mark.slow
 def test_what_a_process_has_started_ends_with_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     looks: list[list[psutil.Process]] = []
@@ -79,6 +80,7 @@ def test_a_process_keeps_the_session_and_so_the_priority_but_gets_no_interruptio
     assert run(act, "session", limits=limits())[0] == f"{os.getsid(0)} True"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deed", ["work", "sleep"])
 def test_only_processor_time_counts_unless_a_process_does_nothing(deed: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(process, "_MOST_IDLE", 1.5 if deed == "sleep" else 60)

@@ -60,6 +60,7 @@ def write_fleet(folder: Path) -> str:
     return "robot.urdf.xacro"
 
 
+@pytest.mark.slow
 def test_one_xacro_is_many_robots(folder: Path, execute: Execute) -> None:
     """The robot's own name comes first, then the arguments that differ; the same arguments are the same robot."""
     source = write_fleet(folder)
@@ -75,6 +76,7 @@ def test_one_xacro_is_many_robots(folder: Path, execute: Execute) -> None:
     assert (folder / "modelica/Cart10/package.mo").is_file()
 
 
+@pytest.mark.slow
 def test_robots_of_a_fleet_have_names_and_arguments_of_their_own(folder: Path, execute: Execute) -> None:
     source = write_fleet(folder)
     execute("init", source, "kind:=s")

@@ -56,6 +56,7 @@ def test_few_named_robots_and_verbose_output_have_a_line_each(execute: Execute) 
     assert len(execute("build", "--format=json").json["results"]) == 12
 
 
+@pytest.mark.slow
 def test_a_build_answered_from_records_says_the_same(execute: Execute, capsys: pytest.CaptureFixture[str]) -> None:
     time.sleep(2.1)  # files of the last two seconds are read
     execute("build")

@@ -15,6 +15,7 @@ from urdfsync.checks.process import LimitError
 from urdfsync.diagnostics import Diagnostic, Severity
 
 
+@pytest.mark.slow
 def test_all_arguments_reach_the_compiler(compiler: Compiler, execute: Execute) -> None:
     execute(
         *("simulate", "arm", "--model", "ArmTest", "--stop", 2, "--step", 0.5, "--tolerance", 1e-3, "--method", "bdf"),
@@ -73,6 +74,7 @@ def test_what_is_not_installed_is_said_first(
     assert compiler.jobs == []
 
 
+@pytest.mark.slow
 def test_one_of_several_robots_has_to_be_named(compiler: Compiler, execute: Execute) -> None:
     with Path("urdfsync.toml").open("a") as file:
         file.write('[robots.other]\nsource = "arm.urdf"\npackage = "Other"\n')

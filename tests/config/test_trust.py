@@ -61,6 +61,7 @@ def test_resolve_needs_the_users_word(outside: Path, execute: Execute) -> None:
     assert "150" in model.read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="XDG_CONFIG_HOME says nothing there")
 def test_watch_needs_the_users_word(outside: Path, rc_site: Path) -> None:
     folder = Path(__file__).parents[1] / "rcnetwork"
@@ -165,6 +166,7 @@ def test_the_user_may_choose_openmodelica(asked: Path, execute: Execute, command
     assert "checkModel(" in asked.read_text()
 
 
+@pytest.mark.slow
 @NEEDS_SCRIPTS
 def test_a_trusted_folder_may_choose_openmodelica(asked: Path, trusted: Path, execute: Execute) -> None:
     trusted.write_text(f"folders = ['{Path.cwd()}']\n")

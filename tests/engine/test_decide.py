@@ -75,6 +75,7 @@ def conflict(project: Path) -> Path:
 # Conflicts, and what resolves them
 
 
+@pytest.mark.slow
 def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_deletes_them(conflict: Path) -> None:
     before = Path(R1).read_bytes()
     assert exit_code([run()]) is Exit.CONFLICT

@@ -182,6 +182,7 @@ def test_what_to_do_about_a_file_that_is_not_found_goes_by_its_reference(project
 # Meshes of a robot
 
 
+@pytest.mark.slow
 def test_outermost_points_of_meshes_are_found_once_the_robot_touches_the_ground(workspace: Path) -> None:
     """Whether the meshes are there or not, what is built in the end is what one build makes of it."""
     crashes.run(workspace)

@@ -59,6 +59,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return found
 
 
+@pytest.mark.slow
 def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, started: list[int]) -> None:
     alone = run_all(jobs=1)
     assert started == []
@@ -74,6 +75,7 @@ def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, star
     assert together[2].diagnostics == alone[2].diagnostics
 
 
+@pytest.mark.slow
 def test_what_workers_read_is_recorded_as_a_dependency(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(remembered, "recall", lambda *_: None)
     (robots / "n2.json").write_text((robots / "n1.json").read_text())
@@ -107,6 +109,7 @@ class LastComeFirst(Executor):
         future.set_result(job())
 
 
+@pytest.mark.slow
 def test_progress_is_told_in_robots_that_have_been_read(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (robots / "n2.json").write_text((robots / "n1.json").read_text())
     executor, told = LastComeFirst(), list[tuple[int, int]]()
@@ -155,12 +158,14 @@ def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory
     assert contents(robots / "modelica") == result
 
 
+@pytest.mark.slow
 def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("urdfsync.processes.workers.PATIENCE", 1)
     with pytest.raises(ConfigError, match="no Dask scheduler answers"):
         run_all(executor="tcp://127.0.0.1:9")
 
 
+@pytest.mark.slow
 def test_a_save_while_the_others_plan_is_seen(robots: Path) -> None:
     run_all(jobs=1)
     for path in robots.glob("n*.json"):

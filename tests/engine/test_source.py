@@ -124,6 +124,7 @@ def test_the_package_is_that_of_ros_own_xacro(
     assert contents(project / "modelica") == built
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "text"),
     [
@@ -188,6 +189,7 @@ def test_line_ends_are_no_change(built: Path, execute: Execute) -> None:
     assert execute("status").lines == ["arm: in step, 15 files"]
 
 
+@pytest.mark.slow
 def test_arguments_and_variables_are_inputs(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     text = xacros.ARM.replace('default="0.5"', 'default="$(optenv LONG 2)"')
     xacros.write(project, {"arm.urdf.xacro": text}, xacros.CONFIG.replace("arguments = { length = 0.5 }\n", ""))
@@ -422,6 +424,7 @@ def test_branches_unite_without_a_conflict(built: Path, execute: Execute, monkey
     assert execute("status").lines == ["arm: in step, 15 files"]
 
 
+@pytest.mark.slow
 @NEEDS_GIT
 def test_a_revision_is_compared_as_it_was_expanded(
     built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
@@ -470,6 +473,7 @@ def test_a_robot_of_another_name_takes_its_expansion_along(
     assert execute("status").lines == ["leg: in step, 15 files"]
 
 
+@pytest.mark.slow
 def test_xacro_is_noticed_whatever_its_name(project: Path, execute: Execute) -> None:
     (project / "urdf/arm.urdf.xacro").rename(project / "urdf/arm.urdf")
     (project / "urdfsync.toml").unlink()
@@ -509,6 +513,7 @@ def test_a_robot_that_is_xacro_no_more(built: Path, execute: Execute) -> None:
     assert not EXPANDED.exists()
 
 
+@pytest.mark.slow
 def test_init_and_add_and_record(project: Path, execute: Execute) -> None:
     (project / "urdfsync.toml").unlink()
     execute("init", "urdf/arm.urdf.xacro", "length:=0.75")
@@ -592,6 +597,7 @@ def test_the_daemon_waits_for_files_that_are_not_there(project: Path) -> None:
             assert f"mass = {mass}" in Path(RECORD).read_text()
 
 
+@pytest.mark.slow
 def test_a_file_that_comes_ends_a_failure(project: Path, execute: Execute) -> None:
     (project / "urdf/masses.yaml").rename(project / "urdf/later.yaml")
     for _ in range(2):

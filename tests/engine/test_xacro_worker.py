@@ -57,6 +57,7 @@ def test_a_package_whose_files_are_elsewhere_once_installed_is_named(folder: Pat
     )
 
 
+@pytest.mark.slow
 def test_an_error_in_an_included_file_is_told_there(folder: Path) -> None:
     inputs = write_line(folder, '<xacro:include filename="more.xacro"/>')
     more = folder / "more.xacro"

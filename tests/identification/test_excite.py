@@ -15,6 +15,7 @@ from urdfsync.simulation.motion import read_motion
 LIMITS = {"hip": (-1.05, 1.05, 30), "thigh": (-1.57, 3.49, 30), "calf": (-2.72, -0.83, 15)}
 
 
+@pytest.mark.slow
 def test_a_motion_begins_and_ends_at_rest_within_the_limits(leg: Path, execute: Execute) -> None:
     printed = execute("identify", "leg", "--excite", "motion.csv", "--seconds", "10")
     motion = read_motion(Path("motion.csv"), [Input(f"{name}_phi", "rad") for name in LIMITS])

@@ -79,6 +79,7 @@ def test_fits_are_right_against_another_simulator(folder: Path, name: str) -> No
         assert each.ratio < 1.1
 
 
+@pytest.mark.slow
 def test_a_coupled_gripper_is_fitted(gripper: Path) -> None:
     """A follower has no effort of its own: its link stays, and the leader's numbers take over its part."""
     loaded = urdfsync.load()

@@ -47,6 +47,7 @@ def test_an_edit_that_no_body_can_have_is_named(gripper: Path, execute: Execute,
         assert words in execute("identify", "gripper", "log.csv", "--write", code=2).err
 
 
+@pytest.mark.slow
 def test_a_number_may_have_a_comment_behind_it(gripper: Path, execute: Execute) -> None:
     edit(LINKS / "RightParameters.mo", "mass = ", "mass = 0.25 /* weighed */, // was ")
     assert execute("identify", "gripper", "log.csv").err == ""
@@ -71,6 +72,7 @@ def test_a_file_that_cant_be_written_leaves_all_as_they_were(
     assert next(calls) == 3, "the first file was written, and taken back"
 
 
+@pytest.mark.slow
 def test_a_second_fit_of_the_same_log_edits_nothing(gripper: Path, execute: Execute) -> None:
     execute("identify", "gripper", "log.csv", "--write")
     with unchanged(gripper):

@@ -71,6 +71,7 @@ def test_measure_identify_merge_patch_build(gripper: Path, execute: Execute, mon
     assert result["joints"][0]["before"] < 0.1 * result["joints"][0]["measured"]
 
 
+@pytest.mark.slow
 def test_the_users_layout_stays(gripper: Path, execute: Execute) -> None:
     """Only literals change: comments, blanks and line ends are the user's."""
     text = DRIVE.read_text().replace("friction = 0.03", "friction  =  0.03 /* greased */").replace("\n", "\r\n")
@@ -88,6 +89,7 @@ def test_a_fit_begins_with_the_users_numbers(gripper: Path, execute: Execute) ->
     assert next(each["before"] for each in result["numbers"] if each["path"] == "dynamics.friction") == 0.0271
 
 
+@pytest.mark.slow
 def test_a_plot_is_written(gripper: Path, execute: Execute) -> None:
     execute("identify", "gripper", "log.csv", "--plot", "efforts.svg")
     text = Path("efforts.svg").read_text()
@@ -95,6 +97,7 @@ def test_a_plot_is_written(gripper: Path, execute: Execute) -> None:
     assert "drive [N·m]" in text
 
 
+@pytest.mark.slow
 def test_a_model_is_judged_by_one_number(gripper: Path, execute: Execute) -> None:
     """The number falls when the fit is written."""
     before = judged()
@@ -148,6 +151,7 @@ def test_a_robot_that_is_not_ready(gripper: Path, execute: Execute, change: str,
     assert len(printed.errors) == 1
 
 
+@pytest.mark.slow
 def test_a_source_that_a_command_makes(gripper: Path, execute: Execute) -> None:
     """Its records are written all the same; a patch then says that its source can't take them."""
     Path("urdfsync.toml").write_text(
@@ -161,6 +165,7 @@ def test_a_source_that_a_command_makes(gripper: Path, execute: Execute) -> None:
     assert "its source is made by a command" in line
 
 
+@pytest.mark.slow
 def test_what_can_not_be_chosen(gripper: Path, execute: Execute) -> None:
     for arguments, words in (
         (["--joint", "drivee"], "`drivee` is no joint that moves and has numbers; did you mean `drive`?"),
@@ -179,6 +184,7 @@ def test_a_joint_that_never_moves(gripper: Path, execute: Execute, recording: me
     assert len(printed.errors) == 1
 
 
+@pytest.mark.slow
 def test_efforts_of_another_sign_are_told(gripper: Path, execute: Execute, recording: measured.Recording) -> None:
     recording._replace(efforts=-recording.efforts).write(Path("other.csv"))
     printed = execute("identify", "gripper", "other.csv", "--write")
@@ -203,6 +209,7 @@ def test_a_wrong_sign_that_other_numbers_hide_is_told() -> None:
     assert "joint shoulder: the source's numbers are worse than none, 200 % of its effort is left" in told.message
 
 
+@pytest.mark.slow
 def test_a_time_that_holds_nothing_out_or_leaves_nothing(gripper: Path, execute: Execute) -> None:
     printed = execute("identify", "gripper", "log.csv", "--until", "60")
     assert "`--until 60` holds nothing out: the log has no sample after that time" in printed.words

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+import pytest
+
 from urdfsync.merge import merge
 
 
@@ -50,6 +52,7 @@ def test_parts_side_by_side_do_not_lie_on_each_other() -> None:
     assert placed("c", 100, 60) in text
 
 
+@pytest.mark.slow
 def test_a_diagram_full_of_boxes_upon_each_other_takes_no_minutes() -> None:
     """Free places are looked for so long only; all parts are there."""
     boxes = "".join(placed(f"n{number}", 0, 0) for number in range(2_000))

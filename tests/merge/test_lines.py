@@ -44,6 +44,7 @@ def git_merge(folder: Path, texts: Texts) -> str | None:
     return process.stdout.decode() if process.returncode == 0 else None
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed: there is nothing to compare with")
 @often(100)
 @given(texts=three_texts())

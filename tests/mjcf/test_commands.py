@@ -50,6 +50,7 @@ def without_mujoco(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTHONPATH", str(folder / "broken"))
 
 
+@pytest.mark.slow
 def test_init_guesses_the_options(folder: Path, execute: Execute) -> None:
     spring = '<body name="toe" pos="0 0 1"><joint type="ball" stiffness="3"/><geom size="0.1"/></body>'
     Path("arm.xml").write_text(ARM)
@@ -62,6 +63,7 @@ def test_init_guesses_the_options(folder: Path, execute: Execute) -> None:
     assert "bolted down" not in printed.err
 
 
+@pytest.mark.slow
 def test_a_spring_of_a_ball_stops_a_build_unless_it_is_allowed(project: Path, execute: Execute) -> None:
     edit('name="elbow" axis="0 1 0" armature="0.1"', 'name="elbow" type="ball"')
     with unchanged(project):
@@ -86,6 +88,7 @@ def test_one_number_changes_one_record(project: Path, execute: Execute) -> None:
     assert "1.75" in RECORD.read_text()
 
 
+@pytest.mark.slow
 def test_a_gain_changes_one_record(project: Path, execute: Execute) -> None:
     """A law that comes changes Run, too."""
     edit("</mujoco>", '<actuator><motor joint="elbow"/></actuator></mujoco>')
@@ -103,6 +106,7 @@ def test_a_gain_changes_one_record(project: Path, execute: Execute) -> None:
     assert "positionGain = 60" in Path("modelica/Arm/Joints/ElbowParameters.mo").read_text()
 
 
+@pytest.mark.slow
 def test_an_included_file_and_a_mesh_are_inputs(project: Path, execute: Execute) -> None:
     asset = '<asset><mesh name="m" file="m.stl"/></asset>'
     Path("mjcf/m.stl").write_bytes(stl())
@@ -143,11 +147,13 @@ def test_a_robot_of_a_scene_is_chosen_by_an_argument(folder: Path, execute: Exec
     assert sorted('<link name="left"' in text for text in texts) == [False, True]
 
 
+@pytest.mark.slow
 def test_a_source_outside_of_a_project_is_compared(project: Path, execute: Execute) -> None:
     Path("new.xml").write_text(ARM.replace('mass="1.5"', 'mass="1.75"'))
     assert "1.75 → 1.5 kg" in execute("diff", "arm", "--against", "new.xml", code=1).out
 
 
+@pytest.mark.slow
 @NEEDS_GIT
 def test_a_revision_is_compared(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     Repository(project, monkeypatch).commit()

@@ -57,6 +57,7 @@ def changed(execute: Execute, *sources: str) -> list[str]:
     return [line.strip() for line in lines[1:] if line and "renamed" not in line and "is now" not in line]
 
 
+@pytest.mark.slow
 def test_other_names_frames_and_shapes_make_no_difference_in_motion(pair: Path, execute: Execute) -> None:
     assert changed(execute, "arm.urdf", "arm.xml") == []
     assert changed(execute, "arm.xml", "arm.urdf") == []
@@ -106,6 +107,7 @@ def test_a_source_of_a_robot_may_be_one_of_two(pair: Path, execute: Execute) -> 
     assert changed(execute, "arm.xml", "arm.urdf") == ["link upper_link: inertial / mass 1.75 → 1.5 kg (-14.3 %)"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("first", "second"), [("arm.urdf", "arm.xml"), ("arm.xml", "arm.urdf")])
 def test_edits_follow_a_source_that_changes_its_format(pair: Path, execute: Execute, first: str, second: str) -> None:
     execute("init", first)
@@ -182,6 +184,7 @@ def renamed(execute: Execute) -> dict[str, str]:
     return {each["path"][0].partition(" ")[2]: each["new"] for each in changes if each["kind"] == "renamed"}
 
 
+@pytest.mark.slow
 def test_equal_legs_match_in_another_format(folder: Path, execute: Execute) -> None:
     """Their places on the trunk tell them apart, and an edit of a knee follows its leg."""
     Path("dog.urdf").write_text(dog_urdf())
@@ -215,12 +218,14 @@ def with_tool(tool: str, place: str, friction: str, motor: str) -> str:
     return f'<mujoco model="arm">{robot}<actuator><{motor} joint="j"/></actuator></mujoco>'
 
 
+@pytest.mark.slow
 def test_frames_contacts_and_commands_make_no_difference_in_motion(pair: Path, execute: Execute) -> None:
     Path("arm.xml").write_text(with_tool("tool", "0.3", "0.7", "motor"))
     Path("other.xml").write_text(with_tool("tcp", "0.295", "0.6", "position"))
     assert "other.xml: no difference in motion against arm.xml" in execute("diff", "arm.xml", "other.xml").lines
 
 
+@pytest.mark.slow
 def test_a_frame_without_mass_counts_if_the_other_source_has_a_mass_there(pair: Path, execute: Execute) -> None:
     text = with_tool("tool", "0.3", "0.7", "motor")
     Path("arm.xml").write_text(text)

@@ -76,6 +76,7 @@ def test_a_model_that_takes_too_long_is_ended(folder: Path, monkeypatch: pytest.
     assert "expanding it takes more than 0.2 s or 1 GB" in told(folder, body(f"<joint/>{copies}"))
 
 
+@pytest.mark.slow
 def test_nothing_is_written_beside_the_source(folder: Path) -> None:
     """MuJoCo alone would write its warnings into the working folder."""
     file = folder / "arm.xml"

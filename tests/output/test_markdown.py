@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import re
 
+import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
@@ -28,6 +29,7 @@ def cells(rendered: str) -> list[str]:
     return [html.unescape(re.sub("<[^>]*>", "", cell)) for cell in re.findall("(?s)<td>(.*?)</td>", rendered)]
 
 
+@pytest.mark.slow
 @given(st.text(st.characters(exclude_categories=["C", "Z"]) | st.sampled_from(" |`*_#-+=1.)<>[]!&\\~$@:/"), min_size=1))
 @example(HOSTILE)
 @example("`a|b`")

@@ -16,6 +16,7 @@ from urdfsync import cli
 Report = Callable[..., Path]
 
 
+@pytest.mark.slow
 def test_changes_edits_and_conflicts_are_told(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     numbers, wrist = Path("modelica/Arm/Links/ForearmParameters.mo"), Path("modelica/Arm/Links/Wrist.mo")
@@ -44,6 +45,7 @@ def test_nothing_changed_has_no_older_version(arm: Path, report: Report) -> None
     assert re.search(r"Property ?Before ?Now ?Limit ?robot mass ?52\.345 kg", " ".join(page.words.split()))
 
 
+@pytest.mark.slow
 @NEEDS_GIT
 def test_a_revision_is_the_older_version(arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
     repository = Repository(arm.parent, monkeypatch)
@@ -60,6 +62,7 @@ def test_a_revision_is_the_older_version(arm: Path, report: Report, monkeypatch:
     assert values["against"] == "HEAD"
 
 
+@pytest.mark.slow
 def test_the_diagram_and_the_details_show_what_is_on_disk(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     numbers, robot = Path("modelica/Arm/Links/ForearmParameters.mo"), Path("modelica/Arm/Arm.mo")
@@ -88,6 +91,7 @@ def test_the_diagram_and_the_details_show_what_is_on_disk(arm: Path, report: Rep
     assert "These numbers are those of the source, without your edits." in words
 
 
+@pytest.mark.slow
 def test_nothing_edited_has_no_mark(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     page = read(report())
@@ -98,6 +102,7 @@ def test_nothing_edited_has_no_mark(arm: Path, report: Report) -> None:
     assert "without your edits" not in page.words
 
 
+@pytest.mark.slow
 def test_a_part_with_a_finding_is_marked(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     assert data_of(read(report()))["findings"] == {}
@@ -109,6 +114,7 @@ def test_a_part_with_a_finding_is_marked(arm: Path, report: Report) -> None:
     }
 
 
+@pytest.mark.slow
 def test_in_a_conflict_the_diagram_shows_the_text_that_stays(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     numbers = Path("modelica/Arm/Links/ForearmParameters.mo")

@@ -53,6 +53,7 @@ def test_names_are_no_markup_wherever_they_stand(report: Report) -> None:
     assert now["bodies"][0]["element"] == f"link {name}"
 
 
+@pytest.mark.slow
 def test_no_heading_stands_twice(arm: Path, report: Report) -> None:
     report()
     cli.main(["build", "--quiet"])
@@ -77,10 +78,12 @@ def test_the_page_names_the_licence_of_three_js_and_what_wrote_it(report: Report
     )
 
 
+@pytest.mark.slow
 def test_the_six_axis_arm_has_less_than_3_mb(arm: Path, report: Report) -> None:
     assert report().stat().st_size < 3_000_000
 
 
+@pytest.mark.slow
 def test_a_check_has_its_verdict_and_a_scale_for_each_difference(arm: Path, tmp_path: Path) -> None:
     loaded = config.load(Path("urdfsync.toml"))
     content = gather(loaded, loaded.robots[0], None, BuildOptions(), tmp_path)
@@ -97,6 +100,7 @@ def test_a_check_has_its_verdict_and_a_scale_for_each_difference(arm: Path, tmp_
     assert "0.67 N·m" in page.words
 
 
+@pytest.mark.slow
 def test_what_a_check_found_of_this_package_is_told(arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
     kept = CheckResult("arm", "Arm", tools=(ToolResult("rumoca", (CompiledModel("Arm", 7),)),))
     asked = list[str]()
@@ -113,6 +117,7 @@ def test_what_a_check_found_of_this_package_is_told(arm: Path, report: Report, m
     assert "1 model compiles" in page.words
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("node"), reason="no node to look at the scripts with")
 def test_the_scripts_are_sound(tmp_path: Path) -> None:
     folder = Path(page_module.__file__).parent

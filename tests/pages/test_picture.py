@@ -20,6 +20,7 @@ from urdfsync.urdf import scene
 Report = Callable[..., Path]
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_missing_is_named(arm: Path, report: Report) -> None:
     Path("meshes/forearm_tube.stl").unlink()
     page = read(report())

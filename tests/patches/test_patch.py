@@ -187,6 +187,7 @@ def test_a_change_of_both_sides_is_built_first(repository: Repository, execute: 
 # --- xacro --------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_literals_of_a_xacro(repository: Repository, execute: Execute) -> None:
     """They are in a YAML, in a macro of an included file, and in the configuration."""
     xacros.write(repository.folder)
@@ -204,6 +205,7 @@ def test_literals_of_a_xacro(repository: Repository, execute: Execute) -> None:
     assert Path("urdf/parts/beam.xacro").read_text() == expected
 
 
+@pytest.mark.slow
 def test_defaults_and_properties_of_nested_files(repository: Repository, execute: Execute) -> None:
     inner = f"{HEAD}<xacro:arg name='mass' default='2.5'/>\r\n<xacro:property name='m' value='$(arg mass)'/></robot>\n"
     files = {
@@ -231,6 +233,7 @@ def test_a_literal_that_feeds_two_parts_stays(repository: Repository, execute: E
     assert Path("arm.xacro").read_text() == text.replace("2.5", "3")
 
 
+@pytest.mark.slow
 def test_two_edits_of_one_number_stay(repository: Repository, execute: Execute) -> None:
     calls = "".join(CALL.format(name, "${m}") for name in "ab")
     text = f'{HEAD}<xacro:property name="m" value="2.5"/>\n{WHEEL}{BASE}{calls}</robot>'
@@ -257,6 +260,7 @@ def test_what_a_macro_leaves_out_is_inserted_for_one_part(repository: Repository
     assert line.endswith("its number in arm.xacro:6 also feeds origin.xyz of joint to_b")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("expression", "value", "why"),
     [

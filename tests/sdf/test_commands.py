@@ -75,6 +75,7 @@ def test_one_number_changes_one_record(project: Path, execute: Execute) -> None:
     assert "1.75" in RECORD.read_text()
 
 
+@pytest.mark.slow
 def test_an_included_model_is_an_input(project: Path, execute: Execute) -> None:
     Path("sdf/hand").mkdir()
     Path("sdf/hand/hand.sdf").write_text(HAND)
@@ -90,6 +91,7 @@ def test_an_included_model_is_an_input(project: Path, execute: Execute) -> None:
     assert "inertial / mass 0.5 → 0.25 kg" in execute("diff", code=1).out
 
 
+@pytest.mark.slow
 def test_a_robot_of_a_world_is_chosen_by_an_argument(folder: Path, execute: Execute) -> None:
     arms = "".join(
         f'<model name="{name}"><link name="{name}_link"/>{hinge("h", "world", f"{name}_link")}</model>'
@@ -118,6 +120,7 @@ def test_a_revision_is_compared(project: Path, execute: Execute, monkeypatch: py
     assert "1.5 → 1.75 kg" in execute("diff", "--against", "HEAD", code=1).out
 
 
+@pytest.mark.slow
 @NEEDS_GIT
 def test_a_hook_passes_a_commit_in_step(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     repository = Repository(project, monkeypatch)

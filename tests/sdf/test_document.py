@@ -151,6 +151,7 @@ def test_a_fault_has_a_line(text: str, files: dict[str, str], told: str) -> None
     assert problem(text, files).startswith(told)
 
 
+@pytest.mark.slow
 def test_includes_of_includes_have_a_limit() -> None:
     """Twenty files that include the next one twice would be a million models."""
     files = {

@@ -39,6 +39,7 @@ def moved(compiler: Compiler, times: tuple[float, ...] = TIMES, **positions: tup
     compiler.results.append(CompileResult(runs=(SimulationResult(values),)))
 
 
+@pytest.mark.slow
 def test_the_greatest_difference_of_each_joint_is_shown(
     repository: Repository, compiler: Compiler, execute: Execute
 ) -> None:
@@ -63,6 +64,7 @@ def test_equal_motions_are_told_in_one_line(repository: Repository, compiler: Co
     assert execute("simulate", "--against", "HEAD").lines[-1] == "  since HEAD: the same motion"
 
 
+@pytest.mark.slow
 def test_both_versions_are_simulated_with_the_same_settings(repository: Repository, compiler: Compiler) -> None:
     api.simulate(against="HEAD", stop=2.0, step=0.5, values=("robot.elbow.parameters.dynamics.damping=4",))
     now, former = (job.tasks[0] for job in compiler.jobs)
@@ -70,6 +72,7 @@ def test_both_versions_are_simulated_with_the_same_settings(repository: Reposito
     assert now.source == former.source
 
 
+@pytest.mark.slow
 def test_the_revision_has_its_own_package_and_models(repository: Repository, compiler: Compiler, arm: Path) -> None:
     (arm / "Own.mo").write_text("model Own\n  extends Arm.ArmTest;\nend Own;\n")
     repository.commit()
@@ -82,6 +85,7 @@ def test_the_revision_has_its_own_package_and_models(repository: Repository, com
     assert not any(texts[1])
 
 
+@pytest.mark.slow
 def test_a_renamed_joint_is_compared_with_its_former_self(
     repository: Repository, compiler: Compiler, execute: Execute, arm: Path
 ) -> None:
@@ -94,6 +98,7 @@ def test_a_renamed_joint_is_compared_with_its_former_self(
     )
 
 
+@pytest.mark.slow
 def test_the_table_has_both_series(repository: Repository, compiler: Compiler, execute: Execute) -> None:
     """The former simulation ends earlier, so its columns end with blanks."""
     moved(compiler, shoulder=(0.0, 1.0, 2.0))
@@ -124,6 +129,7 @@ def test_the_picture_and_the_page_have_both_curves(
     assert former[1] == "0.0,1.5,null"
 
 
+@pytest.mark.slow
 def test_the_repository_stays_as_it_is(repository: Repository, compiler: Compiler, arm: Path) -> None:
     (arm / "staged.txt").write_text("new\n")
     repository.git("add", "staged.txt")

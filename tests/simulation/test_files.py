@@ -5,10 +5,12 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
+import pytest
 from support.commands import Execute
 from support.simulation import Compiler
 
 
+@pytest.mark.slow
 def test_series_are_written_with_all_digits(compiler: Compiler, execute: Execute) -> None:
     compiler.values = {**compiler.values, "table[1,2]": (0.1, 1 / 3, 2e-300)}
     Path("a.csv").write_text("of an earlier run")

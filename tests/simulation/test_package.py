@@ -69,6 +69,7 @@ def test_a_package_that_is_not_built_is_refused(compiler: Compiler) -> None:
     assert "is not built; run `urdfsync build`" in refused()
 
 
+@pytest.mark.slow
 def test_a_parameter_that_does_not_exist_is_refused_with_the_nearest(compiler: Compiler) -> None:
     compiler.results = [CompileResult(parameters=("robot.elbow.parameters.dynamics.damping",))]
     found = refused(values=("robot.elbow.parameters.dynamics.dampin=1",))

@@ -23,6 +23,7 @@ def test_test_is_simulated_as_its_annotation_says(compiler: Compiler) -> None:
     assert result.series == compiler.values
 
 
+@pytest.mark.slow
 def test_a_limit_that_is_passed_is_a_warning(compiler: Compiler) -> None:
     (found,) = run().diagnostics
     assert (found.severity, found.code) == (Severity.WARNING, "limit-passed")
@@ -56,6 +57,7 @@ def test_inputs_follow_the_motion_and_drives_the_inputs(compiler: Compiler) -> N
     assert "constant Real q2[3] = {0.0, 1.5707963267948966, 3.141592653589793};" in compiler.source
 
 
+@pytest.mark.slow
 def test_the_same_is_simulated_once(compiler: Compiler, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.undo()
     monkeypatch.chdir(tmp_path / "project")
@@ -91,6 +93,7 @@ def test_a_simulation_that_fails_says_when(compiler: Compiler, problem: str, wor
     assert words in refused()
 
 
+@pytest.mark.slow
 def test_results_until_a_simulation_stops_are_kept(compiler: Compiler) -> None:
     """And it is simulated again the next time."""
     stopped = SimulationResult(problem="Modelica assert failed at t=2.25: too late")

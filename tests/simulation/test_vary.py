@@ -132,6 +132,7 @@ def test_the_table_has_a_row_for_each_case(cases: CaseCompiler) -> None:
     assert rows[2]["problem"] == "non-finite derivative, for state 'x'"
 
 
+@pytest.mark.slow
 def test_a_failed_case_is_told_and_the_others_go_on(cases: CaseCompiler, execute: Execute) -> None:
     cases.problems = {1.0: "assert failed at t=0.25: too late", 3.0: "assert failed at t=0.25: too late"}
     found = execute("simulate", "arm", "--vary", FEW, code=1).words
@@ -139,6 +140,7 @@ def test_a_failed_case_is_told_and_the_others_go_on(cases: CaseCompiler, execute
     assert "2 cases failed (the first is case 2): assert failed at t=0.25: too late" in found
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_takes_one_case_with_it(cases: CaseCompiler) -> None:
     cases.crashes = {1.0}
     found = study()
@@ -149,6 +151,7 @@ def test_a_process_that_dies_takes_one_case_with_it(cases: CaseCompiler) -> None
     assert 3.0 not in cases.values[-5:], "after three in a row no process is started for the others"
 
 
+@pytest.mark.slow
 def test_finished_cases_are_remembered_and_failed_ones_tried_again(cases: CaseCompiler) -> None:
     cases.problems = {1.0: "no"}
     first = study()
@@ -160,6 +163,7 @@ def test_finished_cases_are_remembered_and_failed_ones_tried_again(cases: CaseCo
     assert study(stop=1.0).known == 0
 
 
+@pytest.mark.slow
 def test_ctrl_c_keeps_finished_cases(cases: CaseCompiler, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupt(what: str, done: int, total: int) -> None:
         if done >= 2:

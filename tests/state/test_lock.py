@@ -58,6 +58,7 @@ def test_waiting_ends_when_the_holder_does(tmp_path: Path) -> None:
         lock.acquire(waiting=process.kill)
 
 
+@pytest.mark.slow
 def test_waiting_ends_once_for_all(tmp_path: Path) -> None:
     """The robots of one command wait together: the second one hardly waits any more."""
     waits = []
@@ -140,6 +141,7 @@ def test_a_dry_run_waits_for_a_build_that_is_writing(
     assert "the last build was interrupted; run `urdfsync build`, which finishes it" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_lock_belongs_to_the_whole_command(project: Path) -> None:
     configure(ROBOT.format("other", "Other"))
     told: list[tuple[str, int, int]] = []

@@ -46,6 +46,7 @@ def test_a_european_catalogue_gives_the_same_numbers(project: Path, execute: Exe
     assert "arm: in step" in execute("build").out
 
 
+@pytest.mark.slow
 def test_both_readings_know_the_torque_of_american_data_sheets(
     project: Path, execute: Execute, without_library: None
 ) -> None:

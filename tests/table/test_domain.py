@@ -116,6 +116,7 @@ def name_connections() -> None:
         file.write('connections = "motors.connections.csv"\n')
 
 
+@pytest.mark.slow
 def test_connections_never_vanish_in_silence(folder: Path, execute: Execute) -> None:
     table, connections = Path("motors.csv"), Path("motors.connections.csv")
     table.write_text(MOTORS)
@@ -198,6 +199,7 @@ def test_a_package_without_a_system_is_checked_model_by_model(
     assert "2 models compile" in found, modelica_library
 
 
+@pytest.mark.slow
 def test_a_check_names_each_edited_file(project: Path, execute: Execute, without_library: None) -> None:
     edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6\n", "= 7\n")
     edit(Path("modelica/Motors/Records/XM_430.mo"), "end XM_430;", "  // a comment alone\nend XM_430;")

@@ -307,6 +307,7 @@ PARTS = rows(["name", "mass [kg]"], ["a", 1])
 LAST = '<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>'
 
 
+@pytest.mark.slow
 def test_of_a_workbook_only_cells_that_exist_are_read() -> None:
     """A cell in the last corner made openpyxl fill 17 billion cells, a merged range or a link of the sheet as well."""
     found = reading(replaced(PARTS, "</sheetData>", LAST), "a.xlsx").diagnostics
@@ -321,6 +322,7 @@ def test_of_a_workbook_only_cells_that_exist_are_read() -> None:
         assert table(same, "a.xlsx").elements == {"a": {"mass": 1.0}}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("content", "file"),
     [
@@ -341,6 +343,7 @@ def test_a_table_has_a_greatest_number_of_cells(content: bytes | str, file: str)
     assert "more than 5,000,000 cells" in str(reading(content, file).diagnostics[0])
 
 
+@pytest.mark.slow
 def test_the_places_of_escaped_names_are_not_searched_for_ever() -> None:
     """Names with escaped letters are not found as written; the lines of later entries are those of entries before."""
     names = [f"Stück {number}" for number in range(60_000)]

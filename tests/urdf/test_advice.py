@@ -89,6 +89,7 @@ def expected(file: str) -> str:
     return "floating" if any(name in path for name in MOBILE) else "nobody has looked at it"
 
 
+@pytest.mark.slow
 def test_real_robots_are_guessed_right(corpus: Path) -> None:
     wrong = {}
     for file in real.distinct_files():

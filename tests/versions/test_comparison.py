@@ -32,6 +32,7 @@ def document(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, o
     return {"changes": changes, "effects": robot["effects"], "in_step": robot["in_step"], "files": files}
 
 
+@pytest.mark.slow
 def test_a_plan_and_two_files_give_the_same_answer(
     corpus: Path, robot: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
@@ -80,6 +81,7 @@ def test_a_long_name_is_shortened_in_the_middle_and_kept_as_tooltip() -> None:
     assert name in [title.text for title in root.iter(f"{SVG}title")]
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(st.text(st.characters(), max_size=30))
 def test_any_title_gives_well_formed_xml(title: str) -> None:

@@ -140,6 +140,7 @@ def overlaid(diagram: Diagram) -> list[tuple[tuple[str, str], tuple[str, str]]]:
     return found
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(st.randoms(use_true_random=False), st.integers(1, 40), st.integers(1, 40), st.sampled_from([0.0, 0.2, 0.8]))
 def test_any_robot_is_drawn_well(random_: random.Random, links: int, reach: int, mimics: float) -> None:
@@ -169,6 +170,7 @@ def test_any_robot_is_drawn_well(random_: random.Random, links: int, reach: int,
         assert (x > link.centre[0], y > link.y2) == (True, True), "at the end of the row that its link hangs on"
 
 
+@pytest.mark.slow
 def test_long_chains_wide_stars_and_large_trees_come_through() -> None:
     """1500 links: no recursion."""
     for reach in (1, 40, 1500):
@@ -197,6 +199,7 @@ def large(tree: KinematicTree) -> set[str]:
     }
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(st.randoms(use_true_random=False), st.integers(2, 40), st.integers(1, 40))
 def test_a_new_leaf_moves_other_leaves_at_most(random_: random.Random, links: int, reach: int) -> None:

@@ -100,6 +100,7 @@ def test_the_class_of_random_changes_says_which_files_differ(random: Random, cou
     assert differing(before, after) <= two.changed_since(one) | gone | orders
 
 
+@pytest.mark.slow
 @given(st.randoms(use_true_random=False), OPTIONS)
 def test_the_class_of_drives_says_which_files_differ(random: Random, options: Options) -> None:
     old, new = (referenced(version, options) for version in mutations.driven_and_passive(random))

@@ -219,6 +219,7 @@ def test_the_only_loop_between_two_links_is_the_same(
         assert found == {**expected, ("link", "lower"): "hand"}, "under the new names of the links"
 
 
+@pytest.mark.slow
 @given(st.randoms(use_true_random=False), st.integers(0, 2))
 def test_what_is_recognised_is_true(random: Random, others: int) -> None:
     """Fresh names for some elements, some of them declared, and other changes beside: no match is ever wrong."""

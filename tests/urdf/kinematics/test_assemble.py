@@ -391,6 +391,7 @@ def rank(tree: KinematicTree, positions: Mapping[str, float]) -> int:
     return int(np.linalg.matrix_rank(np.array(columns), tol=1e-4))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=20)
 @given(st.integers(0, 10**9))
 @example(709)  # no freedom, and hardly regular

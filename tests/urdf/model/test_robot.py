@@ -41,6 +41,7 @@ def rows(text: str) -> dict[str, str]:
     return dict(re.findall(r"(\w+)\n[^\n]*\n[^\n]*iconTransformation\(extent=(\{\{.*?\}\})", text))
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(st.randoms(use_true_random=False), st.integers(2, 20))
 def test_a_new_joint_leaves_most_connectors_of_the_icon_in_their_rows(random_: Random, links: int) -> None:

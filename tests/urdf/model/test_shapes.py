@@ -117,6 +117,7 @@ SHAPES = st.one_of(
 )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=50)
 @given(SHAPES, ORIGINS)
 @example(Cylinder(0.3, 0.1), Origin((0, 0, 1), (math.pi / 2, 0, 0)))

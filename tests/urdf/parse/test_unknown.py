@@ -142,6 +142,7 @@ def test_an_element_that_has_nothing_is_told(inside: str) -> None:
     assert "<axis" not in inside or not read(with_joint(inside, "fixed")).diagnostics
 
 
+@pytest.mark.slow
 def test_ten_thousand_unknown_attributes_are_one_line_for_each_name() -> None:
     joints = "".join(
         f'<link name="l{n}"/><joint name="j{n}" type="fixed" a="1" b="2"><parent link="base"/><child link="l{n}"/>'
