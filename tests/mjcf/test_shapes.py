@@ -5,9 +5,9 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 import pytest
-from support.mjcfs import CORNERS, body, document, link, noted, read, reading, stl
+from support.mjcfs import CORNERS, body, document, link, noted, read, reading, stl, world
 
-from urdfsync.mjcf.scene import read_scene
+from urdfsync.translation.files import TranslationError
 from urdfsync.urdf.kinematics.poses import pose
 from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Mesh, Sphere, Visual
 
@@ -99,7 +99,8 @@ def test_a_mesh_is_where_mujoco_has_it(attributes: str) -> None:
     assert visual.geometry.filename == "m.stl"
     rotation, place = map(np.array, pose(visual.origin))
     drawn = CORNERS * visual.geometry.scale @ rotation.T + place
-    model = read_scene(document(text, {"m.stl": stl()})).model
+    read_by_us = document(text, {"m.stl": stl()})
+    model = mujoco.MjSpec.from_string(read_by_us.text, assets=read_by_us.contents).compile()
     turn = np.zeros(9)
     mujoco.mju_quat2Mat(turn, model.geom_quat[0])
     expected = model.mesh_vert @ turn.reshape(3, 3).T + model.geom_pos[0] - (0.5, 0, 0)
@@ -121,6 +122,17 @@ def test_a_mesh_is_named_from_the_folder_of_the_source() -> None:
     (visual,) = link(read(text, {"../meshes/a/m.stl": stl()}), "part").visuals
     assert isinstance(visual.geometry, Mesh)
     assert visual.geometry.filename == "../meshes/a/m.stl"
+
+
+def test_a_mesh_that_gives_no_number_is_not_read_by_mujoco() -> None:
+    asset = '<asset><mesh name="m" file="m.stl"/></asset>'
+    geom = '<geom type="mesh" mesh="m"/>'
+    robot = read(body(f"<joint/>{geom}", asset), {"m.stl": b"what our own readers of meshes refuse"})
+    assert len(link(robot, "part").visuals) == 1
+    weighed = world(f'<body name="part"><joint/>{geom}</body>', asset)
+    with pytest.raises(TranslationError, match=r"m\.stl"):
+        read(weighed, {"m.stl": b"no mesh"})
+    assert link(read(weighed, {"m.stl": stl()}), "part").inertial is not None
 
 
 def test_a_box_fitted_to_a_mesh_is_a_box() -> None:

@@ -15,9 +15,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import PurePosixPath
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
-from xml.sax.saxutils import quoteattr
 
 from urdfsync.translation.files import Files, Place, TranslationError
+from urdfsync.translation.writer import in_xml
 
 _LEFT_OUT = ("texture", "hfield", "skin")
 """Elements that only draw, or are terrain."""
@@ -118,6 +118,8 @@ def _name_files(
             shared.noted.append((element.tag, element.get("name", ""), places[element]))
             if element.tag in _LEFT_OUT:
                 holder.remove(element)
+        for size in holder.findall("size"):  # it may ask for gigabytes, for contacts that no translation computes
+            holder.remove(size)
         if "hfield" in holder.attrib:  # other elements may name the geom
             del holder.attrib["hfield"]
             holder.attrib |= {"type": "plane", "size": "1 1 1"}
@@ -159,9 +161,8 @@ def _count(element: Element) -> int:
 
 def _lines(element: Element, places: Mapping[Element, Place]) -> Iterator[tuple[str, Place]]:
     """Yield the lines of an element, each with its place."""
-    attributes = "".join(f" {name}={quoteattr(value)}" for name, value in element.attrib.items())
     place = places[element]
-    yield f"<{element.tag}{attributes}{'' if len(element) else '/'}>", place
+    yield f"<{element.tag}{in_xml(element.attrib)}{'' if len(element) else '/'}>", place
     for child in element:
         yield from _lines(child, places)
     if len(element):

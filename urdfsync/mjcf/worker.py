@@ -19,6 +19,7 @@ _COMPILED = b"1\xd4\0\0"
 
 def translate(request: Request) -> Answer:
     """Translate a file, or compare its translation."""
+    os.environ["MUJOCO_GL"] = "disable"  # else MuJoCo loads a library for windows: 0.1 of 0.5 s
     try:
         from urdfsync.mjcf import comparison, urdf
     except ImportError as error:

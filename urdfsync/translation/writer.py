@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from html import escape
 from typing import Any
-from xml.sax.saxutils import escape, quoteattr
 
 from urdfsync.translation.files import Place
 
+_BLANKS = {ord(blank): f"&#{ord(blank)};" for blank in "\n\r\t"}
+"""Characters that XML would read as a space in an attribute."""
 _DECIMALS = 15
 """Decimals of computed numbers: later digits are rounding errors."""
 
@@ -29,9 +31,9 @@ class Node:
         """Yield the lines of the text, each with its place, or the number of its place."""
         line, indent = self.line or line, "  " * depth
         written = {name: _text(value) for name, value in self.attributes.items() if value is not None}
-        head = f"{indent}<{self.tag}" + "".join(f" {name}={quoteattr(value)}" for name, value in written.items())
+        head = f"{indent}<{self.tag}{in_xml(written)}"
         if not self.children:
-            yield f"{head}>{escape(self.text)}</{self.tag}>" if self.text else f"{head}/>", line
+            yield f"{head}>{escape(self.text, quote=False)}</{self.tag}>" if self.text else f"{head}/>", line
             return
         yield f"{head}>", line
         for child in self.children:
@@ -51,6 +53,13 @@ def write(robot: Node, numbered: Sequence[Place] = ()) -> tuple[str, tuple[tuple
     # a place holds until the next one
     changes = [number for number, place in enumerate(places) if not number or place != places[number - 1]]
     return "\n".join([*(text for text, _ in lines), ""]), tuple((number + 1, *places[number]) for number in changes)
+
+
+def in_xml(attributes: Mapping[str, str]) -> str:
+    """Return attributes as they stand in a tag, with a space before each."""
+    # `xml.sax.saxutils` would do this, but loads a client of HTTP: 0.05 s of each translation
+    quoted = {name: escape(value).translate(_BLANKS) for name, value in attributes.items()}
+    return "".join(f' {name}="{value}"' for name, value in quoted.items())
 
 
 def free_name(name: str, taken: set[str]) -> str:
