@@ -24,7 +24,7 @@ class Shape(msgspec.Struct, frozen=True):
     form: str
     """`box`, `cylinder`, `capsule`, `sphere` or `mesh`; cylinders and capsules stand along z."""
     size: tuple[float, ...]
-    """Edges of a box; radius and length of other shapes, without the half spheres of a capsule."""
+    """Edges of a box; radius and perhaps length of other shapes, without the half spheres of a capsule."""
     pose: Pose
     """In the frame of the body."""
     color: tuple[float, ...]

@@ -169,7 +169,11 @@ class Mesh(msgspec.Struct, frozen=True, gc=False, tag="mesh", tag_field="kind"):
     scale: Vector = (1.0, 1.0, 1.0)
 
 
-Geometry: TypeAlias = Box | Cylinder | Capsule | Sphere | Mesh
+Primitive: TypeAlias = Box | Cylinder | Capsule | Sphere
+"""A shape that its numbers describe, without a file."""
+Geometry: TypeAlias = Primitive | Mesh
+SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
+"""Each shape by its element in `<geometry>`."""
 
 
 class Material(msgspec.Struct, frozen=True, gc=False):

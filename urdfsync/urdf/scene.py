@@ -85,7 +85,8 @@ def _shape(data: Mapping[str, Any], meshes: Mapping[str, str]) -> Shape:
         scale = (*geometry.scale, 1.0)
         pose = tuple(number * scale[place // 4] for place, number in enumerate(pose))
     else:
-        size = tuple(geometry.size) if data["type"] == "Box" else (geometry.radius, getattr(geometry, "length", 0.0))
+        numbers = msgspec.structs.astuple(geometry)
+        size = numbers[0] if isinstance(numbers[0], tuple) else numbers
     return Shape(
         "collision" if data["is_collision"] else "visual",
         data["type"].lower(),

@@ -18,6 +18,7 @@ from urdfsync.engine import file_kinds
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
     POSITION,
+    SHAPES,
     Box,
     Capsule,
     Cylinder,
@@ -127,7 +128,7 @@ _WARNINGS = {
     "missing-gain": "add k_velocity=…",
     "bad-contact": "write a decimal number",
     "bad-spring": "write a decimal number",
-    "unknown-geometry": "use one of box, cylinder, capsule, sphere, mesh",
+    "unknown-geometry": f"use one of {', '.join(SHAPES)}",
     "unknown-material": "define the material in the robot or in a visual",
     "material-redefined": "give each material a name of its own",
     "bad-color": 'write for example rgba="1 0.5 0 1"',

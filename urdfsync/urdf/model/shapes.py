@@ -13,9 +13,22 @@ from urdfsync.urdf.kinematics.poses import compose, dot, link_poses, pose, start
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Box, Capsule, Collision, Contact, Cylinder, Geometry, Link, Mesh, Origin, Sphere, Visual
+from urdfsync.urdf.robot import (
+    Box,
+    Capsule,
+    Collision,
+    Contact,
+    Cylinder,
+    Geometry,
+    Link,
+    Mesh,
+    Origin,
+    Primitive,
+    Sphere,
+    Visual,
+)
 
-_Body: TypeAlias = Box | Cylinder | Capsule | Sphere | Sequence[Sequence[float]]
+_Body: TypeAlias = Primitive | Sequence[Sequence[float]]
 GREY = (180, 180, 180)
 PINK = (255, 105, 180)
 _ROW = 30  # distance of the shapes in the link's diagram

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from typing import get_args
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -12,10 +11,10 @@ from urdfsync.urdf.parse.fields import Reader, parse_numbers, quoted
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
     MOTION_KINDS,
+    SHAPES,
     Collision,
     Contact,
     Dynamics,
-    Geometry,
     Inertia,
     Inertial,
     Joint,
@@ -24,8 +23,6 @@ from urdfsync.urdf.robot import (
     Visual,
 )
 from urdfsync.urdf.validate import Finding, perhaps
-
-_SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
 
 _TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 """Attributes of the lower half of an inertia, with their equals in the upper half: some exporters write both."""
@@ -61,7 +58,7 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
     number = 0
     for element in link.findall(tag):
         holder = element.find("geometry")
-        shapes = [] if holder is None else [child for child in holder if child.tag in _SHAPES]
+        shapes = [] if holder is None else [child for child in holder if child.tag in SHAPES]
         if holder is None or not shapes:
             message = f"a {tag} of {path} has no geometry that URDF knows, and is left out"
             reader.add(element, "unknown-geometry", message)
@@ -74,9 +71,9 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
             reader.add(element, "duplicate-element", message, f"write one {tag} for each")
         reader.expect(holder, f"{place} / geometry", (), moves=False)
         for child in holder:
-            if child.tag not in _SHAPES:
+            if child.tag not in SHAPES:
                 reader.keep(child, place, (), owner)
-        geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), _SHAPES[kind], owner)
+        geometry = reader.read(shapes[0], reader.place(shapes[0], f"{place} / {kind}"), SHAPES[kind], owner)
         if tag == "collision":
             yield reader.read(element, place, Collision, owner, geometry=geometry)
         else:

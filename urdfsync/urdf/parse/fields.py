@@ -25,10 +25,10 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity, cut
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.robot import (
+    SHAPES,
     STATED_ELSEWHERE,
     Calibration,
     Collision,
-    Geometry,
     Inertial,
     Joint,
     JointType,
@@ -52,7 +52,7 @@ _REPEATED = ("visual", "collision")
 _LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
 """Vectors that an unknown attribute with so many numbers may mean."""
 _POSE = 6
-_STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *get_args(Geometry)})
+_STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *SHAPES.values()})
 """Structs whose unknown parts do not change the motion."""
 _NEUTRAL = frozenset({"name", "id", "sensor", "dont_collapse"})
 """Attributes and elements that never change the motion; `dont_collapse` keeps a fixed joint in Isaac Gym."""

@@ -11,7 +11,7 @@ import msgspec
 
 from urdfsync.urdf.kinematics.poses import Matrix, dot, pose, turned_inertia
 from urdfsync.urdf.plausibility.shapes import LIGHT, TUNGSTEN, LinkShape, volume
-from urdfsync.urdf.robot import Box, Collision, Cylinder, Geometry, Inertia, Inertial, Origin, Sphere, Vector, Visual
+from urdfsync.urdf.robot import Box, Collision, Cylinder, Inertia, Inertial, Origin, Sphere, Vector, Visual
 from urdfsync.urdf.validate import Finding
 
 _GYRATION, _GYRATION_IN_MOTION = 3, 1.5
@@ -120,11 +120,11 @@ def _bodies(body: LinkShape) -> list[list[_Solid]]:
 
     A mesh or a capsule is no solid. Shapes that differ in nothing are one body.
     """
-    forms: list[list[tuple[Geometry, Origin]]] = []
+    forms: list[list[tuple[Box | Cylinder | Sphere, Origin]]] = []
     groups: Sequence[Sequence[Visual | Collision]] = (body.link.collisions, body.link.visuals)
     for shapes in groups:
-        form = [(shape.geometry, shape.origin) for shape in shapes]
-        if form not in forms and all(isinstance(geometry, Box | Cylinder | Sphere) for geometry, _ in form):
+        form = [(one.geometry, one.origin) for one in shapes if isinstance(one.geometry, Box | Cylinder | Sphere)]
+        if len(form) == len(shapes) and form not in forms:
             forms.append(form)
     bodies = []
     for form in forms:
@@ -160,7 +160,7 @@ def _moved(solid: _Solid, point: Vector) -> _Solid:
     return solid._replace(origin=Origin(xyz=point, rpy=solid.origin.rpy))
 
 
-def _own_inertia(geometry: Geometry, mass: float) -> Inertia:
+def _own_inertia(geometry: Box | Cylinder | Sphere, mass: float) -> Inertia:
     """Return the inertia of a solid box, cylinder or sphere about its centre."""
     match geometry:
         case Box(size=(x, y, z)):
@@ -170,8 +170,6 @@ def _own_inertia(geometry: Geometry, mass: float) -> Inertia:
             c = mass * radius * radius / 2
         case Sphere(radius=radius):
             a = b = c = mass * radius * radius * 2 / 5
-        case _:
-            raise TypeError(geometry)
     return Inertia(ixx=a, iyy=b, izz=c)
 
 

@@ -15,10 +15,10 @@ from urdfsync.urdf.robot import (
     Capsule,
     Collision,
     Cylinder,
-    Geometry,
     Inertial,
     Link,
     Mesh,
+    Primitive,
     Sphere,
     Vector,
     Visual,
@@ -187,7 +187,7 @@ def _largest(length: float) -> float:
     return max(_LARGEST, _TOO_LARGE * length) if length else math.inf
 
 
-def _reach(geometry: Geometry) -> float:
+def _reach(geometry: Primitive) -> float:
     match geometry:
         case Box(size=size):
             return math.hypot(*size) / 2
@@ -197,10 +197,9 @@ def _reach(geometry: Geometry) -> float:
             return radius + length / 2
         case Sphere(radius=radius):
             return radius
-    raise TypeError(geometry)
 
 
-def volume(geometry: Geometry) -> float:
+def volume(geometry: Primitive) -> float:
     """Return the volume of a simple shape in m³."""
     match geometry:
         case Box(size=(x, y, z)):
@@ -211,4 +210,3 @@ def volume(geometry: Geometry) -> float:
             return math.pi * radius * radius * (length + 4 / 3 * radius)
         case Sphere(radius=radius):
             return 4 / 3 * math.pi * radius * radius * radius
-    raise TypeError(geometry)

@@ -35,7 +35,7 @@ from urdfsync.urdf.second.reading import (
     read_again,
     same,
 )
-from urdfsync.urdf.second.tables import SHAPES, expected_tables
+from urdfsync.urdf.second.tables import DRAWN, expected_tables
 
 _RECORDS = "UrdfSync.Records."
 _SHAPE = re.compile(r"((?:visual|collision)\d+)(?:_\d+)?(\.|Corners)")
@@ -217,7 +217,7 @@ class _Comparison:
             type_ = value.type.removeprefix(_RECORDS)
             if type_ == "Robot" or type_.startswith("constant"):
                 own.append(value)
-            elif type_ in SHAPES:
+            elif type_ in DRAWN:
                 number = re.match(r"Visual(\d+)", component.removeprefix(owner))
                 shapes.setdefault(component, (type_, [*types.values()].count("Link")))
                 parts[owner].append(value._replace(path=f"visual{number[1] if number else 0}.{path}"))

@@ -23,7 +23,7 @@ from urdfsync.domain import Companion
 from urdfsync.urdf.options import LoopFrame, Options
 from urdfsync.urdf.second.companions import PATHS, Companions, read_companions
 from urdfsync.urdf.second.gears import Gear, read_gears
-from urdfsync.urdf.second.plain import decimal, plain_root
+from urdfsync.urdf.second.plain import SHAPES, decimal, plain_root
 
 # yourdfpy raises these for valid files without optional attributes.
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
@@ -46,7 +46,6 @@ _SERVOS = {
     "effort": "minEffort maxEffort;",
 }
 """Numbers of a drive's law by its command; without any of those before the semicolon there is no law."""
-_SHAPES = {"box": "size", "cylinder": "radius length", "capsule": "radius length", "sphere": "radius", "mesh": ""}
 _WHEEL = re.compile("(left|right)((Front|Rear)?Joint|_joint)")
 _SENSORS = {
     **dict.fromkeys("camera depth depth_camera rgbd rgbd_camera wideanglecamera".split(), "camera"),
@@ -298,7 +297,7 @@ def _links(root: Any, version: tuple[int, ...]) -> Iterator[Element]:
                 if f"contact.{field}" not in link.values and (0 < number < INF or (number == 0 and field != "kp")):
                     link.put(f"contact.{field}", number, block)
         for tag in ("visual", "collision"):
-            shapes = ((s, [part for part in s.xpath("geometry[1]/*") if part.tag in _SHAPES]) for s in element)
+            shapes = ((s, [part for part in s.xpath("geometry[1]/*") if part.tag in SHAPES]) for s in element)
             drawn = [(shape, found[0]) for shape, found in shapes if shape.tag == tag and found]
             for number, (shape, geometry) in enumerate(drawn, 1):
                 _put_shape(link, f"{tag}{number}", shape, geometry, version, colors)
@@ -310,7 +309,7 @@ def _put_shape(
 ) -> None:
     _put_origin(link, shape, version, f"{path}.origin")
     link.put(f"{path}.shape", geometry.tag, geometry)
-    for field in _SHAPES[geometry.tag].split():
+    for field in SHAPES[geometry.tag].split():
         link.put(f"{path}.{field}", _at(geometry, f"@{field}", 3 if field == "size" else 1), geometry)
     if geometry.tag == "mesh":
         link.put(f"{path}.uri", (geometry.get("filename"), _at(geometry, "@scale", 3, (1.0, 1.0, 1.0))), geometry)
@@ -671,7 +670,7 @@ def _of_yourdfpy(their: Any, path: str) -> Any:
             value = value[:3, 3] if word == "xyz" else value[:3, :3]
         else:
             form = getattr(value, "geometry", None) if word != "origin" else None
-            value = next((part for kind in _SHAPES if (part := getattr(form, kind, None)) is not None), value)
+            value = next((part for kind in SHAPES if (part := getattr(form, kind, None)) is not None), value)
             value = getattr(value, "limit" if word == "limits" else word, None)
         if value is None:
             return None

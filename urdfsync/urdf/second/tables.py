@@ -8,9 +8,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
 
+from urdfsync.urdf.second.plain import SHAPES
 from urdfsync.urdf.second.reading import MOVES, TURNS, Element
 
-SHAPES = {"Box": 1, "Cylinder": 1, "Sphere": 1, "Mesh": 1, "Capsule": 3}
+DRAWN = {shape.capitalize(): 1 for shape in SHAPES} | {"Capsule": 3}
 """Records of shapes, and how many shapes of the Modelica Standard Library draw each."""
 
 
@@ -34,7 +35,7 @@ def expected_tables(
     leaders = [pair for pair in joints if not pair[0].leader]
     for leader, _ in leaders:  # the list grows in this loop
         leaders += [pair for pair in joints if pair[0].leader == leader.name]
-    drawn = [link for type_, link in shapes for _ in range(SHAPES[type_])]
+    drawn = [link for type_, link in shapes for _ in range(DRAWN[type_])]
     tables: dict[str, list[int]] = {
         "connectionMatrix": [n for j, _ in joints for n in (counted.get(j.parent, 0), counted.get(j.child, 0))],
         "moveableJoints": [n for k, (j, _) in enumerate(joints, 1) if j.type != "fixed" for n in (k, 1)],
