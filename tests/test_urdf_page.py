@@ -47,6 +47,7 @@ ROBOT = f"""<robot name="own" version="1.2">
       <geometry><cylinder radius="0.1" length="1"/></geometry><material name="blue"/></visual>
     <visual><geometry><mesh filename="a.stl" scale="2 2 2"/></geometry></visual>
     <visual><geometry><capsule radius="0.2" length="1.5"/></geometry></visual>
+    <visual><geometry><ellipsoid radii="4 5 6"/></geometry></visual>
     <collision name="hull"><origin quat_xyzw="0 0 0 1"/><geometry><box size="1 2 3"/></geometry></collision>
     <collision><geometry><sphere radius="0.3"/></geometry></collision>
   </link>
@@ -87,6 +88,7 @@ CHANGED = {
     "geometry/cylinder length": ('length="1"', 'length="2"'),
     "geometry/capsule radius": ('capsule radius="0.2"', 'capsule radius="0.15"'),
     "geometry/capsule length": ('length="1.5"', 'length="2"'),
+    "geometry/ellipsoid radii": ('"4 5 6"', '"4 5 7"'),
     "geometry/sphere radius": ('sphere radius="0.3"', 'sphere radius="0.4"'),
     "geometry/mesh filename": ("a.stl", "b.stl"),
     "geometry/mesh scale": ("2 2 2", "3 3 3"),

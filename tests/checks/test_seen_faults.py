@@ -164,8 +164,13 @@ def standing(part: str, shape: str, xyz: str = "0 0 0") -> str:
     return part.replace("</link>", f"{collision}</link>")
 
 
+TILTED = '0.3 0.1 -0.07688" rpy="0 0.4 0'
 CART = robot(
-    standing(link("base", 8.0), 'sphere radius="0.02"', "0.3 0 -0.081"),
+    standing(
+        standing(link("base", 8.0), 'sphere radius="0.02"', "0.3 0 -0.081"),
+        'ellipsoid radii="0.04 0.03 0.02"',
+        TILTED,
+    ),
     *(standing(link(side, 1.0), 'cylinder radius="0.1" length="0.04"') for side in ("left", "right")),
     *(
         joint(
@@ -204,6 +209,8 @@ FLOATING: Mapping[str, Fault] = {
     ),
     "ground that feeds in energy": Fault(G, POINT, "1 - damping*v_n", "1 + damping*v_n"),
     "height of a rim": Fault(G, "Contacts/Functions/cylinder.mo", "(c*R[:, 3] - n)", "(c*R[:, 3] + n)"),
+    "height of an ellipsoid": Fault(G, "Contacts/Functions/ellipsoid.mo", "/max(sqrt(d*d)", "/max(d*d"),
+    "side of an ellipsoid": Fault(G, "Contacts/Functions/ellipsoid.mo", "radii[1]*d[1]", "d[1]"),
     "force of the ground on no link": Fault(G, "Contacts/PartialContact.mo", "frame_a.f = -f", "frame_a.f = zeros(3)"),
 }
 

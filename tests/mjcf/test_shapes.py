@@ -9,7 +9,7 @@ from support.mjcfs import CORNERS, body, document, link, noted, read, reading, s
 
 from urdfsync.translation.files import TranslationError
 from urdfsync.urdf.kinematics.poses import pose
-from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Mesh, Sphere, Visual
+from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Ellipsoid, Mesh, Sphere, Visual
 
 
 @pytest.mark.parametrize(
@@ -17,6 +17,7 @@ from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Mesh, Sphere, V
     [
         ('type="box" size="0.1 0.2 0.3"', Box((0.2, 0.4, 0.6))),
         ('type="sphere" size="0.1"', Sphere(0.1)),
+        ('type="ellipsoid" size="0.1 0.2 0.3"', Ellipsoid((0.1, 0.2, 0.3))),
         ('type="cylinder" size="0.1 0.2"', Cylinder(0.1, 0.4)),
         ('type="capsule" size="0.1 0.2"', Capsule(0.1, 0.4)),
         ('type="capsule" size="0.1" fromto="0 0 0 0 0 0.8"', Capsule(0.1, 0.8)),
@@ -75,7 +76,8 @@ def test_the_ground_of_a_scene_is_no_part_of_the_robot() -> None:
 
 
 def test_a_shape_that_urdf_lacks_is_left_out_with_a_warning() -> None:
-    found = reading(body('<joint/>\n<geom type="ellipsoid" size="0.1 0.2 0.3" contype="0" conaffinity="0"/>'))
+    plane = '<geom type="plane" size="1 1 1" contype="0" conaffinity="0"/>'
+    found = reading(body(f'{plane}<body name="arm"><joint/><geom size="0.1"/></body>'))
     assert [each.code for each in found.diagnostics] == ["unknown-geometry"]
     assert found.robot is not None
     assert link(found.robot, "part").visuals == ()

@@ -120,6 +120,7 @@ RESTING = {  # name: (contact, height at which the body rests)
     "wheel": (WHEEL, 0.1),
     "meshWheel": (mesh_wheel(), 0.1),
     "ball": (BALL, 0.1),
+    "egg": (f"Ellipsoid(parameters(radii = {{0.3, 0.1, 0.2}}, {ACROSS}))", 0.1),
     "turnedBox": (f"Box(parameters(size = {{0.2, 0.3, 0.4}}, {ACROSS}))", 0.15),
     "thinDisc": ("Cylinder(parameters(radius = 0.1, length = 0.001))", 0.0005),
     "footBelow": ("Cylinder(parameters(radius = 0.1, length = 0.1, origin(xyz = {0, 0, -0.2})))", 0.25),

@@ -38,6 +38,7 @@ SHAPES = urdfs.robot(
         '<sphere radius="0.2"/>',
         '<capsule radius="0.05" length="0.4"/>',
         '<mesh filename="meshes/wedge.obj" scale="2 2 -1"/>',
+        '<ellipsoid radii="0.1 0.2 0.3"/>',
     ),
     urdfs.joint("swing", "revolute", "base", "bare", axis="0 1 0"),
     urdfs.joint("slide", "prismatic", "bare", "arm", axis="1 0 0"),
@@ -50,6 +51,7 @@ PAIRS = {
     5: "arm.visual4.lowerEnd",
     6: "arm.visual4.upperEnd",
     7: "arm.visual5.shape",
+    8: "arm.visual6.shape",
 }
 """Entry of the table, and what the package approach draws."""
 BESIDE = """\

@@ -20,6 +20,7 @@ SIZES = {
     "Cylinder": "radius = 0.1, length = 0.5",
     "Sphere": "radius = 0.2",
     "Capsule": "radius = 0.05, length = 0.4",
+    "Ellipsoid": "radii = {0.1, 0.2, 0.3}",
     "Mesh": 'uri = "1"',
 }
 DRAWN = {
@@ -29,6 +30,7 @@ DRAWN = {
     "capsule.shape": ((0, 0, 0), "zx", (0.4, 0.1, 0.1)),
     "capsule.lowerEnd": ((0, 0, -0.2), "zx", (0.1, 0.1, 0.1)),
     "capsule.upperEnd": ((0, 0, 0.2), "zx", (0.1, 0.1, 0.1)),
+    "ellipsoid.shape": ((0, 0, 0), "xy", (0.2, 0.4, 0.6)),
     "mesh.shape": ((0.5, 0, 0), "xy", (1, 1, 1)),  # it begins at its origin, and the factor 1 is no length
 }
 """For each drawn shape, its centre and the axes of its length and width in the shape's frame, and its sizes."""
@@ -84,6 +86,11 @@ FAULTS = {
     "the place of a cylinder": ("Visualizers/Cylinder", "- 0.5*parameters.length", "+ 0.5*parameters.length"),
     "a hidden sphere that is drawn": ("Visualizers/Sphere", "enableAnimation and animation", "enableAnimation"),
     "an end of a capsule": ("Visualizers/Capsule", "+ 0.5*parameters.length", "- 0.5*parameters.length"),
+    "the axes of an ellipsoid": (
+        "Visualizers/Ellipsoid",
+        "width = 2*parameters.radii[2]",
+        "width = 2*parameters.radii[3]",
+    ),
     "the axes of a mesh": ("Visualizers/Mesh", "widthDirection = R[:, 2]", "widthDirection = R[:, 3]"),
     "a colour": ("Visualizers/Box", "color = parameters.color", "color = {0, 0, 0}"),
     "a direction": ("Functions/normalTo", "e - (e*n)/(n*n)*n", "e - (e*n)*n"),

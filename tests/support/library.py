@@ -18,6 +18,7 @@ from urdfsync.urdf.robot import (
     Collision,
     Cylinder,
     Dynamics,
+    Ellipsoid,
     Geometry,
     Joint,
     JointType,
@@ -36,6 +37,7 @@ SHAPES: tuple[Geometry, ...] = (
     Cylinder(radius=0.05, length=0.1),
     Capsule(radius=0.05, length=0.1),
     Sphere(radius=0.05),
+    Ellipsoid((0.05, 0.05, 0.1)),
     MESH,
 )
 JOINT_NOTES: Mapping[JointType, str] = {
@@ -59,7 +61,8 @@ def library_artifacts() -> Iterator[Artifact | Order]:
     for name, shape in zip(names, SHAPES, strict=True):
         link = Link("", visuals=(Visual(shape),), collisions=(Collision(shape),))
         kind = type(shape).__name__.lower()
-        yield from link_files(name, f"{name}Parameters", link, f"Rigid body with a {kind} as visual and as collision.")
+        kind = f"an {kind}" if kind[0] in "aeiou" else f"a {kind}"
+        yield from link_files(name, f"{name}Parameters", link, f"Rigid body with {kind} as visual and as collision.")
     yield Order("Joints/package.order", (*(kind.capitalize() for kind in JOINT_KINDS), "Loop"))
     for joint in JOINT_KINDS:
         name, note = joint.capitalize(), f"{JOINT_NOTES[joint]} {RECORD_NOTE}"

@@ -49,7 +49,7 @@ TEXTS = (
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball", "", "Revolute")
 TAGS = (
     *"link joint robot origin axis inertial mass inertia visual collision geometry box mesh sphere cylinder".split(),
-    *"capsule material color texture limit dynamics mimic parent child safety_controller calibration".split(),
+    *"capsule ellipsoid material color texture limit dynamics mimic parent child safety_controller calibration".split(),
     *"transmission gazebo ros2_control sensor".split(),
 )
 ATTRIBUTES = ("name", "xyz", "rpy", "value", "type", "link", "joint", "rgba", "size", "quat", "mass", "foo")

@@ -16,6 +16,7 @@ from urdfsync.urdf.robot import (
     Capsule,
     Collision,
     Cylinder,
+    Ellipsoid,
     Inertia,
     Inertial,
     Joint,
@@ -44,14 +45,19 @@ def test_shapes_have_their_sizes_places_and_colours() -> None:
             Visual(Box((1.0, 2.0, 3.0)), Origin((4.0, 5.0, 6.0), (0.0, 0.0, math.pi / 2)), material=red),
             Visual(Sphere(0.5)),
         ),
-        collisions=(Collision(Cylinder(0.1, 0.2)), Collision(Capsule(0.3, 0.4))),
+        collisions=(
+            Collision(Cylinder(0.1, 0.2)),
+            Collision(Capsule(0.3, 0.4)),
+            Collision(Ellipsoid((0.5, 0.6, 0.7))),
+        ),
     )
-    box, sphere, cylinder, capsule = picture(link).bodies[0].shapes
+    box, sphere, cylinder, capsule, ellipsoid = picture(link).bodies[0].shapes
     assert (box.kind, box.form, box.size, box.color) == ("visual", "box", (1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.5))
     assert box.pose == pytest.approx((0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1))
-    assert (sphere.form, sphere.size[0]) == ("sphere", 0.5)
+    assert (sphere.form, sphere.size) == ("sphere", (0.5,))
     assert (cylinder.kind, cylinder.form, cylinder.size) == ("collision", "cylinder", (0.1, 0.2))
     assert (capsule.form, capsule.size) == ("capsule", (0.3, 0.4))
+    assert (ellipsoid.form, ellipsoid.size) == ("ellipsoid", (0.5, 0.6, 0.7))
 
 
 def test_collisions_are_shown_whatever_the_package_has() -> None:

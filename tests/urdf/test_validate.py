@@ -184,6 +184,9 @@ SHAPES = """
     <capsule radius="1" length="-1"/>             is empty
     <sphere radius="0"/>
     <sphere radius="-1"/>                         is empty
+    <ellipsoid radii="1 2 3"/>
+    <ellipsoid radii="1 0 1"/>                    is empty
+    <ellipsoid radii="1 1 -1"/>                   is empty
     <mesh filename="a.stl" scale="-1 1 1"/>
     <mesh filename="a.stl" scale="1 0 1"/>        is empty
 """

@@ -1,7 +1,7 @@
 """Makes the visuals and collisions of a link from the geoms of its body.
 
 MuJoCo's viewers show the groups 0 to 2, so a geom of these groups is a visual. A geom that can touch others is a
-collision. URDF has no ellipsoid and no plane: its reader tells that it leaves such a shape out.
+collision. URDF has no plane: its reader tells that it leaves such a shape out.
 """
 
 from __future__ import annotations
@@ -83,6 +83,8 @@ def _shape(scene: Scene, number: int) -> _Shape:
             attributes = {"radius": x}
         case "capsule" | "cylinder":
             attributes = {"radius": x, "length": 2 * y}
+        case "ellipsoid":
+            attributes = {"radii": (x, y, z)}
         case "box":
             attributes = {"size": (2 * x, 2 * y, 2 * z)}
         case "mesh":

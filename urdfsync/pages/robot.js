@@ -76,10 +76,11 @@ function boxOf({ mass, inertia: [xx, xy, xz, yy, yz, zz] }) {
 
 /* Returns the geometry of a shape; for a mesh, until it has come, its box. Null for a mesh that can't be shown. */
 function shapeGeometry(shape, meshes) {
-  const [x, y] = shape.size;
+  const [x, y, z] = shape.size;
   switch (shape.form) {
     case "box": return new THREE.BoxGeometry(...shape.size);
     case "sphere": return new THREE.SphereGeometry(x, 32, 20);
+    case "ellipsoid": return new THREE.SphereGeometry(1, 32, 20).scale(x, y, z);
     case "cylinder": return new THREE.CylinderGeometry(x, x, y, 40).rotateX(Math.PI / 2);
     case "capsule": return new THREE.CapsuleGeometry(x, y, 12, 32).rotateX(Math.PI / 2);
     default: return meshes[shape.mesh] ? boxGeometry(meshes[shape.mesh].slice(2)) : null;

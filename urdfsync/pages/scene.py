@@ -22,9 +22,9 @@ class Shape(msgspec.Struct, frozen=True):
     kind: str
     """`visual` or `collision`."""
     form: str
-    """`box`, `cylinder`, `capsule`, `sphere` or `mesh`; cylinders and capsules stand along z."""
+    """`box`, `cylinder`, `capsule`, `sphere`, `ellipsoid` or `mesh`; cylinders and capsules stand along z."""
     size: tuple[float, ...]
-    """Edges of a box; radius and perhaps length of other shapes, without the half spheres of a capsule."""
+    """Edges of a box; half axes of an ellipsoid; radius, and perhaps length without half spheres, of other shapes."""
     pose: Pose
     """In the frame of the body."""
     color: tuple[float, ...]

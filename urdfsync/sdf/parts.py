@@ -90,6 +90,8 @@ def _geometry(document: Document, element: Element) -> tuple[str, dict[str, Any]
             return "box", {"size": document.vector(element, "size", (1.0, 1.0, 1.0))}
         case "sphere":
             return "sphere", {"radius": document.number(element, "radius", 1.0)}
+        case "ellipsoid":
+            return "ellipsoid", {"radii": document.vector(element, "radii", (1.0, 1.0, 1.0))}
         case "cylinder" | "capsule":
             radius = document.number(element, "radius", 0.5 if element.tag == "capsule" else 1.0)
             return element.tag, {"radius": radius, "length": document.number(element, "length", 1.0)}

@@ -162,6 +162,12 @@ class Sphere(msgspec.Struct, frozen=True, gc=False, tag="sphere", tag_field="kin
     radius: Annotated[float, _LENGTH]
 
 
+class Ellipsoid(msgspec.Struct, frozen=True, gc=False, tag="ellipsoid", tag_field="kind"):
+    """An ellipsoid, centred; `radii` are its half axes along x, y and z."""
+
+    radii: Annotated[Vector, _LENGTH]
+
+
 class Mesh(msgspec.Struct, frozen=True, gc=False, tag="mesh", tag_field="kind"):
     """A mesh file; `filename` is the URI as written."""
 
@@ -169,7 +175,7 @@ class Mesh(msgspec.Struct, frozen=True, gc=False, tag="mesh", tag_field="kind"):
     scale: Vector = (1.0, 1.0, 1.0)
 
 
-Primitive: TypeAlias = Box | Cylinder | Capsule | Sphere
+Primitive: TypeAlias = Box | Cylinder | Capsule | Sphere | Ellipsoid
 """A shape that its numbers describe, without a file."""
 Geometry: TypeAlias = Primitive | Mesh
 SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}

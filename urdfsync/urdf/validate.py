@@ -23,6 +23,7 @@ from urdfsync.urdf.robot import (
     Capsule,
     Cylinder,
     Dynamics,
+    Ellipsoid,
     Geometry,
     Joint,
     Limit,
@@ -397,8 +398,8 @@ def _check_link(path: str, link: Link) -> Iterator[Finding]:
 def _is_empty(geometry: Geometry) -> bool:
     """Return whether a shape is empty. A sphere may be a contact point; a negative scale mirrors a mesh."""
     match geometry:
-        case Box(size=size):
-            return min(size) <= 0
+        case Box(size=sizes) | Ellipsoid(radii=sizes):
+            return min(sizes) <= 0
         case Cylinder(radius=radius, length=length):
             return radius <= 0 or length <= 0
         case Capsule(radius=radius, length=length):

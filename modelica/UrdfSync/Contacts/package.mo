@@ -12,7 +12,7 @@ has a contact of its own, which acts at the lowest points of the true geometry: 
 <ul>
 <li>Declare <code>inner UrdfSync.Contacts.Ground ground(load = ...)</code> once, in the model that is simulated, beside
     <code>inner Modelica.Mechanics.MultiBody.World world(n = {0, 0, -1})</code>.</li>
-<li>Connect a <code>Sphere</code>, <code>Cylinder</code>, <code>Capsule</code>, <code>Box</code> or <code>Points</code>
+<li>Connect a <code>Sphere</code>, <code>Ellipsoid</code>, <code>Cylinder</code>, <code>Capsule</code>, <code>Box</code> or <code>Points</code>
     to the <code>frame_a</code> of a link and hand it the record of the collision.</li>
 </ul>
 <p>

@@ -13,7 +13,7 @@ Links draw their shapes by the animation of the Modelica Standard Library, throu
 </p>
 <h4>Shapes</h4>
 <p>
-Boxes, cylinders, capsules and spheres are centred at the origin of their element; cylinders and capsules lie along z. Colours are red, green
+Boxes, cylinders, capsules, spheres and ellipsoids are centred at the origin of their element; cylinders and capsules lie along z. Colours are red, green
 and blue from 0 to 255, rounded from the <code>rgba</code> of the URDF; a material that is defined once for the robot is looked up, and
 a visual without colour is grey. Collision shapes are pink; with <code>collisions = false</code> in <code>urdfsync.toml</code> there
 are none.

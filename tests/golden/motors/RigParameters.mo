@@ -284,9 +284,9 @@ record RigParameters "Numbers of robot Rig as a whole"
       lift.dynamics.armature + lift.transmission.rotorInertia*lift.transmission.reduction^2,
       push.dynamics.armature + push.transmission.rotorInertia*push.transmission.reduction^2,
       rack.dynamics.armature + rack.transmission.rotorInertia*rack.transmission.reduction^2},
-    drawnShapes = 7,
+    drawnShapes = 8,
     visuals(
-      links = {1, 1, 1, 1, 1, 1, 1},
+      links = {1, 1, 1, 1, 1, 1, 1, 1},
       kinds = {
         "box",
         "cylinder",
@@ -294,8 +294,9 @@ record RigParameters "Numbers of robot Rig as a whole"
         "sphere",
         "sphere",
         "sphere",
-        baseVisual5.uri},
-      lengthAxes = {1, 3, 3, 3, 3, 3, 1},
+        baseVisual5.uri,
+        "sphere"},
+      lengthAxes = {1, 3, 3, 3, 3, 3, 1, 1},
       positions = {
         baseVisual1.origin.xyz,
         baseVisual2.origin.xyz,
@@ -303,7 +304,8 @@ record RigParameters "Numbers of robot Rig as a whole"
         baseVisual3.origin.xyz,
         baseVisual3.origin.xyz,
         baseVisual4.origin.xyz,
-        baseVisual5.origin.xyz},
+        baseVisual5.origin.xyz,
+        baseVisual6.origin.xyz},
       angles = {
         baseVisual1.origin.rpy,
         baseVisual2.origin.rpy,
@@ -311,7 +313,8 @@ record RigParameters "Numbers of robot Rig as a whole"
         baseVisual3.origin.rpy,
         baseVisual3.origin.rpy,
         baseVisual4.origin.rpy,
-        baseVisual5.origin.rpy},
+        baseVisual5.origin.rpy,
+        baseVisual6.origin.rpy},
       starts = {
         -0.5*baseVisual1.size[1],
         -0.5*baseVisual2.length,
@@ -319,7 +322,8 @@ record RigParameters "Numbers of robot Rig as a whole"
         -0.5*baseVisual3.length - baseVisual3.radius,
         0.5*baseVisual3.length - baseVisual3.radius,
         -baseVisual4.radius,
-        0},
+        0,
+        -baseVisual6.radii[1]},
       sizes = {
         {baseVisual1.size[1], baseVisual1.size[2], baseVisual1.size[3]},
         {baseVisual2.length, 2*baseVisual2.radius, 2*baseVisual2.radius},
@@ -327,7 +331,8 @@ record RigParameters "Numbers of robot Rig as a whole"
         {2*baseVisual3.radius, 2*baseVisual3.radius, 2*baseVisual3.radius},
         {2*baseVisual3.radius, 2*baseVisual3.radius, 2*baseVisual3.radius},
         {2*baseVisual4.radius, 2*baseVisual4.radius, 2*baseVisual4.radius},
-        {1, 1, 1}},
+        {1, 1, 1},
+        {2*baseVisual6.radii[1], 2*baseVisual6.radii[2], 2*baseVisual6.radii[3]}},
       colors = {
         baseVisual1.color,
         baseVisual2.color,
@@ -335,7 +340,8 @@ record RigParameters "Numbers of robot Rig as a whole"
         baseVisual3.color,
         baseVisual3.color,
         baseVisual4.color,
-        baseVisual5.color}));
+        baseVisual5.color,
+        baseVisual6.color}));
 
   constant Integer caster1Axis = 1
     "Number of joint \"caster1\" in rotationalAxis";
@@ -428,6 +434,15 @@ record RigParameters "Numbers of robot Rig as a whole"
     color = {180, 180, 180},
     opacity = 1)
     "Visual 5 of link \"base\"";
+
+  UrdfSync.Records.Ellipsoid baseVisual6(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    radii = {0.25, 0.125, 0.0625},
+    color = {180, 180, 180},
+    opacity = 1)
+    "Visual 6 of link \"base\"";
 
   UrdfSync.Records.Link wheel1(
     name = "wheel1",

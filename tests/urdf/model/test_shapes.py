@@ -23,6 +23,7 @@ from urdfsync.urdf.robot import (
     Capsule,
     Collision,
     Cylinder,
+    Ellipsoid,
     Geometry,
     Joint,
     Limit,
@@ -30,6 +31,7 @@ from urdfsync.urdf.robot import (
     Material,
     Mesh,
     Origin,
+    Primitive,
     Sphere,
     Visual,
 )
@@ -96,13 +98,15 @@ def ball(radius: float, height: float) -> Array:
     return np.concatenate(rings)
 
 
-def surface(shape: Box | Sphere | Cylinder | Capsule) -> Array:
+def surface(shape: Primitive) -> Array:
     """Points of a shape, dense where it may touch a plane."""
     match shape:
         case Box(size=size):
             return np.array(np.meshgrid(*([-edge / 2, edge / 2] for edge in size))).reshape(3, -1).T
         case Sphere(radius=radius):
             return ball(radius, 0)
+        case Ellipsoid(radii=radii):
+            return ball(1, 0) * radii
         case Cylinder(radius=radius, length=length):
             return np.concatenate([circle(radius, end * length / 2) for end in (-1, 1)])
         case Capsule(radius=radius, length=length):
@@ -114,6 +118,7 @@ SHAPES = st.one_of(
     st.builds(Sphere, SIZES),
     st.builds(Cylinder, SIZES, SIZES),
     st.builds(Capsule, SIZES, SIZES),
+    st.builds(Ellipsoid, st.tuples(SIZES, SIZES, SIZES)),
 )
 
 
@@ -121,7 +126,7 @@ SHAPES = st.one_of(
 @settings(deadline=None, max_examples=50)
 @given(SHAPES, ORIGINS)
 @example(Cylinder(0.3, 0.1), Origin((0, 0, 1), (math.pi / 2, 0, 0)))
-def test_the_lowest_point_is_that_of_the_surface(shape: Box | Sphere | Cylinder | Capsule, origin: Origin) -> None:
+def test_the_lowest_point_is_that_of_the_surface(shape: Primitive, origin: Origin) -> None:
     rotation, place = map(np.array, pose(origin))
     lowest = (surface(shape) @ rotation.T + place)[:, 2].min()
     height = standing_height(tree(links=(Link("a", collisions=(Collision(shape, origin),)),)), {})

@@ -34,6 +34,7 @@ def standing(*shapes: str, contact: str = "") -> Stand | None:
         ('sphere radius="0.1"', -0.1, 1),
         ('cylinder radius="0.1" length="0.4"', -0.2, 5),
         ('capsule radius="0.1" length="0.4"', -0.3, 1),
+        ('ellipsoid radii="0.3 0.2 0.1"', -0.1, 1),
     ],
 )
 def test_points_share_the_weight(shape: str, lowest: float, points: int) -> None:
@@ -48,6 +49,23 @@ def test_a_lying_capsule_stands_on_both_ends() -> None:
     assert feet is not None
     assert (feet.lowest, feet.depth) == pytest.approx((-0.1, DEPTH / 2))
     assert feet.wrench() == pytest.approx([0, 0, WEIGHT, 0, 0, 0], abs=1e-9)
+
+
+def test_a_tilted_ellipsoid_stands_beside_its_centre() -> None:
+    """In the plane of x and z its surface is (x / 0.3)² + (z / 0.1)² = 1, where a line of slope 3/4 touches it."""
+    feet = standing(f'ellipsoid radii="0.3 0.2 0.1" at 0 0 0" rpy="0 {-math.atan2(3, 4)} 0')
+    assert feet is not None
+    along, across = 0.3**2 * 0.6, 0.1**2 * 0.8
+    depth = math.sqrt(0.6 * along + 0.8 * across)
+    assert feet.lowest == pytest.approx(-depth)
+    beside = (0.6 * across - 0.8 * along) / depth
+    assert feet.wrench() == pytest.approx([0, 0, WEIGHT, 0, -beside * WEIGHT, 0])
+
+
+def test_a_flat_ellipsoid_has_no_lowest_point_but_a_height() -> None:
+    feet = standing('ellipsoid radii="0.3 0.2 0" at 0 0 0')
+    assert feet is not None
+    assert feet.lowest == 0
 
 
 @pytest.mark.parametrize(("sine", "weight"), [(0.2, 0.0), (0.075, 0.75)])

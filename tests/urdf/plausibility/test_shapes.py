@@ -1,14 +1,47 @@
-"""Shapes in another unit than the robot."""
+"""The sizes of shapes, and shapes in another unit than the robot."""
 
 from __future__ import annotations
 
+import math
+
 import msgspec
 import pytest
+from support.robots import tree
 
 from urdfsync.domain import Import, Version
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.robot import Joint, Link, Mesh, Origin, Robot, Vector, Visual
+from urdfsync.urdf.plausibility.shapes import find_bodies
+from urdfsync.urdf.robot import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Joint,
+    Link,
+    Mesh,
+    Origin,
+    Primitive,
+    Robot,
+    Sphere,
+    Vector,
+    Visual,
+)
+
+
+@pytest.mark.parametrize(("shape", "reach", "volume"), [
+    (Box((2, 4, 4)), 3, 32),
+    (Cylinder(3, 8), 5, 72 * math.pi),
+    (Capsule(3, 8), 7, 108 * math.pi),
+    (Sphere(3), 3, 36 * math.pi),
+    (Ellipsoid((1, 9, 3)), 9, 36 * math.pi),
+])  # fmt: skip
+def test_a_shape_has_a_reach_and_a_volume(shape: Primitive, reach: float, volume: float) -> None:
+    ((extent,),) = (
+        body.visuals for body in find_bodies(tree(links=(Link("a", visuals=(Visual(shape),)),)), {}, 0).values()
+    )
+    assert (extent.center, extent.reach) == ((0, 0, 0), reach)
+    assert extent.volume == pytest.approx(volume)
 
 
 @pytest.mark.parametrize(("size", "scale", "hint"), [

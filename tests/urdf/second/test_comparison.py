@@ -53,6 +53,23 @@ def test_the_menagerie_agrees() -> None:
     assert differences(corpus.REPOSITORY / "tests/golden/menagerie.urdf") == []
 
 
+@pytest.mark.parametrize(
+    "shape",
+    [
+        'box size="0.1 0.2 0.3"',
+        'sphere radius="0.2"',
+        'cylinder radius="0.1" length="0.5"',
+        'capsule radius="0.1" length="0.5"',
+        'ellipsoid radii="0.1 0.2 0.3"',
+    ],
+)
+def test_numbers_and_height_of_each_shape_agree(shape: str) -> None:
+    geometry = f'<origin xyz="1 2 3" rpy="0.4 0.5 0.6"/><geometry><{shape}/></geometry>'
+    shapes = f"<visual>{geometry}</visual><collision>{geometry}</collision>"
+    text = urdf(link("base", 1.0).replace("</link>", f"{shapes}</link>"))
+    assert compare(text.encode(), base="floating", approach=("package", "record")).differences == ()
+
+
 @pytest.mark.parametrize("file", sampled(corpus.robots(), 4))
 def test_real_robots_agree(file: str, corpus: Path) -> None:
     content = (corpus / file).read_bytes()

@@ -81,13 +81,16 @@ class _Drawn(NamedTuple):
 
 def _drawn(link: int, visual: str, kind: str) -> Iterator[_Drawn]:
     """Yield the drawn shapes of a visual. Modelica has no capsule shape: it is drawn as a cylinder and two spheres."""
-    radius, length, size = f"{visual}.radius", f"{visual}.length", f"{visual}.size"
+    radius, length, size, radii = (f"{visual}.{name}" for name in ("radius", "length", "size", "radii"))
     round_size, long_size = f"{{2*{radius}, 2*{radius}, 2*{radius}}}", f"{{{length}, 2*{radius}, 2*{radius}}}"
     match kind:
         case "Box":
             yield _Drawn(link, visual, '"box"', 1, f"-0.5*{size}[1]", f"{{{size}[1], {size}[2], {size}[3]}}")
         case "Sphere":
             yield _Drawn(link, visual, '"sphere"', 3, f"-{radius}", round_size)
+        case "Ellipsoid":  # the sphere of the Modelica Standard Library may have three diameters
+            diameters = f"{{2*{radii}[1], 2*{radii}[2], 2*{radii}[3]}}"
+            yield _Drawn(link, visual, '"sphere"', 1, f"-{radii}[1]", diameters)
         case "Cylinder" | "Capsule":
             yield _Drawn(link, visual, '"cylinder"', 3, f"-0.5*{length}", long_size)
         case _:

@@ -19,6 +19,7 @@ from urdfsync.urdf.robot import (
     Collision,
     Contact,
     Cylinder,
+    Ellipsoid,
     Geometry,
     Link,
     Mesh,
@@ -122,6 +123,8 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
                     heights.append(height - sum(abs(a) * edge / 2 for a, edge in zip(up, size, strict=True)))
                 case Sphere(radius=radius):
                     heights.append(height - radius)
+                case Ellipsoid(radii=radii):
+                    heights.append(height - math.hypot(*(a * radius for a, radius in zip(up, radii, strict=True))))
                 case Capsule(radius=radius, length=length):
                     heights.append(height - abs(up[2]) * length / 2 - radius)
                 case Cylinder(radius=radius, length=length):

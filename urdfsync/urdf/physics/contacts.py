@@ -17,7 +17,7 @@ from urdfsync.urdf.kinematics.poses import compose, link_poses, pose, start_posi
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.shapes import touching
 from urdfsync.urdf.physics.reference import Array
-from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Sphere
+from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Ellipsoid, Sphere
 
 GRAVITY = 9.80665
 PENETRATION, DAMPING_RATIO, FRICTION, SLIP_SPEED = 3e-4, 2.0, 0.8, 1e-3
@@ -107,6 +107,11 @@ def _lowest(axes: Array, shape: Any) -> Iterable[tuple[Array, float]]:
             yield from ((axes @ corner, 1.0) for corner in corners)
         case Sphere(radius=radius):
             yield np.array([0, 0, -radius]), 1.0
+        case Ellipsoid(radii=radii):
+            # `stretch` makes the ellipsoid of a unit sphere, whose point in `direction` becomes the lowest
+            stretch = axes * radii
+            direction = -stretch[2]
+            yield stretch @ direction / (np.linalg.norm(direction) or 1.0), 1.0
         case Capsule(radius=radius, length=length):
             yield from ((side * length / 2 * axes[:, 2] - [0, 0, radius], 1.0) for side in (-1, 1))
         case Cylinder(radius=radius, length=length):

@@ -118,7 +118,7 @@ def _misfit(body: LinkShape, inertial: Inertial) -> str:
 def _bodies(body: LinkShape) -> list[list[_Solid]]:
     """Return the bodies of the collision and of the visual shapes, as solids of one density with the link's mass.
 
-    A mesh or a capsule is no solid. Shapes that differ in nothing are one body.
+    A mesh, a capsule or an ellipsoid is no solid. Shapes that differ in nothing are one body.
     """
     forms: list[list[tuple[Box | Cylinder | Sphere, Origin]]] = []
     groups: Sequence[Sequence[Visual | Collision]] = (body.link.collisions, body.link.visuals)

@@ -15,6 +15,7 @@ from urdfsync.urdf.robot import (
     Capsule,
     Collision,
     Cylinder,
+    Ellipsoid,
     Inertial,
     Link,
     Mesh,
@@ -197,6 +198,8 @@ def _reach(geometry: Primitive) -> float:
             return radius + length / 2
         case Sphere(radius=radius):
             return radius
+        case Ellipsoid(radii=radii):
+            return max(radii)
 
 
 def volume(geometry: Primitive) -> float:
@@ -210,3 +213,5 @@ def volume(geometry: Primitive) -> float:
             return math.pi * radius * radius * (length + 4 / 3 * radius)
         case Sphere(radius=radius):
             return 4 / 3 * math.pi * radius * radius * radius
+        case Ellipsoid(radii=(a, b, c)):
+            return 4 / 3 * math.pi * a * b * c

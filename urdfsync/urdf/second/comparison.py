@@ -322,6 +322,8 @@ class _Comparison:
                         below = np.abs(up) @ link.values[f"{shape}.size"].value / 2
                     case "sphere":
                         below = link.number(f"{shape}.radius")
+                    case "ellipsoid":
+                        below = np.linalg.norm(up * link.values[f"{shape}.radii"].value)
                     case kind_of_round:
                         width = math.hypot(up[0], up[1]) if kind_of_round == "cylinder" else 1.0
                         below = abs(up[2]) * link.number(f"{shape}.length") / 2

@@ -19,7 +19,14 @@ from urdfsync.urdf.second.companions import PATHS, Companions
 
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
 """Elements whose text SDFormat uses instead of an attribute."""
-SHAPES = {"box": "size", "cylinder": "radius length", "capsule": "radius length", "sphere": "radius", "mesh": ""}
+SHAPES = {
+    "box": "size",
+    "cylinder": "radius length",
+    "capsule": "radius length",
+    "sphere": "radius",
+    "ellipsoid": "radii",
+    "mesh": "",
+}
 """Shapes, each with its attributes of numbers; those of a mesh are read apart."""
 _HOLDERS = frozenset(("axis", "dynamics", "inertia", "limit", "mimic", "origin", *filter(SHAPES.get, SHAPES)))
 """Elements in which SDFormat uses elements with texts instead of attributes."""

@@ -310,7 +310,7 @@ def _put_shape(
     _put_origin(link, shape, version, f"{path}.origin")
     link.put(f"{path}.shape", geometry.tag, geometry)
     for field in SHAPES[geometry.tag].split():
-        link.put(f"{path}.{field}", _at(geometry, f"@{field}", 3 if field == "size" else 1), geometry)
+        link.put(f"{path}.{field}", _at(geometry, f"@{field}", 3 if field in ("size", "radii") else 1), geometry)
     if geometry.tag == "mesh":
         link.put(f"{path}.uri", (geometry.get("filename"), _at(geometry, "@scale", 3, (1.0, 1.0, 1.0))), geometry)
     rgba: Any = (1.0, 105 / 255, 180 / 255, 0.5) if shape.tag == "collision" else None

@@ -68,6 +68,12 @@ model Chassis "Link \"chassis\""
     "Visual 7"
     annotation (Placement(transformation(extent={{-40, 170}, {-20, 190}})));
 
+  UrdfSync.Visualizers.Ellipsoid visual8(
+    parameters = parameters.visual8,
+    animation = animation)
+    "Visual 8"
+    annotation (Placement(transformation(extent={{-40, 200}, {-20, 220}})));
+
   UrdfSync.Visualizers.Box collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
@@ -98,6 +104,12 @@ model Chassis "Link \"chassis\""
     "Collision 5"
     annotation (Placement(transformation(extent={{-40, -160}, {-20, -140}})));
 
+  UrdfSync.Visualizers.Ellipsoid collision7(
+    parameters = parameters.collision7,
+    animation = showCollisions)
+    "Collision 7"
+    annotation (Placement(transformation(extent={{-40, -190}, {-20, -170}})));
+
   UrdfSync.Contacts.Box contact1(
     parameters = parameters.collision1)
     "Ground contact of collision1"
@@ -124,6 +136,11 @@ model Chassis "Link \"chassis\""
     "Ground contact of collision5"
     annotation (Placement(transformation(extent={{60, -160}, {80, -140}})));
 
+  UrdfSync.Contacts.Ellipsoid contact7(
+    parameters = parameters.collision7)
+    "Ground contact of collision7"
+    annotation (Placement(transformation(extent={{60, -190}, {80, -170}})));
+
 equation
   connect(frame_a, body.frame_a)
     annotation (Line(points={{-100, 0}, {-40, 0}}, color={95, 95, 95}, thickness=0.5));
@@ -141,6 +158,8 @@ equation
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 150}, {-40, 150}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, visual7.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 180}, {-40, 180}}, color={95, 95, 95}, thickness=0.5));
+  connect(frame_a, visual8.frame_a)
+    annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 210}, {-40, 210}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, collision1.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -30}, {-40, -30}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, collision2.frame_a)
@@ -151,6 +170,8 @@ equation
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -120}, {-40, -120}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, collision5.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -150}, {-40, -150}}, color={95, 95, 95}, thickness=0.5));
+  connect(frame_a, collision7.frame_a)
+    annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -180}, {-40, -180}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, contact1.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -15}, {50, -15}, {50, -30}, {60, -30}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, contact2.frame_a)
@@ -161,11 +182,13 @@ equation
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -105}, {50, -105}, {50, -120}, {60, -120}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, contact5.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -135}, {50, -135}, {50, -150}, {60, -150}}, color={95, 95, 95}, thickness=0.5));
+  connect(frame_a, contact7.frame_a)
+    annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -165}, {50, -165}, {50, -180}, {60, -180}}, color={95, 95, 95}, thickness=0.5));
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
       Text(extent={{-130, -100}, {130, -70}}, textString="m=%{parameters.inertial.mass}")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-100, -170}, {100, 200}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-100, -200}, {100, 230}})),
     Documentation(info="<html>
 <p>
 Rigid body, visuals and collisions of the URDF link <code>chassis</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.

@@ -76,6 +76,15 @@ record ChassisParameters "Numbers of link \"chassis\""
     opacity = 1)
     "Visual 7: \"ramp\"";
 
+  UrdfSync.Records.Ellipsoid visual8(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    radii = {0.1, 0.2, 0.05},
+    color = {180, 180, 180},
+    opacity = 1)
+    "Visual 8: \"egg\"";
+
   UrdfSync.Records.Box collision1(
     origin(
       xyz = {0, 0, 0.05},
@@ -133,6 +142,15 @@ record ChassisParameters "Numbers of link \"chassis\""
     {0.2, 0, 0},
     {0.2, 0.1, 0}}
     "Outermost points of collision5, resolved in its shape frame";
+
+  UrdfSync.Records.Ellipsoid collision7(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    radii = {0.1, 0.2, 0.05},
+    color = {255, 105, 180},
+    opacity = 0.5)
+    "Collision 7: \"egg\"";
 
   annotation (Documentation(info="<html>
 <p>

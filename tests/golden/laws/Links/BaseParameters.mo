@@ -65,6 +65,15 @@ record BaseParameters "Numbers of link \"base\""
     opacity = 1)
     "Visual 5";
 
+  UrdfSync.Records.Ellipsoid visual6(
+    origin(
+      xyz = {0, 0, 0},
+      rpy = {0, 0, 0}),
+    radii = {0.25, 0.125, 0.0625},
+    color = {180, 180, 180},
+    opacity = 1)
+    "Visual 6";
+
   UrdfSync.Records.Sphere collision1(
     origin(
       xyz = {0, 0, 0},

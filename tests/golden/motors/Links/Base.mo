@@ -62,6 +62,12 @@ model Base "Link \"base\""
     "Visual 5"
     annotation (Placement(transformation(extent={{-40, 140}, {-20, 160}})));
 
+  UrdfSync.Visualizers.Ellipsoid visual6(
+    parameters = parameters.visual6,
+    animation = animation)
+    "Visual 6"
+    annotation (Placement(transformation(extent={{-40, 170}, {-20, 190}})));
+
   UrdfSync.Visualizers.Sphere collision1(
     parameters = parameters.collision1,
     animation = showCollisions)
@@ -92,6 +98,8 @@ equation
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 120}, {-40, 120}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, visual5.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 150}, {-40, 150}}, color={95, 95, 95}, thickness=0.5));
+  connect(frame_a, visual6.frame_a)
+    annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 180}, {-40, 180}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, collision1.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, -30}, {-40, -30}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, contact1.frame_a)
@@ -100,7 +108,7 @@ equation
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
       Text(extent={{-130, -100}, {130, -70}}, textString="m=%{parameters.inertial.mass}")}),
-    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 170}})),
+    Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 200}})),
     Documentation(info="<html>
 <p>
 Rigid body, visuals and collisions of the URDF link <code>base</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
