@@ -537,6 +537,22 @@ def test_a_robot_that_does_not_move_and_has_no_shape(report: Report, chromium: P
     assert page.problems == []
 
 
+def test_shapes_are_as_large_as_they_are(report: Report, chromium: Page) -> None:
+    """Each with half its extent along x, y and z."""
+    shapes = {
+        'box size="0.2 0.4 0.6"': (0.1, 0.2, 0.3),
+        'sphere radius="0.2"': (0.2, 0.2, 0.2),
+        'cylinder radius="0.1" length="0.4"': (0.1, 0.1, 0.2),
+        'capsule radius="0.1" length="0.4"': (0.1, 0.1, 0.3),
+        'ellipsoid radii="0.1 0.2 0.3"': (0.1, 0.2, 0.3),
+    }
+    visuals = "".join(f"<visual><geometry><{shape}/></geometry></visual>" for shape in shapes)
+    page = opened(chromium, report(f'<robot name="bot"><link name="base">{visuals}</link></robot>'))
+    layer = "page.now.bodies.get('link base').layers.visual"
+    corners = f"{layer}.map((mesh) => (mesh.geometry.computeBoundingBox(), mesh.geometry.boundingBox.max.toArray()))"
+    assert np.array(page.run(corners)) == pytest.approx(np.array(list(shapes.values())), rel=0.01)
+
+
 def test_the_inertia_box_is_the_body_with_this_inertia(report: Report, chromium: Page) -> None:
     mass, squares, (turn, _) = (
         3.0,
