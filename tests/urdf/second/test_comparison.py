@@ -274,6 +274,12 @@ def test_what_a_reader_misreads_is_found(fault: str, sound: Package) -> None:
     assert each.source_line > 0 or quantity == "height"
 
 
+def test_a_scale_in_the_spelling_of_sdf_agrees(sound: Package) -> None:
+    source, count = re.subn(r' scale="([^"]*)"/>', r"><scale>\1</scale></mesh>", URDF)
+    assert count == 2
+    assert of_package(sound, source.encode(), sound.texts).differences == ()
+
+
 def test_a_scale_with_x_and_y_exchanged_is_found(sound: Package) -> None:
     """Its files in the package are others."""
     facts = {key.replace("0.5 0.7", "0.7 0.5"): file for key, file in sound.facts.items()}

@@ -28,7 +28,7 @@ SHAPES = {
     "mesh": "",
 }
 """Shapes, each with its attributes of numbers; those of a mesh are read apart."""
-_HOLDERS = frozenset(("axis", "dynamics", "inertia", "limit", "mimic", "origin", *filter(SHAPES.get, SHAPES)))
+_HOLDERS = frozenset(("axis", "dynamics", "inertia", "limit", "mimic", "origin", *SHAPES))
 """Elements in which SDFormat uses elements with texts instead of attributes."""
 
 
