@@ -9,7 +9,7 @@ import struct
 from collections.abc import Callable
 from pathlib import Path
 
-_MASS = '<mass value="'
+_MASS = re.compile(r'(<mass value="|<mass>|<inertial mass=")[^"<]*')
 _INERTIAL = """\
 <inertial><origin xyz="0 0 0.1"/><mass value="1"/>
     <inertia ixx="0.0042" ixy="0" ixz="0" iyy="0.0042" iyz="0" izz="0.0017"/></inertial>
@@ -21,6 +21,24 @@ _JOINT = """\
 <joint name="joint{child}" type="revolute"><origin xyz="0 0 0.2" rpy="0.1 0 0"/>
   <parent link="link{parent}"/><child link="link{child}"/><axis xyz="0 0 1"/>
   <dynamics damping="0.5" friction="0.1"/><limit lower="-1" upper="1" effort="10" velocity="2"/></joint>
+"""
+_BODY = """\
+<body name="link{number}" pos="0 0 0.2" euler="0.1 0 0">
+<inertial mass="1" pos="0 0 0.1" diaginertia="0.0042 0.0042 0.0017"/>
+<joint name="joint{number}" axis="0 0 1" range="-1 1" actuatorfrcrange="-10 10" damping="0.5" frictionloss="0.1"/>
+<geom type="box" size="0.05 0.05 0.1" pos="0 0 0.1" euler="0 0 0.1"/>
+"""
+_SDF_LINK = """\
+<link name="link{number}">{pose}<inertial><pose>0 0 0.1 0 0 0</pose><mass>1</mass><inertia>
+  <ixx>0.0042</ixx><iyy>0.0042</iyy><izz>0.0017</izz></inertia></inertial>{shapes}</link>
+"""
+_SDF_SHAPE = """\
+<{kind} name="{kind}"><pose>0 0 0.1 0 0 0.1</pose><geometry><box><size>0.1 0.1 0.2</size></box></geometry></{kind}>
+"""
+_SDF_JOINT = """\
+<joint name="joint{child}" type="revolute"><parent>link{parent}</parent><child>link{child}</child><axis><xyz>0 0 1</xyz>
+  <dynamics><damping>0.5</damping><friction>0.1</friction></dynamics>
+  <limit><lower>-1</lower><upper>1</upper><effort>10</effort><velocity>2</velocity></limit></axis></joint>
 """
 _TRIANGLES = 1000
 
@@ -57,6 +75,35 @@ def write_workspace(folder: Path, robots: int, links: int, geometry: Callable[[i
         (folder / f"robot{number}.urdf").write_text(chain(f"robot{number}", links, geometry), encoding="utf-8")
         tables.append(f'[robots.robot{number}]\nsource = "robot{number}.urdf"\npackage = "Robot{number}"\n')
     (folder / "urdfsync.toml").write_text("".join(tables), encoding="utf-8")
+    return folder
+
+
+def mjcf_chain(name: str, links: int) -> str:
+    """Return the robot of `chain` as MJCF."""
+    bodies = "".join(_BODY.format(number=number) for number in range(1, links))
+    first = _BODY.format(number=0).replace(' pos="0 0 0.2" euler="0.1 0 0"', "", 1)
+    base = "".join(line for line in first.splitlines(keepends=True) if "<joint" not in line)
+    settings = '<compiler angle="radian" eulerseq="xyz"/>'
+    return f'<mujoco model="{name}">{settings}<worldbody>\n{base}{bodies}{"</body>" * links}</worldbody></mujoco>\n'
+
+
+def sdf_chain(name: str, links: int) -> str:
+    """Return the robot of `chain` as SDF."""
+    shapes = "".join(_SDF_SHAPE.format(kind=kind) for kind in ("visual", "collision"))
+    parts = [_SDF_LINK.format(number=0, pose="", shapes=shapes)]
+    for number in range(1, links):
+        pose = f'<pose relative_to="link{number - 1}">0 0 0.2 0.1 0 0</pose>'
+        parts.append(_SDF_LINK.format(number=number, pose=pose, shapes=shapes))
+        parts.append(_SDF_JOINT.format(child=number, parent=number - 1))
+    return f'<sdf version="1.9"><model name="{name}">\n{"".join(parts)}</model></sdf>\n'
+
+
+def write_format_workspace(folder: Path, suffix: str, text: str) -> Path:
+    """Write `robot0` in a format, with a configuration, and return the folder."""
+    folder.mkdir(parents=True)
+    (folder / f"robot0.{suffix}").write_text(text, encoding="utf-8")
+    table = f'[robots.robot0]\nsource = "robot0.{suffix}"\npackage = "Robot0"\n'
+    (folder / "urdfsync.toml").write_text(table, encoding="utf-8")
     return folder
 
 
@@ -114,7 +161,7 @@ class Source:
         The file is replaced as a whole, by one that was written outside of its folder.
         """
         mass, text = next(self._masses), self.path.read_text(encoding="utf-8")
-        changed, count = re.subn(f'{_MASS}[^"]*', f"{_MASS}{mass}", text, count=1)
+        changed, count = _MASS.subn(rf"\g<1>{mass}", text, count=1)
         if not count:
             raise ValueError(f"no link of {self.path} has a mass")
         edited = self.path.parent.with_suffix(".edited")

@@ -20,7 +20,16 @@ from support.daemon import LIMIT, Watch
 from benchmarks.measuring import Cost, Measurement, Pair, Reading, UnexpectedError, measure, run
 from benchmarks.motors import Motors
 from benchmarks.published import Published
-from benchmarks.robots import Source, mesh, write_meshes, write_workspace, write_xacro_workspace
+from benchmarks.robots import (
+    Source,
+    mesh,
+    mjcf_chain,
+    sdf_chain,
+    write_format_workspace,
+    write_meshes,
+    write_workspace,
+    write_xacro_workspace,
+)
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.libraries import copy_named, find_standard_library
 from urdfsync.merge import merge
@@ -136,6 +145,17 @@ def first_build(tools: Tools) -> Iterator[Pair]:
         ("11 links, STL and OBJ", meshes, 60),
     ):
         yield Pair(what, first(tools, place), "python -c pass", tools.python, [ratio(bar), CPU])
+
+
+def formats(tools: Tools) -> Iterator[Pair]:
+    """Builds of a robot in another format, beside the same robot as URDF."""
+    cpu = dataclasses.replace(CPU, at_most=2.5)
+    for suffix, text in (("xml", mjcf_chain("robot0", 11)), ("sdf", sdf_chain("robot0", 11))):
+        mine = [write_format_workspace(tools.folder / suffix / kind, suffix, text) for kind in ("first", "changed")]
+        other = [write_workspace(tools.folder / f"urdf beside {suffix}" / kind, 1, 11) for kind in ("first", "changed")]
+        what = f"{'MJCF' if suffix == 'xml' else 'SDF'}, 11 links"
+        yield Pair(f"{what}, first build", first(tools, mine[0]), "URDF", first(tools, other[0]), [cpu])
+        yield Pair(f"{what}, one mass", changed(tools, mine[1]), "URDF", changed(tools, other[1]), [cpu])
 
 
 def growth(tools: Tools) -> Iterator[Pair]:
@@ -266,6 +286,7 @@ TABLES = {
     "watch": ("one mass changed in the daemon", daemon),
     "edited": ("one mass changed, robot model edited", edited),
     "merge": ("merge of an edited robot model, one link more", merged),
+    "formats": ("another format", formats),
     "growth": ("growth of a first build", growth),
     "table": ("table of 10,000 rows", table),
     "check": ("check with warm caches", check),
@@ -291,7 +312,7 @@ def first(tools: Tools, folder: Path) -> Measurement:
 def changed(tools: Tools, folder: Path) -> Measurement:
     """A build after the mass of one link has changed; the folder is built before."""
     run(tools.urdfsync("build", "--quiet"), folder)
-    source = Source(folder / "robot0.urdf")
+    source = Source(next(folder.glob("robot0.*")))
 
     def measurement() -> Cost:
         mass = source.edit()

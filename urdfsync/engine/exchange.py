@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import sys
 from collections.abc import Callable, Mapping
 
@@ -9,6 +11,10 @@ import msgspec
 
 from urdfsync.dependencies.facts import MAX_FILE
 from urdfsync.processes import reserve_stdout
+
+
+_GARBAGE_THRESHOLD = 100_000
+"""New objects after which Python looks for cycles."""
 
 
 class Request(msgspec.Struct, frozen=True):
@@ -87,6 +93,9 @@ def encode(answer: Answer, code: str) -> bytes:
 
 def serve(answer: Callable[[Request], Answer], code: str) -> None:
     """Answer the request on stdin; a program calls this as its last step."""
+    # looks for garbage seldom, and not at the end: 0.05 of 0.7 s of an MJCF
+    gc.set_threshold(_GARBAGE_THRESHOLD)
+    atexit.register(gc.freeze)
     request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
     with reserve_stdout() as answers:
         answers.write(encode(answer(request), code))
