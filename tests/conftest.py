@@ -158,7 +158,7 @@ def modelica_library() -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(libraries, "_pieces", take_apart_once)
         patch.setattr("urdfsync.checks.names.parse_file", functools.cache(parse_file))
-        for module in ("fingerprint", "libraries", "compilers"):
+        for module in ("contents", "libraries"):
             patch.setattr(f"urdfsync.checks.{module}.content_hash", hash_once)
         yield folder
 

@@ -78,7 +78,7 @@ def test_so_do_another_tool_another_distribution_and_another_wish(
     (tmp_path / "site/numbers-2.0.dist-info").mkdir(parents=True)
     monkeypatch.syspath_prepend(tmp_path / "site")
     found.append(now())
-    monkeypatch.setattr("urdfsync.checks.compilers.state", lambda _: ["99"])
+    monkeypatch.setattr("urdfsync.checks.compilers.state", lambda *_: ["99"])
     found.append(now())
     assert len(set(found)) == 4
 

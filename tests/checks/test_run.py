@@ -60,6 +60,16 @@ def codes(result: CheckResult) -> list[str]:
     return [one.code for one in result.diagnostics]
 
 
+def test_a_remembered_check_needs_no_worker(robots: Config, monkeypatch: pytest.MonkeyPatch) -> None:
+    remembered = CheckResult("late", "Late")  # its check would wait for ever
+    monkeypatch.setattr(run, "recall_check", lambda _, robot, *__: remembered if robot.name == "late" else None)
+    late, early = check(robots, ["late", "early"], CheckOptions(jobs=1))
+    assert late is remembered
+    assert early.robot == "early"
+    monkeypatch.setattr(run, "workers", None)
+    assert list(check(robots, ["late"])) == [remembered]
+
+
 def test_results_come_in_order_and_each_step_is_told(robots: Config, tmp_path: Path) -> None:
     """The first waits for the second, which runs at the same time."""
     steps: list[tuple[str, int, int]] = []

@@ -12,6 +12,7 @@ import msgspec
 
 from urdfsync.checks import compilers, run
 from urdfsync.checks.cache import UserCache
+from urdfsync.checks.contents import Hashes
 from urdfsync.checks.fingerprint import fingerprint
 from urdfsync.checks.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
@@ -41,9 +42,12 @@ class BuildChecker:
             fresh=request.full,
         )
 
-    def key(self, robot: RobotConfig) -> str | None:
-        """Return the fingerprint of all inputs of a robot's check; None if an input can't be read."""
-        return fingerprint(self._config, robot, self._options)
+    def key(self, robot: RobotConfig, hashes: Hashes | None = None) -> str | None:
+        """Return the fingerprint of all inputs of a robot's check; None if an input can't be read.
+
+        `hashes` as in `result_key`.
+        """
+        return fingerprint(self._config, robot, self._options, hashes)
 
     def find_earlier(self, key: str | None) -> BuildCheck | None:
         """Return an earlier check with this key, without findings about the robot; None if there is no such check."""
@@ -58,7 +62,8 @@ class BuildChecker:
 
         Faults of a package, or of its check, come back as diagnostics.
         """
-        earlier = {robot.name: self.find_earlier(self.key(robot)) for robot in robots}
+        hashes = Hashes()
+        earlier = {robot.name: self.find_earlier(self.key(robot, hashes)) for robot in robots}
         unknown = [robot for robot in robots if earlier[robot.name] is None]
         results = run.check_robots(self._config, unknown, self._options, tell)
         trouble: BuildCheck | None = None  # the failure that ended all checks

@@ -11,7 +11,7 @@ from urdfsync import registry
 from urdfsync.checks import compilers, libraries, package
 from urdfsync.checks.cache import digest
 from urdfsync.checks.compilers.compiler import Tool
-from urdfsync.checks.contents import RESOURCES, content_hash, package_texts
+from urdfsync.checks.contents import RESOURCES, Hashes, package_texts
 from urdfsync.checks.results import CheckOptions
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import UrdfsyncError
@@ -25,14 +25,23 @@ PHYSICS = "-physics"
 """The ending of the key of a check with physics."""
 
 
-def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libraries, *facts: object) -> str | None:
+def result_key(
+    robot: RobotConfig,
+    tools: Sequence[Tool],
+    needed: libraries.Libraries,
+    *facts: object,
+    hashes: Hashes | None = None,
+) -> str | None:
     """Return the key of a result: a hash of `facts` and of all other inputs.
+
+    `hashes` has those of inputs that several robots share, as they were a moment ago; None to look now.
 
     The other inputs are urdfsync with its library, the domain's code, Python with its packages, the compilers and the
     Modelica libraries.
 
     None if an input can't be read: then the result must not be remembered.
     """
+    hashes = hashes or Hashes()
     own = find_own_library(LIBRARY, robot.target.package)
     places = {**needed.others, **({LIBRARY: own} if own else {})}
     if any(compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in tools):
@@ -40,10 +49,10 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
     try:
         return digest(
             *(sys.platform, registry.program(robot.domain)),
-            *(compilers.state(tool) for tool in tools),
-            [(name, str(path), content_hash(path)) for name, path in sorted(places.items())],
+            *(compilers.state(tool, hashes) for tool in tools),
+            [(name, str(path), hashes.of(path)) for name, path in sorted(places.items())],
             # the compiler gets copies of these libraries without resources
-            [(str(path), content_hash(path, [RESOURCES])) for path in needed.standard.values()],
+            [(str(path), hashes.of(path, RESOURCES)) for path in needed.standard.values()],
             *(str(needed.problem), robot.target, robot.domain),
             *facts,
         )
@@ -51,8 +60,8 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
         return None
 
 
-def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> str | None:
-    """Return the key of the check of a package in step; None if an input can't be read.
+def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes | None = None) -> str | None:
+    """Return the key of the check of a package in step; None if an input can't be read. `hashes` as in `result_key`.
 
     This reads all inputs, and may run xacro or a translator. It writes nothing.
     """
@@ -76,5 +85,6 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         *(robot.options, text.content, text.companions, templates),
         shown(robot.folder),  # findings name files relative to the working folder
         *(sorted(files.items()) for files in (texts, around, users)),
+        hashes=hashes,
     )
     return f"{key}{PHYSICS}" if key and options.physics else key

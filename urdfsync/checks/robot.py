@@ -6,6 +6,7 @@ import tempfile
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import msgspec
 
@@ -13,6 +14,7 @@ from urdfsync import registry
 from urdfsync.checks import compilers, process, texts
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilation import Compilation, compare_all
+from urdfsync.checks.contents import Hashes
 from urdfsync.checks.experiment import Checks, Experiment, Mismatch, Numbers, Sample
 from urdfsync.checks.fingerprint import PHYSICS, fingerprint
 from urdfsync.checks.libraries import Libraries, find_libraries
@@ -48,6 +50,60 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     return None
 
 
+class _Before(NamedTuple):
+    """What is known of a robot before its check."""
+
+    key: str | None
+    """The fingerprint; None if the result must not be remembered."""
+    package: RobotPackage
+    earlier: CheckResult | None
+    """The remembered check of the same package; None if there is none."""
+
+
+def _look(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes | None = None) -> _Before:
+    """Read a robot's package, and look for its earlier check. Raises UrdfsyncError and OSError."""
+    key = fingerprint(config, robot, options, hashes)
+    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
+    package, earlier = read_package(config, robot, request), None
+    if key and package.in_step and not options.fresh:
+        earlier = UserCache.default().load(key, CheckResult)
+    return _Before(key, package, earlier if earlier and _has_curves(earlier, options) else None)
+
+
+def _has_curves(result: CheckResult, options: CheckOptions) -> bool:
+    """Return whether a remembered result has the curves that the options ask for."""
+    return not (options.curves and result.reference and not any(tool.curves for tool in result.tools))
+
+
+def recall_check(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes) -> CheckResult | None:
+    """Return the remembered check of a robot; None if the robot has to be checked. `hashes` as in `result_key`."""
+    if options.fresh:
+        return None
+    begin = time.monotonic()
+    try:
+        before = _look(config, robot, options, hashes)
+        if before.earlier is None:
+            return None
+        return _shown(before.earlier, before.package, options, begin)
+    except Exception:  # noqa: BLE001 - the check meets this error, too, and reports it
+        return None
+
+
+def _shown(result: CheckResult, package: RobotPackage, options: CheckOptions, begin: float) -> CheckResult:
+    """Return a result, which may be remembered, as that of this command; `begin` is its start (s)."""
+    robot = package.robot
+    result.robot = robot.name  # another robot may have the same inputs
+    result.folder, result.strict = shown(robot.folder), options.strict  # a saved check may have other values
+    result.add(texts.missing_resources(package))  # the fingerprint does not cover these files
+    if options.strict:
+        made, file = package.generation, shown(robot.source)
+        judged = judge(package.inputs.domain, made.now, made.reading, file)
+        result.add(robot.without_ignored(map(package.inputs.source.locate, judged)))
+    result.diagnostics = robot.without_ignored(result.diagnostics)
+    result.seconds = time.monotonic() - begin
+    return result
+
+
 def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None = None) -> CheckResult:
     """Check one robot; copies of its package go to `folder`, or to a temporary folder for None.
 
@@ -59,16 +115,10 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
     limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
     try:
         tell(f"{robot.name}: reading the source and the package")
-        key = fingerprint(config, robot, options)
-        request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
-        package = read_package(config, robot, request)
-        earlier = None
-        if key and package.in_step and not options.fresh:
-            earlier = cache.load(key, CheckResult)
-            if earlier is None and (earlier := remote.load(key)):
-                cache.save(key, earlier)
-        if earlier and options.curves and earlier.reference and not any(tool.curves for tool in earlier.tools):
-            earlier = None  # a remembered result lacks the curves
+        key, package, earlier = _look(config, robot, options)
+        if earlier is None and key and package.in_step and not options.fresh and (shared := remote.load(key)):
+            cache.save(key, shared)
+            earlier = shared if _has_curves(shared, options) else None
         if earlier is None:
             with tempfile.TemporaryDirectory(prefix="urdfsync-", dir=folder, ignore_cleanup_errors=True) as place:
                 _check(config, package, options, result, limits, Path(place))
@@ -79,14 +129,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
                 cache.save(key, result if is_right else None)
                 if is_right:
                     remote.save(key, result)
-        result = earlier or result
-        result.robot = robot.name  # another robot may have the same inputs
-        result.folder, result.strict = shown(robot.folder), options.strict  # a saved check may have other values
-        result.add(texts.missing_resources(package))  # the fingerprint does not cover these files
-        if options.strict:
-            made, file = package.generation, shown(robot.source)
-            judged = judge(package.inputs.domain, made.now, made.reading, file)
-            result.add(robot.without_ignored(map(package.inputs.source.locate, judged)))
+        result = _shown(earlier or result, package, options, begin)
     except Exception as error:  # noqa: BLE001 - only this robot fails
         result.add(findings_of(error))
     result.add(remote.warnings)

@@ -12,8 +12,9 @@ import psutil
 
 from urdfsync.checks import remote
 from urdfsync.checks.cache import UserCache
+from urdfsync.checks.contents import Hashes
 from urdfsync.checks.results import CheckOptions, CheckResult
-from urdfsync.checks.robot import check_robot
+from urdfsync.checks.robot import check_robot, recall_check
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
@@ -30,9 +31,24 @@ def check_robots(
 ) -> Iterator[CheckResult]:
     """Check robots; yield the results in the order of the robots, each as soon as all earlier results are known.
 
-    `progress` gets the step of the work, and the number of finished robots. Raises CacheError if there is no place for
-    the cache, ConfigError if no cluster answers.
+    A robot whose check is remembered needs no worker. `progress` gets the step of the work, and the number of finished
+    robots. Raises CacheError if there is no place for the cache, ConfigError if no cluster answers.
     """
+    hashes, known = Hashes(), dict[str, CheckResult]()
+    for count, robot in enumerate(robots):
+        progress(f"{robot.name}: looking for an earlier check", count, len(robots))
+        if result := recall_check(config, robot, options, hashes):
+            known[robot.name] = result
+    checks = _check_all(config, [robot for robot in robots if robot.name not in known], options, progress)
+    for robot in robots:
+        yield known.get(robot.name) or next(checks)
+    yield from checks  # there are none left: the workers end
+
+
+def _check_all(
+    config: Config, robots: Sequence[RobotConfig], options: CheckOptions, progress: Progress
+) -> Iterator[CheckResult]:
+    """Check robots in workers, as `check_robots` does with those whose check is not remembered."""
     if not robots:
         return
     cache = UserCache.default()

@@ -12,7 +12,6 @@ import msgspec
 from urdfsync.dependencies.facts import MAX_FILE
 from urdfsync.processes import reserve_stdout
 
-
 _GARBAGE_THRESHOLD = 100_000
 """New objects after which Python looks for cycles."""
 

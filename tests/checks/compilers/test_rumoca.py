@@ -12,6 +12,7 @@ from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers import find_missing, run_job, state
 from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, CompileTask, Simulation, Tool
 from urdfsync.checks.compilers.rumoca import METHODS
+from urdfsync.checks.contents import Hashes
 from urdfsync.checks.process import Limits
 
 DECAY = """
@@ -47,9 +48,9 @@ def test_another_rumoca_is_another_state(tmp_path: Path, monkeypatch: pytest.Mon
     module.write_text("")
     monkeypatch.delitem(sys.modules, "rumoca", raising=False)
     monkeypatch.syspath_prepend(tmp_path)
-    before = state(Tool("rumoca"))
+    before = state(Tool("rumoca"), Hashes())
     module.write_text("# built anew\n")
-    assert state(Tool("rumoca")) != before
+    assert state(Tool("rumoca"), Hashes()) != before
 
 
 def test_models_are_compiled_counted_and_simulated(tmp_path: Path) -> None:

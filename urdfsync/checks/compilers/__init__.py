@@ -13,7 +13,7 @@ import msgspec
 from urdfsync.checks import process
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers.compiler import CompileJob, Compiler, CompilerError, CompileResult, Tool
-from urdfsync.checks.contents import content_hash
+from urdfsync.checks.contents import Hashes
 from urdfsync.checks.process import BrokenProcessError, Limits
 from urdfsync.config import Config, settings
 from urdfsync.config.trust import find_untrusted_compiler
@@ -66,7 +66,7 @@ def find_missing(tool: Tool) -> Diagnostic | None:
     return tool.problem
 
 
-def state(tool: Tool) -> list[str]:
+def state(tool: Tool, hashes: Hashes) -> list[str]:
     """Return a compiler's state: hashes of its files, and its stated version; or a problem.
 
     Raises OSError for unreadable files.
@@ -74,7 +74,7 @@ def state(tool: Tool) -> list[str]:
     if missing := find_missing(tool):
         return [tool.name, str(missing)]
     version, places = COMPILERS[tool.name].state(tool.program)
-    return [tool.name, version, *(f"{place} {content_hash(place)}" for place in places)]
+    return [tool.name, version, *(f"{place} {hashes.of(place)}" for place in places)]
 
 
 def run_job(
