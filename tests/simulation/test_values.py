@@ -16,7 +16,9 @@ def test_names_become_nested_modifiers() -> None:
     ]
 
 
-@pytest.mark.parametrize("value", ["4", "-4.5e-3", "true", '"steel"', "{1, 2}", "{{1,0},{0,1}}"])
+@pytest.mark.parametrize(
+    "value", ["4", "-4.5e-3", "true", '"steel"', "{1, 2}", "{{1,0},{0,1}}", "{-1., .5}", r'{"a\"}", "//"}']
+)
 def test_literals_are_values(value: str) -> None:
     assert read_values([f"a={value}"]) == {"a": value}
 
@@ -30,6 +32,15 @@ def test_literals_are_values(value: str) -> None:
         (["a=1)); end Probe_; model X(b=(1"], "is no value"),
         (['a="'], "is no value"),
         (["a={1"], "is no value"),
+        (["a=}{"], "is no value"),
+        (["a={}"], "is no value"),
+        (["a={1,,2}"], "is no value"),
+        (["a=1 2"], "is no value"),
+        (["a=- -"], "is no value"),
+        (["a=1.2.3"], "is no value"),
+        (["a=1e999"], "`1e999` is no value for `a`"),
+        (["a=1 // about"], "is no value"),
+        (["a=1 /* about */"], "is no value"),
         (["a[1]=1"], "give the whole vector"),
         (["a..b=1"], "can't be a parameter"),
         (["a=1", "a=2"], "gets two values"),

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any, NoReturn
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import is_identifier
 from urdfsync.spelling import nearest
 
 _LIKENESS = 0.8
-_SIGNS = frozenset(("{", "}", ",", "-", "true", "false"))
+_SCALAR = re.compile(
+    r'''-?\s*(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|true|false|"(?:[^"\\]|\\.)*"''', re.ASCII | re.DOTALL
+)
+_VECTOR = re.compile(r"\{\s*0\s*(?:,\s*0\s*)*\}")
+"""A vector in a text in which each scalar or inner vector is a 0."""
 
 
 def read_values(given: Iterable[str]) -> dict[str, str]:
@@ -86,11 +91,12 @@ def _modifier(name: str, value: str | dict[str, Any]) -> str:
 
 
 def _is_literal(value: str) -> bool:
-    """Whether a text is a number, a truth value, a text, or a vector of these."""
-    tokens, faults = lex(value)
-    words = [token.text for token in tokens[:-1]]
-    is_plain = all(word in _SIGNS or word[0] in '0123456789."' for word in words)
-    return bool(words) and not faults and is_plain and words.count("{") == words.count("}")
+    """Whether a text is a finite number, a truth value, a text, or a vector of these."""
+    numbers = [match["number"] for match in _SCALAR.finditer(value) if match["number"]]
+    rest, count = _SCALAR.sub("0", value.strip()), 1
+    while count:  # from the inside outwards
+        rest, count = _VECTOR.subn("0", rest)
+    return rest == "0" and all(math.isfinite(float(number)) for number in numbers)
 
 
 def _refuse(message: str, hint: str = "") -> NoReturn:
