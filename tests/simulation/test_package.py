@@ -74,9 +74,11 @@ def test_a_parameter_that_does_not_exist_is_refused_with_the_nearest(compiler: C
     compiler.results = [CompileResult(parameters=("robot.elbow.parameters.dynamics.damping",))]
     found = refused(values=("robot.elbow.parameters.dynamics.dampin=1",))
     assert "did you mean `robot.elbow.parameters.dynamics.damping`?" in found
+    compiler.results = [CompileResult(parameters=())]
+    assert "has no parameter `b`" in refused(values=("b=1",)), "the model has no parameters at all"
     compiler.results = [CompileResult("unbalanced model: 4 equations, 3 unknowns"), CompileResult(parameters=("a",))]
     assert "has no parameter `b`" in refused(values=("b=1",)), "what is set keeps the model from compiling"
-    assert [bool(job.tasks[0].runs) for job in compiler.jobs[1:]] == [True, False]
+    assert [bool(job.tasks[0].runs) for job in compiler.jobs[2:]] == [True, False]
     compiler.results = [CompileResult("unbalanced model: 4 equations, 3 unknowns"), CompileResult()]
     assert "1 equation too many" in (found := refused(values=("b=1",)))
     assert "check whether one of these is final, or has a value of the wrong type: b" in found

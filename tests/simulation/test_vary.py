@@ -185,6 +185,7 @@ def test_ctrl_c_keeps_finished_cases(cases: CaseCompiler, execute: Execute, monk
     ("answer", "words"),
     [
         (CompileResult(parameters=(MASS, "robot.lower.m")), "has no parameter `robot.lower.parameters.inertial.mas`"),
+        (CompileResult(parameters=()), f"has no parameter `{MASS}`"),
         (CompileResult(structural=(MASS,)), f"`{MASS}` can't be varied: the compiler evaluates it"),
         (CompileResult(without_effect=(MASS,)), f"`{MASS}` can't be changed: nothing in the compiled model"),
         (CompileResult(problem="unbalanced model"), "unbalanced model"),

@@ -133,7 +133,7 @@ def run_task(
         if result.problem and task.parameters:  # perhaps the model lacks the parameter
             names = msgspec.structs.replace(task, source=plain, runs=(), export=None)
             (answer,) = jobs.run("plain", package.files.texts, [names], changed)
-            result = answer if answer.parameters else result
+            result = result if answer.parameters is None else answer
     check_compiled(prepared, options, task, result)
     return result
 

@@ -38,10 +38,12 @@ def read_values(given: Iterable[str]) -> dict[str, str]:
     return values
 
 
-def find_unknown(model: str, names: Iterable[str], parameters: Collection[str]) -> list[Diagnostic]:
-    """Return an error for each unknown parameter of a model; none if its parameters are unknown."""
-    findings = []
-    for name in names if parameters else ():
+def find_unknown(model: str, names: Iterable[str], parameters: Collection[str] | None) -> list[Diagnostic]:
+    """Return an error for each unknown parameter of a model; none if its parameters are unknown (None)."""
+    findings = list[Diagnostic]()
+    if parameters is None:
+        return findings
+    for name in names:
         if name not in parameters:
             near = nearest_parameter(name, parameters)
             hint = f"did you mean `{near}`?" if near else ""

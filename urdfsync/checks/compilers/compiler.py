@@ -94,8 +94,8 @@ class CompileResult(msgspec.Struct, frozen=True):
     """Findings about a model that compiles, in the compiler's words."""
     runs: tuple[SimulationResult, ...] = ()
     """A result for each run of the task, in order, unless there is a `problem`."""
-    parameters: tuple[str, ...] = ()
-    """All parameters of the model, if it lacks a parameter that the task sets."""
+    parameters: tuple[str, ...] | None = None
+    """All parameters of the model, if it lacks a parameter that the task sets; else None."""
     without_effect: tuple[str, ...] = ()
     """Parameters that the task sets and on which nothing in the compiled model depends."""
     structural: tuple[str, ...] = ()

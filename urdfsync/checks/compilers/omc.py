@@ -261,9 +261,9 @@ def _without_parameters(task: CompileTask, answers: Sequence[_Answer], folder: P
     """Return a result with all parameters of a model, if it lacks a parameter that the task sets."""
     everything = msgspec.structs.replace(task, runs=(Simulation(1.0, 1.0),), values=(), pattern=".*")
     result = _simulated(everything, answers, folder)
-    names = tuple(result.runs[0].parameters) if result.runs else ()
-    lacks_one = bool(names) and not set(task.parameters).issubset(names)
-    return CompileResult(result.problem, parameters=names if lacks_one else ())
+    names = tuple(result.runs[0].parameters) if result.runs and not result.runs[0].problem else None
+    lacks_one = names is not None and not set(task.parameters).issubset(names)
+    return CompileResult(result.problem, parameters=names if lacks_one else None)
 
 
 def _exported(answer: _Answer, folder: Path) -> CompileResult:
