@@ -98,6 +98,9 @@ def test_a_file_has_a_row_for_each_case(tmp_path: Path) -> None:
         ("p=2..1", "the lower bound is above the upper one"),
         ("p=uniform(2,1)", "the lower bound is above the upper one"),
         ("p=normal(1,-2)", "the negative standard deviation -2"),
+        ("p=-1e308..1e308/3", "the distance of the bounds in `p=-1e308..1e308/3` is no finite number"),
+        ("p=uniform(-1e308,1e308)", "give bounds nearer to each other"),
+        ("p=normal(0,1e308)", "a sample of `p` is no finite number; give a smaller standard deviation"),
         ("p=normal(1)", "`normal(1)` is no distribution"),
         ("p=poisson(1,2)", "`poisson(1,2)` is no distribution"),
         ("p=0..1/1", "`1` in `p=0..1/1` is no number of values"),
@@ -112,9 +115,11 @@ def test_a_faulty_description_is_refused(text: str, words: str) -> None:
     assert words in refused(text)
 
 
-def test_contradictions_are_refused() -> None:
+def test_contradictions_are_refused(tmp_path: Path) -> None:
     assert "`p` gets two values" in refused("p=0..1", "p=[1,2]")
     assert "no distribution is sampled" in refused("p=[1,2]", count=5)
+    Path(tmp_path, "cases.csv").write_text("p\n1\n")
+    assert "cases.csv` has the cases; leave `--cases` out" in refused(str(tmp_path / "cases.csv"), count=5)
     assert "these are 4000000 cases" in refused("p=0..1/2000", "q=0..1/2000")
 
 

@@ -65,6 +65,8 @@ def read_cases(given: Sequence[str], sampling: Sampling) -> Cases:
         _refuse(f"`{files[0]}` is a file with all cases, so it must be the only `--vary`", _HINT)
     if files and not Path(files[0]).exists():
         _refuse(f"there is no file `{files[0]}`", f"name a CSV file, or {_HINT}")
+    if files and sampling.count:
+        _refuse(f"`--cases` is a number of samples, and `{files[0]}` has the cases", "leave `--cases` out")
     if files:
         return _read_file(Path(files[0]))
     spreads = [read_spread(text) for text in given]
@@ -129,6 +131,8 @@ def _numbers(text: str, words: Iterable[str]) -> tuple[float, ...]:
 def _ordered(text: str, numbers: tuple[float, ...]) -> tuple[float, ...]:
     if numbers[0] > numbers[1]:
         _refuse(f"in `{text}` the lower bound is above the upper one", "exchange them")
+    if not math.isfinite(numbers[1] - numbers[0]):
+        _refuse(f"the distance of the bounds in `{text}` is no finite number", "give bounds nearer to each other")
     return numbers
 
 
@@ -144,7 +148,11 @@ def _samples(spreads: Sequence[Spread], count: int, sampling: Sampling) -> list[
     else:
         shares = generator.random((count, len(spreads)))
     shares = np.clip(shares, np.finfo(float).tiny, 1 - np.finfo(float).epsneg)  # 0 and 1 have no normal number
-    columns = [_at(spread, shares[:, column], ndtri) for column, spread in enumerate(spreads)]
+    with np.errstate(over="ignore"):
+        columns = [_at(spread, shares[:, column], ndtri) for column, spread in enumerate(spreads)]
+    for spread, column in zip(spreads, columns, strict=True):
+        if not np.isfinite(column).all():
+            _refuse(f"a sample of `{spread.name}` is no finite number", "give a smaller standard deviation")
     return list(zip(*(column.tolist() for column in columns), strict=True))
 
 
