@@ -19,7 +19,16 @@ from urdfsync.diagnostics import Diagnostic, Severity
 def test_all_arguments_reach_the_compiler(compiler: Compiler, execute: Execute) -> None:
     execute(
         *("simulate", "arm", "--model", "ArmTest", "--stop", 2, "--step", 0.5, "--tolerance", 1e-3, "--method", "bdf"),
-        *("--set", "robot.elbow.w_start=1", "--set", "robot.checkLimits=false", "--variable", "robot.*.r_0[1]"),
+        *(
+            "--set",
+            "robot.elbow.w_start=1",
+            "--set",
+            "robot.checkLimits=false",
+            "--variable",
+            "robot.*.r_0[1]",
+            "--csv",
+            "a.csv",
+        ),
     )
     (task,) = compiler.jobs[0].tasks
     assert "extends Arm.ArmTest(robot(elbow(w_start = 1), checkLimits = false));" in task.source
@@ -52,6 +61,8 @@ def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
         (("--input", "absent.csv"), "absent.csv"),
         (("--stop", "0"), "'0' is no amount"),
         (("--step", "nan"), "'nan' is no amount"),
+        (("--vary", "a=0..1", "--seed", "-1"), "'-1' is no seed; give a whole number, 0 or more"),
+        (("--variable", "robot.*"), "`--variable` adds a variable to a file, and no file is named; give `--csv FILE`"),
         (("nobody",), "no robot `nobody`"),
     ],
 )

@@ -32,6 +32,14 @@ def test_a_limit_that_is_passed_is_a_warning(compiler: Compiler) -> None:
     assert run().diagnostics == ()
 
 
+def test_a_pattern_that_no_variable_matches_is_a_warning(compiler: Compiler) -> None:
+    found = run(variables=("robot.elbow.*", "robot.elbo.*", "table[1,2]")).diagnostics
+    assert [one.message for one in found if one.code == "no-variable"] == [
+        "no variable has the name `robot.elbo.*`",
+        "no variable has the name `table[1,2]`",
+    ]
+
+
 def test_arguments_come_before_the_annotation(compiler: Compiler) -> None:
     run(stop=3.0, step=0.5, tolerance=1e-4, method="bdf", values=("robot.elbow.parameters.dynamics.damping=4",))
     (task,) = compiler.jobs[0].tasks

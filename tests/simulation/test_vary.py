@@ -230,9 +230,38 @@ def test_the_same_cases_give_the_same_picture(cases: CaseCompiler, kind: str) ->
     assert pictures[0] == pictures[1]
 
 
-@pytest.mark.parametrize("option", ["--cases", "--jobs"])
-def test_options_of_cases_need_cases(cases: CaseCompiler, execute: Execute, option: str) -> None:
-    assert "need `--vary`" in execute("simulate", option, 3, code=2).words
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("--cases", 3), ("--jobs", 3), ("--seed", 0), ("--sampling", "random"), ("--executor", "tcp://a")],
+)
+def test_options_of_cases_need_cases(cases: CaseCompiler, execute: Execute, option: str, value: object) -> None:
+    assert f"`{option}` needs `--vary`" in execute("simulate", option, value, code=2).words
+    assert cases.tasks == []
+
+
+def test_options_of_samples_choose_the_values(cases: CaseCompiler, execute: Execute) -> None:
+    found = []
+    for options in ((), ("--seed", 0), ("--seed", 1), ("--sampling", "random")):
+        cases.tasks = []
+        execute(
+            "simulate",
+            "--vary",
+            f"{MASS}=0..2",
+            "--cases",
+            3,
+            "--jobs",
+            1,
+            *options,
+            "--tolerance",
+            1 / (1 + len(found)),
+        )
+        found.append(cases.values)
+    first, same, other, independent = found
+    assert first == same
+    assert len({tuple(values) for values in found}) == 3, (other, independent)
+
+
+def test_a_page_has_no_cases(cases: CaseCompiler, execute: Execute) -> None:
     assert "`--vary` has no page" in execute("simulate", "--vary", FEW, "--report", "a.html", code=2).words
 
 

@@ -44,7 +44,7 @@ def add(commands: arguments.Commands) -> None:
         "--excite", type=Path, metavar="FILE.csv", help="write a motion for a log instead, which `simulate` can play"
     )
     option("--seconds", type=arguments.amount, metavar="S", default=20.0, help="duration of that motion (default: 20)")
-    option("--seed", type=int, default=0, metavar="N", help="seed of that motion (default: 0)")
+    option("--seed", type=arguments.seed, default=0, metavar="N", help="seed of that motion (default: 0)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

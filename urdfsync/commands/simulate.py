@@ -60,9 +60,9 @@ def add(commands: arguments.Commands) -> None:
     spec += "be repeated; or a CSV file, whose header names parameters"
     option("--vary", action="append", metavar="NAME=SPEC|FILE.csv", default=[], help=spec)
     option("--cases", type=arguments.count, metavar="N", help=f"number of samples for --vary (default: {SAMPLES})")
-    option("--seed", type=int, default=0, metavar="N", help="seed of the samples (default: 0)")
+    option("--seed", type=arguments.seed, metavar="N", help="seed of the samples (default: 0)")
     kinds = "Latin hypercube, or independent random samples (default: latin)"
-    option("--sampling", choices=("latin", "random"), default="latin", help=kinds)
+    option("--sampling", choices=("latin", "random"), help=kinds)
     arguments.add_tool(parser, {name: compiler.TITLE for name, compiler in COMPILERS.items()})
 
 
@@ -71,8 +71,12 @@ def run(args: argparse.Namespace, console: Console) -> int:
     files = {kind: file for kind in ("csv", "plot") if (file := getattr(args, kind)) is not None}
     if args.vary:
         return _run_cases(args, console, files)
-    if args.cases or args.jobs or args.executor:
-        raise arguments.UsageError(args.parser, "`--cases`, `--jobs` and `--executor` need `--vary`")
+    for name in ("cases", "seed", "sampling", "jobs", "executor"):
+        if getattr(args, name) not in (None, ""):
+            raise arguments.UsageError(args.parser, f"`--{name}` needs `--vary`")
+    if args.variables and not (args.csv or args.plot):
+        message = "`--variable` adds a variable to a file, and no file is named"
+        raise arguments.UsageError(args.parser, message, "give `--csv FILE`, too")
     write_report = None
     if args.report:
         write_report = prepare_page(args, console, args.report, against=args.against or None, motion=args.motion)
@@ -107,7 +111,9 @@ def _run_cases(args: argparse.Namespace, console: Console, files: dict[str, Path
     if args.report or args.variables or args.against:
         message = "`--vary` has no page, no `--variable` and no `--against`: simulate one case with them"
         raise arguments.UsageError(args.parser, message, "the worst case is shown with its command")
-    study = arguments.call(vary, VaryOptions, args, console, files=files, tool=args.tool, trusted=args.trusted)
+    sampling = {"seed": args.seed or VaryOptions().seed, "sampling": args.sampling or VaryOptions().sampling}
+    extra = {"files": files, "tool": args.tool, "trusted": args.trusted, **sampling}
+    study = arguments.call(vary, VaryOptions, args, console, **extra)
     console.add(study)
     console.tell(study_lines(study))
     console.findings(study.diagnostics)

@@ -7,7 +7,7 @@ import math
 import re
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -59,6 +59,7 @@ def simulate_prepared(
     diagnostics = [
         *prepared.warnings,
         *_end(model, options, simulation),
+        *_unmatched(options.variables, simulation),
         *(find_overshoots(read_motion(options.motion, model.inputs()), options.motion) if options.motion else ()),
         *(_warning(joint, passed) for joint in results for passed in joint.passed),
     ]
@@ -189,6 +190,14 @@ def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list
 def _glob(text: str) -> str:
     """Return a regular expression for a pattern of variables with Modelica's brackets."""
     return fnmatch.translate(text.replace("[", "[[]"))
+
+
+def _unmatched(patterns: Sequence[str], simulation: SimulationResult) -> Iterator[Diagnostic]:
+    """Yield a warning for each pattern of `--variable` that no variable matches."""
+    for pattern in patterns:
+        if not any(map(re.compile(_glob(pattern)).fullmatch, simulation.values)):
+            message, hint = f"no variable has the name `{pattern}`", "`--variable '*'` adds all variables"
+            yield Diagnostic(Severity.WARNING, "no-variable", message, hint=hint)
 
 
 def _end(model: Model, options: SimulateOptions, run: SimulationResult) -> Iterator[Diagnostic]:
