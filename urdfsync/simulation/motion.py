@@ -36,6 +36,9 @@ UNITS = {
 """The possible units of a column, with their factors, by the unit of the input."""
 _SMOOTH = ("rad", "m", "rad/s", "m/s")
 _NO_MOTION = "write a header, `time` and the inputs, and two rows or more"
+_STEEPEST = 1e100
+"""The greatest change of an input, also over the square of the time in s; a spline through steeper rows has no finite
+numbers."""
 _OVERSHOOT = 0.05
 """The share of the range of an input by which its spline may leave two rows; a sine with 8 rows a turn takes 0.04."""
 _STRAIGHT = 2
@@ -65,6 +68,13 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
         if time <= before:
             hint = "sort the rows by time"
             _refuse(file, f"the time does not increase: {before:g} s, then {time:g} s", line, hint)
+        for name, numbers in columns.items():
+            change = numbers[-1] - numbers[-2] if len(numbers) > 1 else 0.0
+            if not abs(change) < _STEEPEST * min(1.0, time - before) ** 2:
+                hint = "give smaller numbers, or rows that are farther apart"
+                _refuse(
+                    file, f"`{name}` changes by {change:g} within {time - before:g} s, which is too fast", line, hint
+                )
     if (start := columns["time"][0]) != 0:
         _refuse(file, f"the time begins at {start:g} s", rows[0][0], "begin the time at 0")
     return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
@@ -172,7 +182,7 @@ def _number(file: Path, line: int, cell: str) -> float:
         number = float(cell)
     except ValueError:
         number = math.nan
-    if not math.isfinite(number):
+    if not math.isfinite(number) or "_" in cell:
         _refuse(file, f"{cell.strip()!r} is no number", line)
     return number
 
