@@ -61,13 +61,29 @@ def test_inputs_have_names_and_units_those_of_base_classes_first() -> None:
         Input("commands[1]", "m"),
         Input("commands[2]", "m"),
     ]
+    several = BASE.replace(", free;", ', free "a; b, c", turn(min = f(1, 2), unit = "rad");')
+    assert model(base=several).inputs()[2:4] == [Input("free", ""), Input("turn", "rad")], "each has its own unit"
 
 
-@pytest.mark.parametrize("input_", ["input Real u", "Modelica.Blocks.Interfaces.RealInput u[n]"])
+@pytest.mark.parametrize(
+    "input_",
+    [
+        "input Real u",
+        "Modelica.Blocks.Interfaces.RealInput u[n]",
+        "Modelica.Blocks.Interfaces.RealInput[2] u",
+        "Modelica.Blocks.Interfaces.RealVectorInput u[2]",
+        "Modelica.Blocks.Interfaces.BooleanInput u",
+    ],
+)
 def test_inputs_that_no_table_can_drive_are_refused_with_their_line(input_: str) -> None:
     with pytest.raises(ConfigError, match="the input `u` can't be driven") as caught:
         model(RUN.replace("  extends Base;", f"  {input_};")).inputs()
     assert caught.value.diagnostics[0].line == 3
+
+
+def test_a_conditional_input_that_no_table_can_drive_is_taken_for_absent() -> None:
+    text = RUN.replace("  extends Base;", "  Modelica.Blocks.Interfaces.BooleanInput u if false;")
+    assert [one.name for one in model(text).inputs()] == ["elbow_phi"]
 
 
 def test_inputs_become_outputs_where_they_are_declared_and_nothing_else_changes() -> None:

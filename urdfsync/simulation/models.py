@@ -13,6 +13,7 @@ from urdfsync.diagnostics import ConfigError
 from urdfsync.files import shown
 from urdfsync.modelica.classes import OPAQUE, Node, Type
 from urdfsync.modelica.files import text_of
+from urdfsync.modelica.lexer import Lexer
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.syntax import Component
 from urdfsync.simulation.results import STEPS
@@ -22,7 +23,10 @@ _EXPERIMENT = re.compile(r"\bexperiment\s*\(((?:[^()]|\([^()]*\))*)\)")
 _SETTING = re.compile(r"\b(StopTime|Interval|Tolerance|NumberOfIntervals)\s*=\s*(\d[.\deE+-]*)\s*(?=,|$)")
 _SIZE = re.compile(r"\s*\[\s*(\d+)\s*\]")
 _ARRAY = re.compile(r"\s*\[")
+_INPUT = re.compile(r"(Real|Integer|Boolean)(Vector)?Input")
+"""The names of the connectors of the Modelica Standard Library for inputs."""
 _UNIT = re.compile(r"\bunit\s*=\s*(\"[^\"]*\"|\{[^{}]*\})")
+_OPENING, _CLOSING = ("(", "{", "["), (")", "}", "]")
 _KINDS = ("model", "block", "class")
 _FILTERED = (("Sources", "Position"), ("Sources", "Speed"))
 """Endings of the names of drives of the Modelica Standard Library that filter their input."""
@@ -72,13 +76,16 @@ class Model:
         """Return all inputs, the inputs of base classes first. Raises ConfigError for an input that can't be driven."""
         inputs: list[Input] = []
         for node, component in self._components():
-            if component.type.parts[-1] != "RealInput" and "input" not in component.prefixes:
+            if not _INPUT.fullmatch(component.type.parts[-1]) and "input" not in component.prefixes:
                 continue
             name, text = str(component.name), self._text(node.file)
-            after = text[component.name.starts[0] + len(name) :].split(";", 1)[0]
-            size = _SIZE.match(after)
-            if component.type.parts[-1] != "RealInput" or (_ARRAY.match(after) and not size):
-                message = f"the input `{name}` can't be driven: it is no RealInput, or its size is not in the text"
+            after = _declaration(text, component.name.starts[0] + len(name))
+            if component.type.parts[-1] != "RealInput" and re.search(r"\bif\b", after):
+                continue  # most models need no such input, and its condition is false
+            size, type_end = _SIZE.match(after), component.type.starts[-1] + len(component.type.parts[-1])
+            is_sized = _ARRAY.match(after) or _ARRAY.match(text, type_end)
+            if component.type.parts[-1] != "RealInput" or (is_sized and not size):
+                message = f"the input `{name}` can't be driven: it is no RealInput, or its size is not after its name"
                 file, line = shown(Path(node.file)), component.name.line
                 raise ConfigError.of("inputs", message, file, line)
             units = re.findall(r'"([^"]*)"', unit[1]) if (unit := _UNIT.search(after)) else []
@@ -114,6 +121,17 @@ class Model:
         for node in reversed(self._nodes):
             for component in node.components.values():
                 yield node, component
+
+
+def _declaration(text: str, start: int) -> str:
+    """Return a declaration from the end of its name on; in `Real a, b(unit = "m");` that of `a` is empty."""
+    lexer, depth = Lexer(text[start:]), 0
+    lexer.read_statement()
+    for word, place in zip(lexer.words, lexer.starts, strict=True):
+        depth += (word in _OPENING) - (word in _CLOSING)
+        if word in (",", ";") and depth == 0:
+            return lexer.text[:place]
+    return lexer.text
 
 
 def find_model(scopes: Scopes, package: str, name: str, content: Callable[[str], bytes]) -> Model:
