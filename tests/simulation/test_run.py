@@ -49,6 +49,12 @@ def test_arguments_come_before_the_annotation(compiler: Compiler) -> None:
     assert (one.stop, one.step, one.tolerance, one.method) == (3.0, 0.5, 1e-4, "bdf")
 
 
+@pytest.mark.parametrize("options", [{"stop": 1.0, "step": 1e-9}, {"stop": 1e9}, {"stop": 1e300, "step": 1e-300}])
+def test_too_many_instants_are_refused(compiler: Compiler, options: dict[str, float]) -> None:
+    assert "are more than 10000000 instants; give a greater `--step`" in refused(**options)
+    assert compiler.jobs == []
+
+
 def test_a_model_without_annotation_has_the_defaults(compiler: Compiler) -> None:
     Path("Own.mo").write_text(OWN)
     result = run(model="Own")

@@ -31,6 +31,8 @@ from urdfsync.simulation.values import modifiers
 _LATER = 1.5
 """Seconds of compiling after which the cache is trimmed."""
 _LONGEST_MESSAGE = 200
+_MOST_POINTS = 10_000_000
+"""The greatest number of instants with results: for a small robot, they take some gigabytes of memory."""
 _ROUNDING = 1e-9
 """The error that a quotient of two times may have."""
 _TIME = re.compile(r"\bt(?:ime)?(?: ?= ?| )([-+.\deE]*\d)")
@@ -164,6 +166,10 @@ def simulation_task(options: SimulateOptions, prepared: Prepared) -> tuple[Compi
         names = ",".join(["time", *(signal.name for signal in inputs)])
         hint = f"give a CSV file with `--input`; its first line is {names}"
         raise ConfigError.of("inputs", f"`{model.name}` has inputs", hint=hint)
+    step = model.step(stop, options.step)
+    if stop / step > _MOST_POINTS:  # OpenModelica would crash, and rumoca would blame the tolerance
+        message = f"{stop:g} s in steps of {step:g} s are more than {_MOST_POINTS} instants"
+        raise ConfigError.of("step", message, hint="give a greater `--step`, or a smaller `--stop`")
     tolerance = options.tolerance or model.settings.get("Tolerance", TOLERANCE)
     wanted = [_OWN, joints.pattern(prepared.bench), *(_glob(variable) for variable in options.variables)]
     if not (any(prepared.bench.layouts) or options.variables):  # without joints, all variables are of interest
@@ -171,7 +177,7 @@ def simulation_task(options: SimulateOptions, prepared: Prepared) -> tuple[Compi
     task = CompileTask(
         "Probe_.Probe",
         _probe(robot, model.name, course, changes),
-        (Simulation(stop, model.step(stop, options.step), tolerance=tolerance, method=options.method),),
+        (Simulation(stop, step, tolerance=tolerance, method=options.method),),
         pattern="|".join(f"(?:{pattern})" for pattern in wanted if pattern),
         parameters=tuple(values),
         title=model.name,
