@@ -53,6 +53,9 @@ def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
         (("--csv", "modelica"), "modelica: error: a folder is in its place"),
         (("--csv", "nowhere/a.csv"), "there is no such folder"),
         (("--csv", "arm.urdf"), "the source of the robot has this name"),
+        (("--csv", "modelica/Arm/ArmTest.mo"), "ArmTest.mo: error: a file of a Modelica package has this name"),
+        (("--csv", "modelica/Arm/package.order"), "a file of a Modelica package has this name; name another file"),
+        (("--csv", "a.html", "--report", "a.html"), "two outputs have this name"),
         (("--csv", "urdfsync.toml"), "the configuration has this name"),
         (("--input", "m.csv", "--csv", "m.csv"), "the file with the inputs has this name"),
         (("--plot", "a.pdf"), "a plot is one of .png, .svg"),
@@ -96,6 +99,15 @@ def test_one_of_several_robots_has_to_be_named(compiler: Compiler, execute: Exec
     told = execute("simulate", "--model", "Plant.Cell", code=2).words
     assert "`Plant.Cell` is in none of the packages of arm, other, so it does not tell the robot" in told
     assert "name the robot that the model uses: `urdfsync simulate arm --model Plant.Cell`" in told
+
+
+def test_no_output_replaces_the_source_of_another_robot(compiler: Compiler, execute: Execute) -> None:
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "other.urdf"\npackage = "Other"\n')
+    Path("other.urdf").write_bytes(Path("arm.urdf").read_bytes())
+    words = execute("simulate", "arm", "--csv", "other.urdf", code=2).words
+    assert "other.urdf: error: the source of robot `other` has this name" in words
+    assert compiler.jobs == []
 
 
 def test_an_interruption_leaves_nothing(compiler: Compiler, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

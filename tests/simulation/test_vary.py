@@ -240,7 +240,7 @@ def test_options_of_cases_need_cases(cases: CaseCompiler, execute: Execute, opti
 
 
 def test_options_of_samples_choose_the_values(cases: CaseCompiler, execute: Execute) -> None:
-    found = []
+    found = list[list[float]]()
     for options in ((), ("--seed", 0), ("--seed", 1), ("--sampling", "random")):
         cases.tasks = []
         execute(

@@ -16,6 +16,7 @@ from urdfsync.engine.options import Progress
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, line
 from urdfsync.simulation.cases import SAMPLES
+from urdfsync.simulation.files import check_distinct
 from urdfsync.simulation.report import result_lines, study_lines
 from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions, VaryOptions
 
@@ -79,6 +80,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, message, "give `--csv FILE`, too")
     write_report = None
     if args.report:
+        check_distinct(files | {"report": args.report})
         write_report = prepare_page(args, console, args.report, against=args.against or None, motion=args.motion)
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted, "progress": _telling(console)}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)

@@ -31,13 +31,23 @@ def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None
         if kind == "plot" and file.suffix.lower() not in PLOTS:
             raise not_writable(file, f"a plot is one of {', '.join(PLOTS)}", "name a file that ends so")
         check_file(file, inputs)
+        if file.exists() and (file.suffix == ".mo" or file.name == "package.order"):
+            raise not_writable(file, "a file of a Modelica package has this name", "name another file")
+    check_distinct(files)
+
+
+def check_distinct(files: Mapping[str, Path]) -> None:
+    """Raise OutputError if two outputs have the same name."""
     if len({Path(real(file)) for file in files.values()}) < len(files):
         raise not_writable(next(iter(files.values())), "two outputs have this name", "name two files")
 
 
 def input_files(config: Config, robot: RobotConfig, motion: Path | None) -> dict[str, Path]:
     """Return the files that no output may replace, by their kinds."""
-    files = {"the source of the robot": robot.source, "the configuration": config.file}
+    files = {
+        f"the source of robot `{other.name}`": other.source for other in config.robots if other.source != robot.source
+    }
+    files |= {"the source of the robot": robot.source, "the configuration": config.file}
     return files | ({"the file with the inputs": motion} if motion else {})
 
 
@@ -51,7 +61,7 @@ def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
     if not os.access(target, os.W_OK) or not os.access(Path(real(file)).parent, os.W_OK):
         raise not_writable(file, "the file can't be written: no permission", "name a file elsewhere")
     for what, other in inputs.items():
-        if file.exists() and file.samefile(other):
+        if file.exists() and other.exists() and file.samefile(other):
             raise not_writable(file, f"{what} has this name", "name another file")
 
 
