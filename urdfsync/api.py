@@ -15,7 +15,7 @@ import msgspec
 from urdfsync import config as configuration
 from urdfsync.config import Config, RobotConfig
 from urdfsync.config import library_folder as library_folder
-from urdfsync.diagnostics import ConfigError, Diagnostic
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.diagnostics import UrdfsyncError as UrdfsyncError
 from urdfsync.domain import Artifact, Reading, Target, Version
 from urdfsync.engine.build import build as build_robots
@@ -283,6 +283,11 @@ def vary(
     check_outputs(files, inputs)
     chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
     study = cases.vary(loaded, robot, VaryOptions(tool=chosen, **given), progress)
+    if "plot" in files and study.worst is None:
+        message = "all cases failed, so there is nothing to draw"
+        undrawn = Diagnostic(Severity.WARNING, "no-plot", message, shown(files["plot"]))
+        study = msgspec.structs.replace(study, diagnostics=robot.without_ignored([*study.diagnostics, undrawn]))
+        files = {kind: file for kind, file in files.items() if kind != "plot"}
     write_outputs(files, study)
     return StudyDisplay(**msgspec.structs.asdict(study) | {"files": files})
 

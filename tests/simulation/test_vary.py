@@ -140,6 +140,15 @@ def test_a_failed_case_is_told_and_the_others_go_on(cases: CaseCompiler, execute
     assert "2 cases failed (the first is case 2): assert failed at t=0.25: too late" in found
 
 
+def test_the_reasons_are_told_also_if_nothing_can_be_drawn(cases: CaseCompiler, execute: Execute) -> None:
+    pytest.importorskip("matplotlib")
+    cases.problems = {1.0: "too late", 3.0: "too late"}
+    printed = execute("simulate", "--vary", f"{MASS}=[1,3]", "--csv", "a.csv", "--plot", "a.png", code=1)
+    assert "2 cases failed (the first is case 1): too late" in printed.words
+    assert "a.png: warning: all cases failed, so there is nothing to draw" in printed.words
+    assert (Path("a.csv").exists(), Path("a.png").exists()) == (True, False)
+
+
 @pytest.mark.slow
 def test_a_process_that_dies_takes_one_case_with_it(cases: CaseCompiler) -> None:
     cases.crashes = {1.0}
