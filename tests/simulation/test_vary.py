@@ -43,6 +43,7 @@ class CaseCompiler:
     def __init__(self) -> None:
         self.tasks: list[CompileTask] = []
         self.problems: dict[float, str] = {}
+        self.terminations: dict[float, str] = {}
         self.crashes: set[float] = set()
         self.answer: CompileResult | None = None
         """In place of all results."""
@@ -77,7 +78,12 @@ class CaseCompiler:
                 f"robot.shoulder.parameters.limits.{name}": limit for name, limit in limits_of_shoulder.items()
             }
             problem = self.problems.get(value, "")
-            simulated = SimulationResult({} if problem else values, problem=problem, parameters=parameters)
+            simulated = SimulationResult(
+                {} if problem else values,
+                problem=problem,
+                termination=self.terminations.get(value, ""),
+                parameters=parameters,
+            )
             results.append(CompileResult(runs=(simulated,)))
             on_result(results[-1])
         return results
@@ -121,6 +127,14 @@ def test_each_case_is_judged(cases: CaseCompiler) -> None:
     assert (effort.unit, effort.greatest) == ("N·m", 2.0)
 
 
+def test_the_command_of_the_worst_case_names_another_configuration(
+    cases: CaseCompiler, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    file = str(Path("project/urdfsync.toml"))
+    assert study(f"{MASS}=[1]", config=file).replay == f"urdfsync simulate arm --config {file} --set {MASS}=1.0"
+
+
 def test_the_table_has_a_row_for_each_case(cases: CaseCompiler) -> None:
     cases.problems = {1.5: "non-finite derivative, for state 'x'"}
     rows = list(csv.DictReader(table(study())))
@@ -138,6 +152,12 @@ def test_a_failed_case_is_told_and_the_others_go_on(cases: CaseCompiler, execute
     found = execute("simulate", "arm", "--vary", FEW, code=1).words
     assert "2 of 6 cases within all limits; 2 beyond; 2 failed" in found
     assert "2 cases failed (the first is case 2): assert failed at t=0.25: too late" in found
+
+
+def test_cases_that_the_model_ended_are_told(cases: CaseCompiler, execute: Execute) -> None:
+    cases.terminations = {1.0: "it has landed", 3.0: "it has landed"}
+    told = execute("simulate", "arm", "--vary", FEW).words
+    assert "in 2 cases the model ended the simulation: it has landed" in told
 
 
 def test_the_reasons_are_told_also_if_nothing_can_be_drawn(cases: CaseCompiler, execute: Execute) -> None:

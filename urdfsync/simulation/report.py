@@ -109,6 +109,10 @@ def study_lines(study: Study) -> Iterator[StyledLine]:
         first = next(number for number, outcome in enumerate(study.outcomes, 1) if outcome.problem == problem)
         words = one_line(problem)[:_LONGEST_PROBLEM]
         yield line((f"  {counted(count, 'case')} failed (the first is case {first}): {words}", "bold red"))
+    endings = Counter(outcome.termination for outcome in study.outcomes if outcome.termination)
+    for termination, count in endings.most_common(_MOST_PROBLEMS):
+        words = one_line(termination)[:_LONGEST_PROBLEM]
+        yield line((f"  in {counted(count, 'case')} the model ended the simulation: {words}", ""))
     if study.worst:
         outcome = study.outcomes[study.worst - 1]
         share = f"{outcome.heaviest}, {100 * outcome.load:.0f} % of its limit" if outcome.heaviest else "no limits"

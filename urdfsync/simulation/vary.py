@@ -28,9 +28,10 @@ from urdfsync.checks.fingerprint import result_key
 from urdfsync.checks.jobs import Jobs
 from urdfsync.checks.libraries import Libraries
 from urdfsync.checks.process import LimitError, Limits, limits_of
-from urdfsync.config import Config, RobotConfig
+from urdfsync.config import Config, RobotConfig, find, working_folder
 from urdfsync.diagnostics import ConfigError, UrdfsyncError
 from urdfsync.engine.options import Progress
+from urdfsync.files import shown
 from urdfsync.processes import machine
 from urdfsync.processes.workers import workers
 from urdfsync.simulation.cases import Cases, Sampling, read_cases
@@ -167,7 +168,7 @@ def vary(config: Config, robot: RobotConfig, options: VaryOptions, progress: Pro
         outcomes=[outcome or Outcome(problem="the case was not simulated") for outcome in outcomes],
         seconds=time.monotonic() - begin,
         known=len(outcomes) - len(waiting),
-        command=_command(robot, options),
+        command=_command(config, robot, options),
         diagnostics=robot.without_ignored(prepared.warnings),
     )
 
@@ -189,9 +190,14 @@ def _case_task(options: VaryOptions, prepared: Prepared, base: CompileTask, vari
     return simulation_task(options, msgspec.structs.replace(prepared, values=values))[0]
 
 
-def _command(robot: RobotConfig, options: VaryOptions) -> str:
+def _command(config: Config, robot: RobotConfig, options: VaryOptions) -> str:
     """Return the command line that simulates one case, without its values."""
     words = ["urdfsync", "simulate", robot.name]
+    try:
+        is_nearest = find(working_folder()).samefile(config.file)
+    except ConfigError:
+        is_nearest = False
+    words += [] if is_nearest else ["--config", shown(config.file)]
     for name in ("model", "stop", "step", "tolerance", "method"):
         if value := getattr(options, name):
             words += [f"--{name}", str(value)]
