@@ -348,3 +348,21 @@ def test_lines_that_two_branches_add_to_the_order_of_a_parent_package_both_stay(
     assert "to write" not in execute("build", "--check", code=1).words
     repository.git("add", "-A")
     execute("build", "--check")
+
+
+@pytest.mark.parametrize("label", ["main", "elsewhere"])
+def test_a_merge_of_two_other_files_is_no_version_of_a_file(
+    repository: Repository, execute: Execute, label: str
+) -> None:
+    """If renames of both branches end at one path, the index may have git's merge there, with markers."""
+    text = RECORD.read_text()
+    merged = f"<<<<<<<< HEAD:Other.mo\nrecord Other\n========\n{text}>>>>>>>> {label}:{RECORD}\n"
+    lines = f"0 {'0' * 40}\t{RECORD}\n"
+    for stage, version in ((2, text), (3, merged)):
+        Path("version").write_text(version)
+        lines += f"100644 {repository.git('hash-object', '-w', 'version').strip()} {stage}\t{RECORD}\n"
+    subprocess.run(["git", "update-index", "--index-info"], input=lines.encode(), check=True)
+    execute("build")
+    assert RECORD.read_text() == text
+    repository.git("add", "-A")
+    execute("build", "--check")

@@ -251,18 +251,28 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
 def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:
     """Yield the versions in the index, if git reports a conflict in the file."""
     folder = Path(real(file.parent)).relative_to(named(os.path.realpath(repository.workdir)))
-    path, label = (folder / file.name).as_posix(), re.search(r"(?m)^>{7,} ([^\s:]+)", text)
+    path = (folder / file.name).as_posix()
     for base, ours, theirs in repository.index.conflicts or ():
         entries = [entry for entry in (ours, theirs) if entry and entry.path == path]
         blobs = (repository[entry.id].read_raw() if entry else b"" for entry in (base, ours, theirs))
         texts = [_plain(blob.decode(errors="replace")) for blob in blobs]
         if ours and theirs and entries:
-            yield Sides(*texts)
+            if base is None:  # if renames of both branches end here, the index may have git's merge of two other files
+                texts[1:] = (next(_read_side(file, one, number == 0), one) for number, one in enumerate(texts[1:]))
+            if not any(map(markers.find_markers, texts[1:])):
+                yield Sides(*texts)
         elif entries and text in texts[1:]:
             # if both branches renamed a file, git writes the merge to both paths; each branch has only one path
-            for name in ("HEAD",) if ours else (*_UNDER_WAY, label[1] if label else ""):
-                if (own := _read(name, file)) is not None:
-                    yield Sides(own, own, own)
+            for version in _read_side(file, text, bool(ours)):
+                yield Sides(version, version, version)
+
+
+def _read_side(file: Path, merged: str, is_ours: bool) -> Iterator[str]:
+    """Yield the texts of a file in the commits of one side; the markers in git's merge may name their branch."""
+    label = re.search(r"(?m)^>{7,} ([^\s:]+)", merged)
+    for name in ("HEAD",) if is_ours else (*_UNDER_WAY, label[1] if label else ""):
+        if (text := _read(name, file)) is not None:
+            yield text
 
 
 def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
