@@ -108,7 +108,11 @@ LINKS = (a_link, a_link_to_nothing)
 
 @pytest.mark.parametrize(
     ("place", "replace", "command"),
-    [*itertools.product(FILES, (a_folder, *LINKS), COMMANDS), *itertools.product(FOLDERS, LINKS, COMMANDS[:1])],
+    [
+        *itertools.product(FILES, (a_folder, *LINKS), COMMANDS),
+        *itertools.product(FOLDERS, LINKS, COMMANDS[:1]),
+        *itertools.product(["modelica"], LINKS[:1], (["build"], ["build", "--check"], ["status"])),
+    ],
 )
 def test_a_file_or_folder_that_is_something_else(
     stale: Path, tmp_path: Path, execute: Execute, place: str, replace: Callable[[Path, Path], None], command: list[str]

@@ -80,7 +80,8 @@ class PackageFiles:
         if the overlay has the file's meaning.
         """
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
-        self._trees = [Tree(robot.output), Tree(config.root)]
+        # as when writing: below the configuration's folder, the output folder is no link
+        self._trees = [Tree(config.root), Tree(robot.output)]
         self._tree_of: dict[str, Tree | None] = {}  # by folder
         self._states: dict[str, FileState | None] = {}
         """State of each file, by absolute path."""
