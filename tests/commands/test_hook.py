@@ -145,6 +145,21 @@ def test_a_commit_that_touches_no_file_of_a_robot_passes(
     assert said(capsys, "check", code=0) == []
 
 
+def test_a_new_name_counts_in_a_listed_folder_only_if_the_listing_would_have_it(
+    repo: Repository, capsys: Capture
+) -> None:
+    """Builds list the visible folders and the Modelica files of the package's parents."""
+    resistor(120)
+    repo.commit()
+    for name, code in (("notes.txt", 0), ("Mine.mo", 1), ("sub/notes.txt", 1)):
+        path = Path("modelica", name)
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("")
+        repo.git("add", str(path))
+        said(capsys, "check", code=code)
+        repo.git("rm", "-qf", str(path))
+
+
 @pytest.mark.parametrize("path", ["ladder.json", RECORD, MANIFEST, "urdfsync.toml"])
 def test_of_a_file_that_is_staged_in_part_the_staged_part_counts(repo: Repository, capsys: Capture, path: str) -> None:
     resistor(120)

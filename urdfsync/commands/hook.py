@@ -19,7 +19,7 @@ from urdfsync import config as configuration
 from urdfsync import git, noop
 from urdfsync.commands import arguments
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies.facts import LISTINGS, UNMERGED, VARIABLE, Entry
+from urdfsync.dependencies.facts import MODELICA, NAMES, UNMERGED, VARIABLE, Entry
 from urdfsync.dependencies.places import Clone
 from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
@@ -29,7 +29,7 @@ from urdfsync.engine.remembered import remember_configuration
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.git import hook
-from urdfsync.git.clone import Commit, export
+from urdfsync.git.clone import Change, Commit, export
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
 from urdfsync.spelling import counted
@@ -165,28 +165,35 @@ class _Places:
     """All that a build has read or looked for in a repository, as paths from the top."""
 
     def __init__(self, clone: Clone, entries: Iterable[Entry]) -> None:
-        self.files, self._listed = set[str](), set[str]()
+        self.files, self._listed, self._listed_for_modelica = set[str](), set[str](), set[str]()
         for kind, path in entries:
             places = map(clone.inside, clone.trail(path)) if kind not in (VARIABLE, UNMERGED) else ()
             inside = [place for place in places if place is not None]
             self.files.update(inside)
-            if kind.startswith(LISTINGS):
+            if kind == NAMES:
                 self._listed.update(inside)
+            elif kind.startswith(MODELICA):
+                self._listed_for_modelica.update(inside)
         # a link or a submodule may take the place of a folder
         self._around = {
             "/".join(path.split("/")[:depth]) for path in self.files for depth in range(path.count("/") + 1)
         }
 
-    def select(self, changed: Mapping[str, bool], folders: tuple[str, ...] = ()) -> set[str]:
-        """Return the changed paths that a build depends on; the value is whether a path is new or deleted."""
+    def select(self, changed: Mapping[str, Change], folders: tuple[str, ...] = ()) -> set[str]:
+        """Return the changed paths that a build depends on."""
         return {
             path
-            for path, is_new in changed.items()
-            if path in self.files
-            or path in self._around
-            or path.startswith(folders)
-            or (is_new and path.rpartition("/")[0] in self._listed)
+            for path, change in changed.items()
+            if path in self.files or path in self._around or path.startswith(folders) or self._is_listed(path, change)
         }
+
+    def _is_listed(self, path: str, change: Change) -> bool:
+        """Return whether a change adds a name to a listing of a folder, or takes one away."""
+        if change is Change.CONTENT:
+            return False
+        folder, _, name = path.rpartition("/")
+        is_for_modelica = name.endswith(".mo") or change is Change.FOLDER
+        return folder in self._listed or (is_for_modelica and folder in self._listed_for_modelica)
 
 
 class _Judged:
@@ -212,7 +219,8 @@ class _Judged:
     def _not_staged(self, here: Result, is_writing: bool) -> Fault:
         """Return the fault if only the working tree is in step."""
         index, result = git.Index(), here if is_writing else self.result
-        hidden = _Places(self._commit.clone, here.reads.entries).select(dict.fromkeys(index.hidden, True), self.folders)
+        places = _Places(self._commit.clone, here.reads.entries)
+        hidden = places.select(dict.fromkeys(index.hidden, Change.FILE), self.folders)
         missing = self._find_missing(here, index)
         if hidden:
             message, hint = (
@@ -238,7 +246,8 @@ class _Judged:
             _Places(Clone(str(top), str(top)), here.reads.entries),
             _Places(self._commit.clone, self.result.reads.entries),
         )
-        unstaged, untracked = dict.fromkeys(index.unstaged, True), dict.fromkeys(index.untracked, False)
+        unstaged = dict.fromkeys(index.unstaged, Change.FILE)
+        untracked = dict.fromkeys(index.untracked, Change.CONTENT)  # only those that the build reads
         found = {path for places in (own, cloned) for path in places.select(unstaged, self.folders)} | own.select(
             untracked
         )

@@ -9,6 +9,7 @@ only the files that differ from the last export. The user's index and objects ar
 from __future__ import annotations
 
 import contextlib
+import enum
 import os
 import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -24,9 +25,19 @@ from urdfsync.git import GitError, Repository, hook, list_paths, run
 from urdfsync.git.hook import ExportedIndex
 from urdfsync.state.lock import Lock
 
-_SUBMODULE = "160000"
+_FOLDER, _SUBMODULE = "040000", "160000"
 _MOST_OBJECTS = 20
 """A clone with more objects in one of 256 folders is made anew: each export adds some, and git never deletes them."""
+
+
+class Change(enum.Enum):
+    """What a commit changes at a path."""
+
+    CONTENT = enum.auto()
+    FILE = enum.auto()
+    """A file or a link is new, or deleted."""
+    FOLDER = enum.auto()
+    """A folder or a submodule is new, or deleted: also if a file takes its place."""
 
 
 class Commit(msgspec.Struct, frozen=True):
@@ -37,9 +48,9 @@ class Commit(msgspec.Struct, frozen=True):
     export: ExportedIndex
     files: frozenset[str]
     """All files, links and submodules of the commit. All paths are from the top."""
-    changed: Mapping[str, bool] | None
-    """The files, links and submodules that the commit changes, and whether each is new or deleted. A folder counts if
-    its first file is new, or its last file is deleted. None without a former commit."""
+    changed: Mapping[str, Change] | None
+    """The files, links and submodules that the commit changes. A folder counts if its first file is new, or its last
+    file is deleted. None without a former commit."""
 
 
 @contextlib.contextmanager
@@ -143,13 +154,14 @@ def _list(clone: str, tree: str) -> list[tuple[str, str, str]]:
     return [(path, facts.split()[0], facts.split()[2]) for facts, _, path in lines]
 
 
-def _changes(clone: str, commit: str, tree: str) -> Iterator[tuple[str, bool]]:
+def _changes(clone: str, commit: str, tree: str) -> Iterator[tuple[str, Change]]:
     """Yield the paths that differ in two trees, as in `Commit.changed`."""
     lines = list_paths("diff-tree", "-r", "-t", "--raw", "--no-renames", f"{commit}^{{tree}}", tree, clone=clone)
     for facts, path in zip(lines[::2], lines[1::2], strict=True):
         modes = {facts[1:7], facts[8:14]}
-        if modes != {"040000"}:
-            yield path, len(modes) > 1
+        if modes != {_FOLDER}:
+            is_folder = not modes.isdisjoint({_FOLDER, _SUBMODULE})
+            yield path, Change.CONTENT if len(modes) == 1 else Change.FOLDER if is_folder else Change.FILE
 
 
 def _find_submodules(clone: str, tree: str, entries: Iterable[tuple[str, str, str]]) -> dict[str, tuple[str, str]]:
