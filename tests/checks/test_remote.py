@@ -90,6 +90,7 @@ def test_a_forged_result_changes_no_verdict(
     assert "was refused" in "".join(warnings(result))
 
 
+@pytest.mark.slow
 def test_a_result_under_the_name_of_another_package_is_refused(
     arm: Path, compiler: Compiling, shared: Path, tmp_path: Path
 ) -> None:

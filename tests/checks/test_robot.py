@@ -135,6 +135,7 @@ def test_a_robot_of_which_a_joint_is_left_out_agrees_with_nothing(
     assert "agree" not in result.summary
 
 
+@pytest.mark.slow
 def test_an_edited_number_is_told_without_a_compiler_and_an_edited_model_is_named(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:
@@ -193,6 +194,7 @@ def test_a_misread_number_differs_whoever_edited_it(
     }
 
 
+@pytest.mark.slow
 def test_what_own_templates_drop_is_told_and_their_models_are_not_called_compared(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:
@@ -223,6 +225,7 @@ def test_numbers_of_a_package_that_is_out_of_step_are_no_edits(
     assert status(result, strict=True) is CheckStatus.OUT_OF_STEP
 
 
+@pytest.mark.slow
 def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
     arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -385,6 +388,7 @@ def test_a_model_of_the_user_that_does_not_compile_is_a_warning_at_its_file(
     assert lines(result) == [f"Cell.mo:0: warning: there is 1 equation too few; {hint}"]
 
 
+@pytest.mark.slow
 def test_a_part_of_a_model_that_compiles_need_not_compile_by_itself(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:

@@ -113,6 +113,7 @@ def test_whoever_needs_more_than_a_share_gets_all_of_it_alone(robots: Config, mo
     assert [codes(one) for one in found] == [[], []]
 
 
+@pytest.mark.slow
 def test_an_interruption_ends_all_processes(robots: Config, tmp_path: Path) -> None:
     results = check(robots, ["early", "slow"])
     assert next(results).robot == "early"

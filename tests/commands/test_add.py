@@ -90,6 +90,7 @@ def test_robots_of_a_fleet_have_names_and_arguments_of_their_own(folder: Path, e
     assert config.load(folder / "urdfsync.toml").robots[1].name == "cart_3"
 
 
+@pytest.mark.slow
 def test_a_missing_argument_is_told_as_a_command_that_works(folder: Path, execute: Execute) -> None:
     """The xacro of Universal Robots uses `name` before the default of `name`."""
     execute("init", write_fleet(folder))

@@ -194,6 +194,7 @@ def test_a_revision_with_the_mesh_as_it_was(arm: Path, execute: Execute, monkeyp
     assert said(execute, "arm.urdf", "--against", "HEAD")[0] == 0
 
 
+@pytest.mark.slow
 @NEEDS_GIT
 def test_a_revision_comes_before_a_file_of_its_name(
     arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch

@@ -142,6 +142,7 @@ def asked(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     return tmp_path / "bin/asked.txt"
 
 
+@pytest.mark.slow
 @NEEDS_SCRIPTS
 def test_a_configuration_that_chooses_openmodelica_needs_the_users_word(asked: Path, execute: Execute) -> None:
     """A build in a stranger's repository would call its libraries, which may hold programs."""
@@ -158,6 +159,7 @@ def test_a_configuration_that_chooses_openmodelica_needs_the_users_word(asked: P
     assert not asked.exists()
 
 
+@pytest.mark.slow
 @NEEDS_SCRIPTS
 @pytest.mark.parametrize("command", ["build --trust", "check --trust", "check --tool omc"])
 def test_the_user_may_choose_openmodelica(asked: Path, execute: Execute, command: str) -> None:

@@ -164,6 +164,7 @@ def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute)
     ]
 
 
+@pytest.mark.slow
 def test_the_expansion_is_written_if_a_hash_changed_and_only_then(built: Path, execute: Execute) -> None:
     package, before = contents(built / "modelica"), EXPANDED.read_bytes()
     (built / "urdf/parts/other.xacro").write_text("nobody reads this")
@@ -213,6 +214,7 @@ def test_a_variable_is_a_dependency(project: Path, execute: Execute, monkeypatch
     assert saved("build") is None
 
 
+@pytest.mark.slow
 def test_each_input_is_a_dependency(built: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(facts, "YOUNG", 50_000_000)
     for name in ("masses.yaml", "parts/beam.xacro", "arm.urdf.xacro"):
@@ -238,6 +240,7 @@ def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pyte
     assert "1.5" in Path(RECORD).read_text()
 
 
+@pytest.mark.slow
 def test_a_package_that_is_not_here_counts_as_unchanged(
     project: Path, tmp_path_factory: pytest.TempPathFactory, execute: Execute
 ) -> None:
@@ -329,6 +332,7 @@ def test_an_expansion_of_a_stranger_is_only_compared(built: Path, execute: Execu
     assert EXPANDED.read_bytes() == dumps(own)
 
 
+@pytest.mark.slow
 def test_a_pattern_of_a_stranger_is_none_of_folders(built: Path, execute: Execute) -> None:
     own = loads(EXPANDED.read_bytes())
     assert own is not None
@@ -406,6 +410,7 @@ def test_sources_of_no_robot_are_warned_about_too(project: Path, execute: Execut
     assert "urdf/arm.urdf.xacro: warning: mind the step [xacro-said]" in words
 
 
+@pytest.mark.slow
 @NEEDS_GIT
 def test_branches_unite_without_a_conflict(built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     repository = Repository(built, monkeypatch)

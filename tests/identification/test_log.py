@@ -222,6 +222,7 @@ def test_the_memory_does_not_grow_with_the_log(folder: Path) -> None:
     assert peaks[1] < 1.3 * peaks[0]
 
 
+@pytest.mark.slow
 def test_noise_of_a_log_is_no_error(gripper: Path, execute: Execute, recording: measured.Recording) -> None:
     """Saturated efforts and extra columns are told, and the rest is used."""
     cut = recording._replace(efforts=np.clip(recording.efforts, -0.12, 0.12))

@@ -23,6 +23,7 @@ def edit(file: Path, old: str, new: str) -> None:
     file.write_text(text.replace(old, new, 1))
 
 
+@pytest.mark.slow
 def test_the_address_of_a_mesh_is_no_edit(gripper: Path, execute: Execute) -> None:
     """A string may contain `//`, which begins a comment elsewhere."""
     Path("part.obj").write_text(TRIANGLE)
@@ -55,6 +56,7 @@ def test_a_number_may_have_a_comment_behind_it(gripper: Path, execute: Execute) 
     assert "which is no number" in execute("identify", "gripper", "log.csv", code=2).err
 
 
+@pytest.mark.slow
 def test_a_file_that_cant_be_written_leaves_all_as_they_were(
     gripper: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:

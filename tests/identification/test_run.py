@@ -23,6 +23,7 @@ from urdfsync.identification.run import _doubts, judge
 DRIVE = Path("modelica/Gripper/Joints/DriveParameters.mo")
 
 
+@pytest.mark.slow
 def test_a_fit_is_shown_and_nothing_is_written(gripper: Path, execute: Execute) -> None:
     with unchanged(gripper):
         printed = execute("identify", "gripper", "log.csv")
@@ -34,6 +35,7 @@ def test_a_fit_is_shown_and_nothing_is_written(gripper: Path, execute: Execute) 
     assert printed.lines[-1] == "  nothing written: `--write` writes the numbers into the records"
 
 
+@pytest.mark.slow
 def test_a_document_has_what_is_shown(gripper: Path, execute: Execute) -> None:
     (result,) = execute("identify", "gripper", "log.csv", "--until", "6", "--format=json").json["results"]
     friction = next(each for each in result["numbers"] if each["path"] == "dynamics.friction")
@@ -44,6 +46,7 @@ def test_a_document_has_what_is_shown(gripper: Path, execute: Execute) -> None:
     assert {"element": "joint other", "paths": ["dynamics.damping", "dynamics.friction"]} in result["unexcited"]
 
 
+@pytest.mark.slow
 def test_a_chosen_joint_alone_is_fitted(gripper: Path, execute: Execute) -> None:
     (result,) = execute("identify", "gripper", "log.csv", "--joint", "drive", "--format=json").json["results"]
     assert {number["element"] for number in result["numbers"]} == {"joint drive"}
@@ -83,6 +86,7 @@ def test_the_users_layout_stays(gripper: Path, execute: Execute) -> None:
     assert [a.partition("=")[0] for a in written.split("\n")] == [a.partition("=")[0] for a in text.split("\n")]
 
 
+@pytest.mark.slow
 def test_a_fit_begins_with_the_users_numbers(gripper: Path, execute: Execute) -> None:
     DRIVE.write_text(DRIVE.read_text().replace("friction = 0.03", "friction = 0.0271"))
     (result,) = execute("identify", "gripper", "log.csv", "--joint", "drive", "--format=json").json["results"]
@@ -217,6 +221,7 @@ def test_a_time_that_holds_nothing_out_or_leaves_nothing(gripper: Path, execute:
     assert "`--until 0.1` leaves too little of log.csv to fit" in printed.words
 
 
+@pytest.mark.slow
 def test_a_joint_that_stands_still_is_named(leg: Path, execute: Execute) -> None:
     times = np.arange(0, 8, 0.01)
     moving, still = np.sin(3 * times), np.full_like(times, -1.5)

@@ -170,6 +170,7 @@ def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> No
     assert merge(base, found.text, theirs, is_modelica=True).text == found.text
 
 
+@pytest.mark.slow
 @often(12)
 @given(random=seeds, mine=edits, other=edits)
 def test_of_two_people_no_comment_is_lost(random: Random, mine: list[str], other: list[str]) -> None:

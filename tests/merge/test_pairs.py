@@ -72,6 +72,7 @@ def test_equations_too_many_to_compare_each_with_each_merge_by_lines() -> None:
     assert merge(base, mine, generated, is_modelica=True).contradictions == ("",), "all lines"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("statement", ["extends {}{};", "equation connect(hub, {}{});"], ids=["extends", "connect"])
 def test_the_time_grows_with_the_number_of_things_that_both_sides_replaced(statement: str) -> None:
     """And not with its square, which is seconds here."""

@@ -73,6 +73,7 @@ def test_a_spring_of_a_ball_stops_a_build_unless_it_is_allowed(project: Path, ex
     assert "mjcf/arm.xml:7: warning: spring elbow" in execute("build").err
 
 
+@pytest.mark.slow
 def test_a_free_robot_that_is_bolted_down_is_told(folder: Path, execute: Execute) -> None:
     Path("leg.xml").write_text(body("<freejoint/>"))
     Path("urdfsync.toml").write_text('[robots.leg]\nsource = "leg.xml"\npackage = "Leg"\n')

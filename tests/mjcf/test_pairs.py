@@ -68,6 +68,7 @@ def test_two_equal_sources_do_not_differ(pair: Path, execute: Execute) -> None:
     assert execute("diff", "arm.urdf", "same.urdf").lines == ["same.urdf: no difference in motion against arm.urdf"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
@@ -101,6 +102,7 @@ def test_each_difference_in_motion_is_told(pair: Path, execute: Execute, old: st
     assert changed(execute, "arm.urdf", "arm.xml") == words
 
 
+@pytest.mark.slow
 def test_a_source_of_a_robot_may_be_one_of_two(pair: Path, execute: Execute) -> None:
     execute("init", "arm.urdf")
     edit("arm.xml", 'mass="1.5"', 'mass="1.75"')

@@ -56,12 +56,14 @@ def test_nothing_else_is(text: str) -> None:
     assert find_translator("urdf", Path("arm.xml"), text.encode()) is None
 
 
+@pytest.mark.slow
 def test_a_compiled_model_is_told(folder: Path) -> None:
     assert told(folder, b"1\xd4\0\0rest") == (
         "arm.xml: error: this is a compiled model of MuJoCo (MJB); name the XML file of the model [mjcf]"
     )
 
 
+@pytest.mark.slow
 def test_mujocos_own_finding_has_file_and_line(folder: Path) -> None:
     (folder / "leg.xml").write_text('<mujocoinclude>\n<body><joint wheel="3"/></body></mujocoinclude>')
     assert told(folder, body('<joint/><include file="leg.xml"/>')).startswith(
@@ -69,6 +71,7 @@ def test_mujocos_own_finding_has_file_and_line(folder: Path) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="it has no such limits")
 def test_a_model_that_takes_too_long_is_ended(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(expansion, "CPU_SECONDS", 0.2)
@@ -87,6 +90,7 @@ def test_nothing_is_written_beside_the_source(folder: Path) -> None:
     assert [path.name for path in folder.iterdir()] == ["arm.xml"]
 
 
+@pytest.mark.slow
 def test_an_unknown_argument_is_told(folder: Path) -> None:
     file = folder / "arm.xml"
     file.write_text(ARM)

@@ -88,6 +88,7 @@ def written(tree: SyntaxTree) -> str:
     return "".join((*pieces, tree.closing))
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_a_text_is_kept_or_not_read(data: st.DataObject) -> None:
     start = data.draw(st.integers(0, len(TEXT)))
@@ -185,6 +186,7 @@ def test_what_means_something_else(one: str, other: str) -> None:
     assert is_same(body_of(one), body_of(other), layout=False) == ("Placement" in one)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("style", STYLES.values(), ids=STYLES)
 def test_what_editors_change_means_nothing(style: Style) -> None:
     models = [model for models in distinct_models().values() for model in models.items()]

@@ -37,6 +37,7 @@ def test_changes_edits_and_conflicts_are_told(arm: Path, report: Report) -> None
     assert values["before"] is not None
 
 
+@pytest.mark.slow
 def test_nothing_changed_has_no_older_version(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     page = read(report())

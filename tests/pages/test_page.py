@@ -29,6 +29,7 @@ Report = Callable[..., Path]
 STILL = '<robot name="still"><link name="only"/></robot>'
 
 
+@pytest.mark.slow
 def test_the_policy_has_the_hash_of_each_script_and_style(arm: Path, report: Report) -> None:
     page = read(report())
     (policy,) = (each["content"] for tag, each in page.tags if each.get("http-equiv") == "Content-Security-Policy")

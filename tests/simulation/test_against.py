@@ -53,6 +53,7 @@ def test_the_greatest_difference_of_each_joint_is_shown(
     ]
 
 
+@pytest.mark.slow
 def test_efforts_are_shown_before_and_now(repository: Repository, compiler: Compiler, execute: Execute) -> None:
     compiler.results = [CompileResult(runs=(SimulationResult(dict(compiler.values)),))]
     compiler.values = {**compiler.values, "robot.shoulderAxis.tau": (0.0, -0.5, 0.0)}
@@ -60,6 +61,7 @@ def test_efforts_are_shown_before_and_now(repository: Repository, compiler: Comp
     assert last == "  shoulder  -            -         1.5 N·m at 1 s  0.5 → 1 N·m"
 
 
+@pytest.mark.slow
 def test_equal_motions_are_told_in_one_line(repository: Repository, compiler: Compiler, execute: Execute) -> None:
     assert execute("simulate", "--against", "HEAD").lines[-1] == "  since HEAD: the same motion"
 

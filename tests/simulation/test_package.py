@@ -14,6 +14,7 @@ from support.simulation import OWN, Compiler, refused, run
 from urdfsync.checks.compilers.compiler import CompileResult
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", ["Cells/package.mo", "elsewhere/Cells/package.mo", "elsewhere/Cells.mo"])
 def test_models_of_the_user_are_found(
     compiler: Compiler, modelica_library: Path, place: str, monkeypatch: pytest.MonkeyPatch
@@ -25,6 +26,7 @@ def test_models_of_the_user_are_found(
     assert run(model="Cells.Own").model == "Cells.Own"
 
 
+@pytest.mark.slow
 def test_a_package_that_is_out_of_step_is_simulated_with_a_warning(compiler: Compiler) -> None:
     file = Path("arm.urdf")
     file.write_text(file.read_text().replace('damping="0.5"', 'damping="0.7"'))

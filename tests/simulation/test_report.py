@@ -53,6 +53,7 @@ axis = [0, 0, 1]
 """
 
 
+@pytest.mark.slow
 def test_a_model_with_loops_may_take_longer(
     compiler: Compiler, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -369,6 +369,7 @@ def test_a_header_that_is_no_name_and_unit_takes_no_time(header: str, words: str
     assert words in found.message
 
 
+@pytest.mark.slow
 def test_only_the_first_unknown_names_get_hints() -> None:
     links = "".join(f"part{number},parts{number}x\n" for number in range(3000))
     parts = "".join(f"part{number},1\n" for number in range(3000))

@@ -83,6 +83,7 @@ def test_a_motor_of_two_joints_has_a_gear_in_the_robot_if_it_has_a_flange_or_a_r
     }
 
 
+@pytest.mark.slow
 @given(robots())
 def test_no_two_components_have_one_name(robot: Robot) -> None:
     skeleton = KinematicTree.of(robot)
@@ -94,6 +95,7 @@ def test_no_two_components_have_one_name(robot: Robot) -> None:
     assert len(every) == len(set(every))
 
 
+@pytest.mark.slow
 @given(robots(), st.sampled_from(["arm", "Arm", "wheel", "leg 1", "armFrame", "wheelAxis"]))
 def test_a_new_leaf_makes_no_connector_mean_another_element(robot: Robot, name: str) -> None:
     assume(name not in {link.name for link in robot.links} | {joint.name for joint in robot.joints})

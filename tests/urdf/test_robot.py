@@ -60,6 +60,7 @@ def test_no_annotation_is_a_text_that_msgspec_has_to_compile_in_each_build() -> 
     assert not [one for one in structs if any(isinstance(kind, str) for kind in one.__annotations__.values())]
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(values(Robot))
 def test_nothing_is_lost_on_the_way_through_a_state(robot: Robot) -> None:

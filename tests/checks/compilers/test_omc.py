@@ -143,6 +143,7 @@ def simulated(ask: Ask, tmp_path: Path, file: str, messages: str = "", said: str
     return result
 
 
+@pytest.mark.slow
 def test_the_result_of_a_simulation_is_read_from_its_file(ask: Ask, tmp_path: Path) -> None:
     series = {"time": (0.0, 0.25), "p": (1.0, 2.0), "-q[1,2]": (2.0, 0.3)}
     write_trajectory(tmp_path / "x_res.mat", {"k": 7.0}, series)
@@ -342,6 +343,7 @@ def test_recorded_exports_are_understood(ask: Ask, tmp_path: Path) -> None:
     assert result.problem.startswith("Error: Too few equations, under-determined system.")
 
 
+@pytest.mark.slow
 def test_recorded_ends_of_simulations_are_understood(ask: Ask, tmp_path: Path) -> None:
     task = CompileTask("S", "model S end S;", (Simulation(1, 1),), ("x",), title="S")
     (result,) = ask({"simulate": answer_of("assertion", tmp_path)}, task)

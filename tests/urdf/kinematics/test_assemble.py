@@ -240,6 +240,7 @@ def test_a_loop_closes_within_limits() -> None:
     assert assembled(limited(0, 0), "crank").states == ("crank",)  # limits that were left out
 
 
+@pytest.mark.slow
 def test_limits_that_keep_a_loop_open_are_named() -> None:
     result = assemble(limited(2.9, 3), frozenset(), frozenset())
     assert "'rocker'" in result.faults[0].hint
@@ -416,6 +417,7 @@ def row_of_four_bars(count: int) -> KinematicTree:
     return tree(joints, *loops)
 
 
+@pytest.mark.slow
 def test_the_36_loops_of_a_strandbeest_are_closed_in_two_seconds() -> None:
     robot, begin = KinematicTree.of(strandbeest()), time.thread_time()
     found = assembled(robot, "crank")

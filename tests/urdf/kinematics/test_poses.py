@@ -42,6 +42,7 @@ def configuration(model: pin.Model, robot: Robot, positions: dict[str, float]) -
     return q
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(robots(("continuous", "prismatic", "fixed"), mimics=0.0), st.lists(NUMBERS, min_size=7, max_size=7))
 def test_link_poses_are_those_of_pinocchio(robot: Robot, values: list[float]) -> None:
@@ -80,6 +81,7 @@ def allowed(joints: Iterable[tuple[Joint, float, float]]) -> tuple[float, float]
     return lowest, highest
 
 
+@pytest.mark.slow
 @given(robots(SCALAR))
 def test_start_positions_respect_all_ranges_and_are_as_close_to_zero_as_these_allow(robot: Robot) -> None:
     positions = start_positions(KinematicTree.of(robot))

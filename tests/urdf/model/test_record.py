@@ -36,6 +36,7 @@ from urdfsync.urdf.robot import (
 )
 
 
+@pytest.mark.slow
 @given(robots())
 def test_the_matrices_say_what_the_tree_is(robot: Robot) -> None:
     found = record_data(assembly(robot), {})
@@ -173,6 +174,7 @@ def test_every_link_is_part_of_one_body_and_every_body_has_links(robot: Robot) -
         assert list(chain) == [n for n, (carrier, _) in enumerate(found.joint_tree, 1) if carrier == body]
 
 
+@pytest.mark.slow
 @few
 @given(TREES)
 def test_references_are_to_what_the_record_has_and_no_number_is_written(robot: Robot) -> None:

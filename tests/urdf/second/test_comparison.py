@@ -321,6 +321,7 @@ def test_a_wrong_number_in_a_record_is_found(fault: str, sound: Package) -> None
 NUMBER = re.compile(r"(?<=[ ={,])-?\d+(?:\.\d+)?(?:e-?\d+)?(?=[,)};\n])")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", ["Joints/Shoulder", "Joints/Slide", "Joints/Twist", "Links/Hand"])
 def test_each_number_of_a_record_is_compared(file: str, sound: Package) -> None:
     """One number after the other is another one: so a new number is compared, too."""
