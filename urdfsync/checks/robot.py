@@ -50,8 +50,8 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     return None
 
 
-class _Before(NamedTuple):
-    """What is known of a robot before its check."""
+class _Lookup(NamedTuple):
+    """A robot's package, and its earlier check."""
 
     key: str | None
     """The fingerprint; None if the result must not be remembered."""
@@ -60,14 +60,14 @@ class _Before(NamedTuple):
     """The remembered check of the same package; None if there is none."""
 
 
-def _look(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes | None = None) -> _Before:
+def _look_up(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes | None = None) -> _Lookup:
     """Read a robot's package, and look for its earlier check. Raises UrdfsyncError and OSError."""
     key = fingerprint(config, robot, options, hashes)
     request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
     package, earlier = read_package(config, robot, request), None
     if key and package.in_step and not options.fresh:
         earlier = UserCache.default().load(key, CheckResult)
-    return _Before(key, package, earlier if earlier and _has_curves(earlier, options) else None)
+    return _Lookup(key, package, earlier if earlier and _has_curves(earlier, options) else None)
 
 
 def _has_curves(result: CheckResult, options: CheckOptions) -> bool:
@@ -81,16 +81,14 @@ def recall_check(config: Config, robot: RobotConfig, options: CheckOptions, hash
         return None
     begin = time.monotonic()
     try:
-        before = _look(config, robot, options, hashes)
-        if before.earlier is None:
-            return None
-        return _shown(before.earlier, before.package, options, begin)
+        _, package, earlier = _look_up(config, robot, options, hashes)
+        return earlier and _complete(earlier, package, options, begin)
     except Exception:  # noqa: BLE001 - the check meets this error, too, and reports it
         return None
 
 
-def _shown(result: CheckResult, package: RobotPackage, options: CheckOptions, begin: float) -> CheckResult:
-    """Return a result, which may be remembered, as that of this command; `begin` is its start (s)."""
+def _complete(result: CheckResult, package: RobotPackage, options: CheckOptions, begin: float) -> CheckResult:
+    """Complete a result, which may be remembered, for this command, and return it; `begin` is its start (s)."""
     robot = package.robot
     result.robot = robot.name  # another robot may have the same inputs
     result.folder, result.strict = shown(robot.folder), options.strict  # a saved check may have other values
@@ -115,7 +113,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
     limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
     try:
         tell(f"{robot.name}: reading the source and the package")
-        key, package, earlier = _look(config, robot, options)
+        key, package, earlier = _look_up(config, robot, options)
         if earlier is None and key and package.in_step and not options.fresh and (shared := remote.load(key)):
             cache.save(key, shared)
             earlier = shared if _has_curves(shared, options) else None
@@ -129,7 +127,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
                 cache.save(key, result if is_right else None)
                 if is_right:
                     remote.save(key, result)
-        result = _shown(earlier or result, package, options, begin)
+        result = _complete(earlier or result, package, options, begin)
     except Exception as error:  # noqa: BLE001 - only this robot fails
         result.add(findings_of(error))
     result.add(remote.warnings)
