@@ -10,6 +10,7 @@ import argparse
 import contextlib
 import os
 import shlex
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
@@ -19,7 +20,7 @@ from urdfsync import config as configuration
 from urdfsync import git, noop
 from urdfsync.commands import arguments
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies.facts import MODELICA, NAMES, UNMERGED, VARIABLE, Entry
+from urdfsync.dependencies.facts import LISTINGS, UNMERGED, VARIABLE, Entry, counting
 from urdfsync.dependencies.places import Clone
 from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
@@ -165,15 +166,13 @@ class _Places:
     """All that a build has read or looked for in a repository, as paths from the top."""
 
     def __init__(self, clone: Clone, entries: Iterable[Entry]) -> None:
-        self.files, self._listed, self._listed_for_modelica = set[str](), set[str](), set[str]()
+        self.files, self._listings = set[str](), defaultdict[str, set[str]](set)  # kinds of listings by folder
         for kind, path in entries:
             places = map(clone.inside, clone.trail(path)) if kind not in (VARIABLE, UNMERGED) else ()
             inside = [place for place in places if place is not None]
             self.files.update(inside)
-            if kind == NAMES:
-                self._listed.update(inside)
-            elif kind.startswith(MODELICA):
-                self._listed_for_modelica.update(inside)
+            for folder in inside if kind.startswith(LISTINGS) else ():
+                self._listings[folder].add(kind)
         # a link or a submodule may take the place of a folder
         self._around = {
             "/".join(path.split("/")[:depth]) for path in self.files for depth in range(path.count("/") + 1)
@@ -189,11 +188,9 @@ class _Places:
 
     def _is_listed(self, path: str, change: Change) -> bool:
         """Return whether a change adds a name to a listing of a folder, or takes one away."""
-        if change is Change.CONTENT:
-            return False
         folder, _, name = path.rpartition("/")
-        is_for_modelica = name.endswith(".mo") or change is Change.FOLDER
-        return folder in self._listed or (is_for_modelica and folder in self._listed_for_modelica)
+        kinds = self._listings.get(folder, ()) if change is not Change.CONTENT else ()
+        return any(counting(kind, (name,), lambda _: change is Change.FOLDER) for kind in kinds)
 
 
 class _Judged:
