@@ -19,7 +19,6 @@ _COMPILED = b"1\xd4\0\0"
 
 def translate(request: Request) -> Answer:
     """Translate a file, or compare its translation."""
-    os.environ["MUJOCO_GL"] = "disable"  # else MuJoCo loads a library for windows: 0.1 of 0.5 s
     try:
         from urdfsync.mjcf import comparison, urdf
     except ImportError as error:
@@ -47,6 +46,7 @@ def _read(source: str, files: Files) -> Document:
 
 def main() -> None:
     """Translate the file that stdin names."""
+    os.environ["MUJOCO_GL"] = "disable"  # else MuJoCo loads a library for windows: 0.1 of 0.5 s
     serve(translate, "mjcf")
 
 
