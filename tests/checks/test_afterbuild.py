@@ -65,7 +65,7 @@ def run(examiner: Examiner, **wishes: Any) -> list[Result]:
     """Build and check all robots."""
     loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1, **wishes)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(check_run, "check_robots", examiner)
+        patch.setattr(check_run, "check_in_workers", examiner)
         return list(afterbuild.with_checks(loaded, request, build(loaded, loaded.robots, request)))
 
 
@@ -158,7 +158,7 @@ def test_a_package_with_a_conflict_is_checked_as_it_is_on_disk_and_again_once_it
     assert result.checked is Checked.RIGHT
     assert exit_code([result]) is Exit.CONFLICT
     assert exit_code([msgspec.structs.replace(result, checked=Checked.WRONG)]) is Exit.ERROR
-    monkeypatch.setattr(check_run, "check_robots", Examiner(WRONG))
+    monkeypatch.setattr(check_run, "check_in_workers", Examiner(WRONG))
     capsys.readouterr()
     assert cli.main(["resolve", "--all", "--take", "--dry-run"]) == 0
     assert "checked" not in capsys.readouterr().out
@@ -192,7 +192,7 @@ def test_who_interrupts_a_check_is_told_what_was_built(project: Path, monkeypatc
     loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1)
     told: list[Result] = []
     results = build(loaded, loaded.robots, request)
-    monkeypatch.setattr(check_run, "check_robots", Examiner(KeyboardInterrupt()))
+    monkeypatch.setattr(check_run, "check_in_workers", Examiner(KeyboardInterrupt()))
     with pytest.raises(KeyboardInterrupt):
         told.extend(afterbuild.with_checks(loaded, request, results))
     assert names(told) == ["ladder"]
@@ -202,7 +202,7 @@ def test_who_interrupts_a_check_is_told_what_was_built(project: Path, monkeypatc
 def test_people_see_what_a_check_said(
     project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(check_run, "check_robots", Examiner(WRONG, RIGHT))
+    monkeypatch.setattr(check_run, "check_in_workers", Examiner(WRONG, RIGHT))
     assert cli.main(["build"]) == 2
     streams = capsys.readouterr()
     assert streams.err.splitlines() == [f"{MODEL}:3: error: there is no class `Foo` [compile]"]

@@ -62,7 +62,7 @@ def start(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Start]:
     running = []
 
     def begin(compiler: Compiler) -> Daemons:
-        monkeypatch.setattr(run, "check_robots", compiler)
+        monkeypatch.setattr(run, "check_in_workers", compiler)
         running.append(Daemons())
         return running[-1]
 

@@ -65,7 +65,7 @@ class BuildChecker:
         hashes = Hashes()
         earlier = {robot.name: self.find_earlier(self.key(robot, hashes)) for robot in robots}
         unknown = [robot for robot in robots if earlier[robot.name] is None]
-        results = run.check_robots(self._config, unknown, self._options, tell)
+        results = run.check_in_workers(self._config, unknown, self._options, tell)
         trouble: BuildCheck | None = None  # the failure that ended all checks
         for robot in robots:
             try:

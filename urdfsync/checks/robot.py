@@ -57,7 +57,7 @@ class _Lookup(NamedTuple):
     """The fingerprint; None if the result must not be remembered."""
     package: RobotPackage
     earlier: CheckResult | None
-    """The remembered check of the same package; None if there is none."""
+    """The remembered check of the same package, perhaps without curves; None if there is none."""
 
 
 def _look_up(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes | None = None) -> _Lookup:
@@ -67,7 +67,7 @@ def _look_up(config: Config, robot: RobotConfig, options: CheckOptions, hashes: 
     package, earlier = read_package(config, robot, request), None
     if key and package.in_step and not options.fresh:
         earlier = UserCache.default().load(key, CheckResult)
-    return _Lookup(key, package, earlier if earlier and _has_curves(earlier, options) else None)
+    return _Lookup(key, package, earlier)
 
 
 def _has_curves(result: CheckResult, options: CheckOptions) -> bool:
@@ -82,7 +82,7 @@ def recall_check(config: Config, robot: RobotConfig, options: CheckOptions, hash
     begin = time.monotonic()
     try:
         _, package, earlier = _look_up(config, robot, options, hashes)
-        return earlier and _complete(earlier, package, options, begin)
+        return _complete(earlier, package, options, begin) if earlier and _has_curves(earlier, options) else None
     except Exception:  # noqa: BLE001 - the check meets this error, too, and reports it
         return None
 
@@ -114,9 +114,10 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
     try:
         tell(f"{robot.name}: reading the source and the package")
         key, package, earlier = _look_up(config, robot, options)
-        if earlier is None and key and package.in_step and not options.fresh and (shared := remote.load(key)):
-            cache.save(key, shared)
-            earlier = shared if _has_curves(shared, options) else None
+        if earlier is None and key and package.in_step and not options.fresh and (earlier := remote.load(key)):
+            cache.save(key, earlier)
+        if earlier and not _has_curves(earlier, options):
+            earlier = None
         if earlier is None:
             with tempfile.TemporaryDirectory(prefix="urdfsync-", dir=folder, ignore_cleanup_errors=True) as place:
                 _check(config, package, options, result, limits, Path(place))

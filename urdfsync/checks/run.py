@@ -39,16 +39,16 @@ def check_robots(
         progress(f"{robot.name}: looking for an earlier check", count, len(robots))
         if result := recall_check(config, robot, options, hashes):
             known[robot.name] = result
-    checks = _check_all(config, [robot for robot in robots if robot.name not in known], options, progress)
+    checks = check_in_workers(config, [robot for robot in robots if robot.name not in known], options, progress)
     for robot in robots:
         yield known.get(robot.name) or next(checks)
     yield from checks  # there are none left: the workers end
 
 
-def _check_all(
+def check_in_workers(
     config: Config, robots: Sequence[RobotConfig], options: CheckOptions, progress: Progress
 ) -> Iterator[CheckResult]:
-    """Check robots in workers, as `check_robots` does with those whose check is not remembered."""
+    """Check robots whose checks are not remembered, as `check_robots` does."""
     if not robots:
         return
     cache = UserCache.default()
