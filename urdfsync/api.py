@@ -244,10 +244,10 @@ def simulate(
     check_outputs(files, input_files(loaded, robot, given.get("motion")))
     chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
     options = SimulateOptions(tool=chosen, **given)
-    if options.against:
+    if options.against is not None:
         from urdfsync.simulation.against import simulate_against  # takes 60 ms with libgit2
 
-        result = simulate_against(loaded, robot, options, progress)
+        result = simulate_against(loaded, robot, options.against, options, progress)
     else:
         result = run.simulate(loaded, robot, options, progress)
     write_outputs(files, result)

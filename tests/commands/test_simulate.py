@@ -65,6 +65,7 @@ def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
         (("--stop", "0"), "'0' is no amount"),
         (("--step", "nan"), "'nan' is no amount"),
         (("--vary", "a=0..1", "--seed", "-1"), "'-1' is no seed; give a whole number, 0 or more"),
+        (("--against", ""), "an empty text is no revision; give one such as HEAD~1"),
         (("--variable", "robot.*"), "`--variable` adds a variable to a file, and no file is named; give `--csv FILE`"),
         (("nobody",), "no robot `nobody`"),
     ],

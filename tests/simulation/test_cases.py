@@ -81,7 +81,7 @@ def test_each_point_of_a_grid_gets_the_same_samples() -> None:
 
 
 def test_a_file_has_a_row_for_each_case(tmp_path: Path) -> None:
-    file = tmp_path / "cases.csv"
+    file = tmp_path / "cases,seed=4.csv"
     file.write_text("a.mass;b.phi_start\n1;0,5\n\n2;0,7\n")
     assert read_cases([str(file)], Sampling()) == Cases(("a.mass", "b.phi_start"), [(1.0, 0.5), (2.0, 0.7)])
 

@@ -20,3 +20,15 @@ def test_series_are_written_with_all_digits(compiler: Compiler, execute: Execute
     assert {name: tuple(float(row[name]) for row in rows) for name in rows[0]} == compiler.values
     execute("simulate", "--csv", "b.csv")
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+
+
+@pytest.mark.slow
+def test_no_file_is_written_if_one_cannot_be_made(
+    compiler: Compiler, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(*_: object) -> bytes:
+        raise MemoryError
+
+    monkeypatch.setattr("urdfsync.simulation.plot.draw", fails)
+    execute("simulate", "--csv", "a.csv", "--plot", "a.png", code=2)
+    assert not Path("a.csv").exists()

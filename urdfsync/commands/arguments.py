@@ -70,6 +70,13 @@ def seed(text: str) -> int:
     return int(text)
 
 
+def revision(text: str) -> str:
+    """Return the name of a revision."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError("an empty text is no revision; give one such as HEAD~1")
+    return text
+
+
 def amount(text: str) -> float:
     """Return a number greater than 0."""
     try:

@@ -51,7 +51,7 @@ def add(commands: arguments.Commands) -> None:
     option("--method", metavar="M", default="", help=f"method of the integration: {methods}")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
     older = "simulate the model of a git revision, too, and compare the joints"
-    option("--against", metavar="REVISION", default="", help=older)
+    option("--against", type=arguments.revision, metavar="REVISION", help=older)
     option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs, or all cases")
     more = "another variable for the CSV file, such as 'robot.hand.*'; may be repeated"
     option("--variable", dest="variables", action="append", metavar="PATTERN", default=[], help=more)
@@ -81,7 +81,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     write_report = None
     if args.report:
         check_distinct(files | {"report": args.report})
-        write_report = prepare_page(args, console, args.report, against=args.against or None, motion=args.motion)
+        write_report = prepare_page(args, console, args.report, against=args.against, motion=args.motion)
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted, "progress": _telling(console)}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
     if write_report:

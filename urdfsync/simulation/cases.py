@@ -60,7 +60,8 @@ def read_cases(given: Sequence[str], sampling: Sampling) -> Cases:
 
     Values form a grid. Each point of the grid gets the same samples of all distributions.
     """
-    files = [text for text in given if "=" not in text]
+    # a name may have `=`, and no SPEC ends so
+    files = [text for text in given if "=" not in text or text.lower().endswith(".csv")]
     if files and len(given) > 1:
         _refuse(f"`{files[0]}` is a file with all cases, so it must be the only `--vary`", _HINT)
     if files and not Path(files[0]).exists():
@@ -166,7 +167,9 @@ def _at(spread: Spread, shares: Any, normal: Any) -> Any:
 
 def _read_file(file: Path) -> Cases:
     """Read a CSV file: a header with parameters, and a row for each case. Raises SourceError."""
-    (line, header), *rows = read_rows(file, MOST_CASES, "cases", "write a header with parameters, and a row per case")
+    (line, header), *rows = read_rows(
+        file, "vary", MOST_CASES, "cases", "write a header with parameters, and a row per case"
+    )
     names = [cell.strip() for cell in header]
     try:
         read_values(f"{name}=0" for name in names)

@@ -84,9 +84,10 @@ def write_file(file: Path, content: bytes) -> None:
 
 
 def write_outputs(files: Mapping[str, Path], result: SimulateResult | Study) -> None:
-    """Write the files. Raises OutputError."""
-    for kind, file in files.items():
-        write_file(file, _content(kind, file, result))
+    """Write the files: none, if one of them can't be made. Raises OutputError."""
+    contents = {file: _content(kind, file, result) for kind, file in files.items()}
+    for file, content in contents.items():
+        write_file(file, content)
 
 
 def _content(kind: str, file: Path, result: SimulateResult | Study) -> bytes:

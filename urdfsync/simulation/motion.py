@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import bisect
 import csv
+import functools
 import io
 import math
 from collections.abc import Iterator, Sequence
@@ -56,7 +57,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
     """Read a CSV file with a first column `time`, and a column for each input. Raises SourceError."""
     if not inputs:
         _refuse(file, "the model has no inputs that a motion could drive", hint="leave `--input` out")
-    (line, header), *rows = read_rows(file, MOST_ROWS, "rows", _NO_MOTION, least=2)
+    (line, header), *rows = read_rows(file, "motion", MOST_ROWS, "rows", _NO_MOTION, least=2)
     factors = _columns(file, line, header, inputs)
     columns: dict[str, list[float]] = {name: [] for name in factors}
     for line, row in rows:
@@ -80,18 +81,19 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
     return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
 
 
-def read_rows(file: Path, most: int, noun: str, missing: str, *, least: int = 1) -> Sequence[Row]:
-    """Return the rows of a CSV file that are not empty, with their line numbers. Raises SourceError.
+def read_rows(file: Path, code: str, most: int, noun: str, missing: str, *, least: int = 1) -> Sequence[Row]:
+    """Return the rows of a CSV file that are not empty, with their line numbers. Raises SourceError with this code.
 
     The file has a header, and from `least` to `most` rows below it; `missing` is the hint for a file with fewer.
     """
+    refuse = functools.partial(_refuse, file, code=code)
     try:
         text = read_unrecorded(file).decode("utf-8-sig")  # does not wait for a pipe, or read an endless device
     except OSError as error:
-        _refuse(file, f"the file can't be read: {error.strerror}", hint="name a CSV file")
+        refuse(f"the file can't be read: {error.strerror}", hint="name a CSV file")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
-        _refuse(file, "the file is not in UTF-8", line, "save it as UTF-8")
+        refuse("the file is not in UTF-8", line, "save it as UTF-8")
     (separator, text), rows = find_separator(text), list[Row]()
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     try:
@@ -99,15 +101,15 @@ def read_rows(file: Path, most: int, noun: str, missing: str, *, least: int = 1)
             if any(cell.strip() for cell in row):
                 rows.append((reader.line_num, row))
             if len(rows) > most + 1:
-                _refuse(file, f"the file has more than {most} {noun}", hint="leave some out")
+                refuse(f"the file has more than {most} {noun}", hint="leave some out")
     except csv.Error as error:
-        _refuse(file, f"the file is no CSV: {error}", reader.line_num)
+        refuse(f"the file is no CSV: {error}", reader.line_num)
     if len(rows) < 1 + least:
-        _refuse(file, f"the file has no {noun}" if least == 1 else "the file has no motion", hint=missing)
+        refuse(f"the file has no {noun}" if least == 1 else "the file has no motion", hint=missing)
     try:
         return rows if separator == "," else [rows[0], *with_points(rows[1:], range(len(rows[0][1])))]
     except MarkError as error:
-        _refuse(file, error.message, error.line, error.hint)
+        refuse(error.message, error.line, error.hint)
 
 
 def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
@@ -187,8 +189,8 @@ def _number(file: Path, line: int, cell: str) -> float:
     return number
 
 
-def _refuse(file: Path, message: str, line: int = 0, hint: str = "") -> NoReturn:
-    raise SourceError.of("motion", message, shown(file), line, hint=hint)
+def _refuse(file: Path, message: str, line: int = 0, hint: str = "", *, code: str = "motion") -> NoReturn:
+    raise SourceError.of(code, message, shown(file), line, hint=hint)
 
 
 _FUNCTION = """

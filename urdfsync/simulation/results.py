@@ -38,8 +38,8 @@ class SimulateOptions(RunOptions, frozen=True):
     variables: tuple[str, ...] = ()
     """Patterns of further variables for the series."""
     tool: Tool = Tool()
-    against: str = ""
-    """A git revision to compare the motion with; empty for none."""
+    against: str | None = None
+    """A git revision to compare the motion with; None for none."""
     as_exported: bool = False
     """Simulate as the FMU does: drives keep their filters, and inputs change at each step or stay at 0."""
 
