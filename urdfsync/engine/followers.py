@@ -1,4 +1,4 @@
-"""Finds texts of the user's that follow a rename, although their base does not show it: by names that are missing now.
+"""Lets the user's texts follow a rename that their bases do not show: by names that are missing now.
 
 Such a text is a class of the user's own in the package, an edit of a file whose generated text stays the same, or an
 edit that git has merged with the rename of another branch.
@@ -6,15 +6,59 @@ edit that git has merged with the rename of another branch.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from urdfsync.engine.fit import Misfit, find_misfits
+import msgspec
+
+from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.conflicts import Conflict, Verdicts
+from urdfsync.engine.generate import Package
+from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_after import PackageAfter
 from urdfsync.engine.package_names import declared_names, new_name
-from urdfsync.merge.renames import rename
+
+if TYPE_CHECKING:
+    from urdfsync.engine.fit import Misfit
 
 
-def find_followers(
+def follow(
+    inputs: Inputs, package: Package, verdicts: Verdicts, own: Sequence[Action], renamed: Mapping[str, str]
+) -> Verdicts:
+    """Let the user's files follow renames that their bases do not show; `own` are files without a generated text.
+
+    They follow as the user allows merges; else they conflict, and the new text is proposed.
+    """
+    after = PackageAfter(inputs, package, (*verdicts.actions, *own), verdicts.texts, is_open=True)
+    users = {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
+    keys = {
+        action.path
+        for action in after.actions
+        if action.reason in users and action.path.endswith(".mo")
+        if action.mine not in (None, *inputs.last.record.confirmed)
+        if action.path in verdicts.texts or not inputs.files.is_chosen(action.path)
+    }
+    if not renamed or not keys or not after.mentions(keys, renamed):
+        return verdicts._replace(actions=after.actions)
+    from urdfsync.merge import Merge  # imports the parser
+
+    followers = _find_followers(after, keys, renamed)
+    actions, texts, conflicts = list[Action](), dict(verdicts.texts), dict(verdicts.conflicts)
+    for action in after.actions:
+        key = action.path
+        if key in followers and (inputs.is_merging or action.reason in (Reason.MERGE, Reason.MOVE)):
+            texts[key] = followers[key][1]
+            action = msgspec.structs.replace(action, reason=Reason.MOVE if action.origin else Reason.MERGE)
+        elif key in followers:
+            mine, new = followers[key]
+            generated = package.content(inputs.folder.path(key)).decode() if action.generated else mine
+            conflicts[key] = Conflict(key, generated, mine, generated, Merge(new, new, ()))
+            action = msgspec.structs.replace(action, reason=Reason.RENAMED)
+        actions.append(action)
+    return Verdicts(actions, texts, conflicts)
+
+
+def _find_followers(
     after: PackageAfter, keys: Collection[str], renamed: Mapping[str, str]
 ) -> dict[str, tuple[str, str]]:
     """Return the text, and the text with new names, of those files of `keys` that can follow, by key.
@@ -22,7 +66,10 @@ def find_followers(
     `renamed` has new identifiers by old identifiers. A name follows if it is missing, and if its new name exists at the
     same place. A text that declares the old name itself does not follow.
     """
-    names = dict[str, dict[str, list[Misfit]]]()
+    from urdfsync.engine.fit import find_misfits  # imports the parser
+    from urdfsync.merge.renames import rename
+
+    names: dict[str, dict[str, list[Misfit]]] = {}
     for misfit in find_misfits(after):
         if misfit.key in keys and misfit.use and new_name(misfit.use.part, renamed, misfit.use.candidates):
             names.setdefault(misfit.key, {}).setdefault(misfit.use.part, []).append(misfit)
