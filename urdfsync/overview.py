@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from urdfsync import __version__, streams
+from urdfsync import streams
 from urdfsync.shells import completion
+from urdfsync.version import __version__
 
 CODES = (
     "exit codes: 0 in step or done, 1 out of step, broken or different, 2 error, 3 conflict, "

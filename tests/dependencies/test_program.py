@@ -20,7 +20,7 @@ def code(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "site/templates").mkdir()
     (tmp_path / "site/templates/link.mo.jinja").write_text("model\n")
     (tmp_path / "state").mkdir()
-    monkeypatch.setattr(program, "_package", str(package / "__init__.py"))
+    monkeypatch.setattr(program, "_PACKAGE", str(package))
     monkeypatch.setattr(sys, "path", [str(tmp_path / "site")])
     return package
 

@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import urdfsync
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Domain
 from urdfsync.modelica.names import LIBRARY
@@ -61,6 +60,6 @@ def explained(page: str) -> Iterator[tuple[str, list[str]]]:
 
 def _data_folder(name: str) -> Path:
     """Return a folder of a wheel, or of the repository around an editable installation."""
-    package = Path(urdfsync.__file__).parent
+    package = Path(__file__).parents[1]
     installed = package / "_data" / name
     return installed if installed.is_dir() else package.parent / name

@@ -9,10 +9,9 @@ from __future__ import annotations
 import os
 import sys
 
-from urdfsync import __file__ as _package
-from urdfsync import __version__
 from urdfsync.dependencies import localfile
 from urdfsync.dependencies.facts import is_young, stat_of
+from urdfsync.version import __version__
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
 if TYPE_CHECKING:
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
 
 FOLDER = "deps"
 """The folder of what this machine remembers of dependencies, below the state folder."""
+_PACKAGE = os.path.dirname(os.path.dirname(__file__))
 _SUFFIXES = (".py", ".jinja", ".mo")
 _MEMO = "program"
 _identity: list[str] = []
@@ -69,9 +69,8 @@ def contents_hash(files: Iterable[str], versions: str = "") -> str:
 
 def _folders() -> list[str]:
     """Return the folders of the code and of the templates: of a wheel, or of a clone."""
-    package = os.path.dirname(_package)
-    inside = os.path.join(package, "_data", "templates")
-    return [package, inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "templates")]
+    inside = os.path.join(_PACKAGE, "_data", "templates")
+    return [_PACKAGE, inside if os.path.isdir(inside) else os.path.join(os.path.dirname(_PACKAGE), "templates")]
 
 
 def code_files(folders: Iterable[str]) -> Iterator[str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from urdfsync import __version__, registry
+from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.places import real
 from urdfsync.dependencies.reads import unrecorded
@@ -28,6 +28,7 @@ from urdfsync.files import Templates, digest, shown
 from urdfsync.git.unmerged import find_unmerged
 from urdfsync.state.record import FileRecord, Generator, Record
 from urdfsync.state.store import Store
+from urdfsync.version import __version__
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge

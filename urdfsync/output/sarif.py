@@ -13,10 +13,11 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from urdfsync import __version__, config, git
+from urdfsync import config, git
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.result import Exit
 from urdfsync.output.sections import Section
+from urdfsync.version import __version__
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 

@@ -17,7 +17,6 @@ from typing import Any
 import markupsafe
 import msgspec
 
-from urdfsync import __version__
 from urdfsync.checks.experiment import Deviation
 from urdfsync.checks.report import to_section as check_section
 from urdfsync.checks.results import CheckResult
@@ -31,6 +30,7 @@ from urdfsync.pages.content import Content
 from urdfsync.pages.scene import Triangles
 from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
+from urdfsync.version import __version__
 
 SCRIPTS = (
     *("robot.js", "meshes.js", "loops.js", "orbit.js", "panels.js", "motion.js"),

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import __version__
 from urdfsync.checks import compilers
 from urdfsync.checks.compilers.compiler import CompileTask, Export
 from urdfsync.config import Config, RobotConfig
@@ -23,6 +22,7 @@ from urdfsync.simulation.motion import read_motion
 from urdfsync.simulation.package import extension, prepare, run_task
 from urdfsync.simulation.results import STOP, SimulateOptions
 from urdfsync.simulation.values import modifiers
+from urdfsync.version import __version__
 
 TOLERANCE = 1e-10
 """The tolerance of an FMU's integration for co-simulation; importers can't change it."""

@@ -15,11 +15,11 @@ from typing import Any
 
 import msgspec
 
-from urdfsync import __version__
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Import
 from urdfsync.files import digest
 from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Question, Record
+from urdfsync.version import __version__
 
 _HEADER = "# What urdfsync built last for this robot. Written by urdfsync: commit it, don't edit it.\n"
 _HASH = re.compile(r"[0-9a-f]{64}")
