@@ -30,7 +30,7 @@ _MOST_ELEMENTS = 20_000
 """The most elements of a model with its copies. The largest robots have 3,000; for 30,000 copies MuJoCo takes 20 s."""
 
 
-class Document(NamedTuple):
+class MjcfDocument(NamedTuple):
     """The text of an MJCF, and what MuJoCo needs to read it."""
 
     source: str
@@ -52,13 +52,13 @@ class Document(NamedTuple):
         return self.places[line - 1 if 0 < line <= len(self.places) else 0]
 
 
-def read_document(source: str, files: Files) -> Document:
+def read_document(source: str, files: Files) -> MjcfDocument:
     """Read an MJCF with all files that it names. Raises TranslationError."""
-    document = Document(source, "", [], {}, {}, {}, [])
+    document = MjcfDocument(source, "", [], {}, {}, {}, [])
     return _read_model(source, files, document, ("", 0), ())
 
 
-def _read_model(source: str, files: Files, shared: Document, place: Place, around: tuple[str, ...]) -> Document:
+def _read_model(source: str, files: Files, shared: MjcfDocument, place: Place, around: tuple[str, ...]) -> MjcfDocument:
     """Return the document of a model; its meshes and models are added to those of `shared`."""
     if source in around:
         raise TranslationError("the model attaches itself", place)
@@ -106,7 +106,12 @@ def _include(
 
 
 def _name_files(
-    root: Element, source: str, files: Files, places: Mapping[Element, Place], shared: Document, around: tuple[str, ...]
+    root: Element,
+    source: str,
+    files: Files,
+    places: Mapping[Element, Place],
+    shared: MjcfDocument,
+    around: tuple[str, ...],
 ) -> None:
     """Give each file of a mesh or of an attached model a name of ours; leave out what only draws."""
     folder, settings = os.path.dirname(source), dict[str, str]()  # noqa: PTH120

@@ -26,7 +26,7 @@ _CONFIG = "model.config"
 """The file in the folder of a model that names its SDF files, each with a version."""
 
 
-class Document:
+class SdfDocument:
     """The elements of an SDF and of the files that it includes."""
 
     def __init__(self, source: str, files: Files, packages: Sequence[str] = ()) -> None:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterator
 from xml.etree.ElementTree import Element
 
-from urdfsync.sdf.document import Document, Version
+from urdfsync.sdf.document import SdfDocument, Version
 from urdfsync.spelling import nearest
 from urdfsync.translation.files import TranslationError
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, inverse
@@ -78,7 +78,7 @@ class Scope:
 class Frames:
     """Reads the models of an SDF, and resolves their frames."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: SdfDocument) -> None:
         self.document = document
         self.missing: list[TranslationError] = []
         """Faults of includes in a world: scenery may be absent."""

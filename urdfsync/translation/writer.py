@@ -14,17 +14,17 @@ _DECIMALS = 15
 """Decimals of computed numbers: later digits are rounding errors."""
 
 
-class Node:
+class UrdfElement:
     """An element of the URDF."""
 
     def __init__(self, tag: str, line: int | Place, /, text: str = "", **attributes: Any) -> None:
         """`line` is a number of a place, or the place itself, or 0 for that of the element around this one."""
         self.tag, self.line, self.text, self.attributes = tag, line, text, attributes
-        self.children: list[Node] = []
+        self.children: list[UrdfElement] = []
 
-    def add(self, tag: str, line: int | Place = 0, /, text: str = "", **attributes: Any) -> Node:
+    def add(self, tag: str, line: int | Place = 0, /, text: str = "", **attributes: Any) -> UrdfElement:
         """Add an element, and return it. Numbers are written with all their digits; None is left out."""
-        self.children.append(child := Node(tag, line, text, **attributes))
+        self.children.append(child := UrdfElement(tag, line, text, **attributes))
         return child
 
     def lines(self, line: int | Place = 1, depth: int = 0) -> Iterator[tuple[str, int | Place]]:
@@ -41,7 +41,7 @@ class Node:
         yield f"{indent}</{self.tag}>", line
 
 
-def write(robot: Node, numbered: Sequence[Place] = ()) -> tuple[str, tuple[tuple[int, str, int], ...]]:
+def write(robot: UrdfElement, numbered: Sequence[Place] = ()) -> tuple[str, tuple[tuple[int, str, int], ...]]:
     """Return the text of a URDF, and each of its lines that begins another place in the files of the source.
 
     `numbered` has the places of the numbers 1, 2, …; any other number stands for the first place.
