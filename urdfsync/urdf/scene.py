@@ -20,7 +20,7 @@ from urdfsync.urdf.meshes.convert import triangles as triangles
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.named_poses import named_poses as named_poses
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, UnitName
 
 _NO_FACTS = {"bounds": (), "hull": ()}
 """Stands for the missing facts of a mesh that is too large for the package. The picture needs no facts."""
@@ -152,7 +152,7 @@ def _facts(values: msgspec.Struct, joint: Joint | None = None, label: str = "") 
             continue
         if is_end and joint and not JOINT_KINDS[joint.type].has_limits:
             continue
-        units = [each for each in getattr(field.type, "__metadata__", ()) if isinstance(each, Unit)]
+        units = [each for each in getattr(field.type, "__metadata__", ()) if isinstance(each, UnitName)]
         slides = joint is not None and MOTION_KINDS.get(joint.type) == "translational"
         unit = "".join(each.sliding if slides and each.sliding else each.name for each in units)
         if isinstance(value, tuple):

@@ -37,7 +37,9 @@ _UNREAD = ("visual", "collision", "contact", "transmission", "name", "calibratio
 """Values of records that have no part in the efforts of joints, or that a catalogue may have."""
 
 
-def read_regressor(sample: Sample, edits: Mapping[tuple[str, str], Mapping[str, tuple[float, ...]]]) -> Regressor:
+def read_regressor(
+    sample: Sample, edits: Mapping[tuple[str, str], Mapping[str, tuple[float, ...]]]
+) -> PinocchioRegressor:
     """Return the model of a source, with the user's edits of records: numbers by path, by kind and name of the element.
 
     Raises SourceError for a source that Pinocchio can't read, or whose motion the joints' positions do not determine.
@@ -56,7 +58,7 @@ def read_regressor(sample: Sample, edits: Mapping[tuple[str, str], Mapping[str, 
         message = f"joint {free[0]} moves in several directions: no log of positions determines the efforts"
         raise SourceError.of("identify", message, sample.file)
     gears = read_gears(xml.parse(content).root, stated.rows)
-    return Regressor(assembly, read(content, sample.file, (), stated.rows), gears)
+    return PinocchioRegressor(assembly, read(content, sample.file, (), stated.rows), gears)
 
 
 def _edited(content: bytes, edits: Mapping[tuple[str, str], Mapping[str, tuple[float, ...]]]) -> bytes:
@@ -79,7 +81,7 @@ def _edited(content: bytes, edits: Mapping[tuple[str, str], Mapping[str, tuple[f
     return tostring(root)
 
 
-class Regressor:
+class PinocchioRegressor:
     """The efforts of a robot's axes, and their derivatives by all parameters."""
 
     def __init__(self, assembly: Assembly, robot: Any, gears: Mapping[str, Gear]) -> None:
