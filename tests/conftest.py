@@ -142,7 +142,7 @@ def modelica_library() -> Iterator[Path]:
         folder = find_standard_library()["Modelica"].parent
     except UrdfsyncError:
         pytest.skip(NO_LIBRARY)
-    known, take_apart, parts = functools.cache(content_hash), libraries._pieces, dict[Path, Library]()
+    known, take_apart, parts = functools.cache(content_hash), libraries._class_texts, dict[Path, Library]()
 
     def hash_once(root: Path, without: Collection[str] = ()) -> str:
         is_fixed = root.is_relative_to(folder) or root.is_relative_to(sys.prefix)
@@ -156,7 +156,7 @@ def modelica_library() -> Iterator[Path]:
         return parts[path]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(libraries, "_pieces", take_apart_once)
+        patch.setattr(libraries, "_class_texts", take_apart_once)
         patch.setattr("urdfsync.checks.names.parse_file", functools.cache(parse_file))
         for module in ("contents", "libraries"):
             patch.setattr(f"urdfsync.checks.{module}.content_hash", hash_once)

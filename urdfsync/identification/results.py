@@ -50,7 +50,7 @@ class Axis(NamedTuple):
     """The name of this input of Run."""
 
 
-class Body(NamedTuple):
+class MovingLink(NamedTuple):
     """A link that moves."""
 
     name: str
@@ -74,7 +74,7 @@ class Regressor(Protocol):
     """A robot whose efforts are linear in its parameters."""
 
     axes: tuple[Axis, ...]
-    bodies: tuple[Body, ...]
+    bodies: tuple[MovingLink, ...]
     losses: tuple[Loss, ...]
 
     def rows(self, q: Array, v: Array, a: Array) -> tuple[Array, Array]:

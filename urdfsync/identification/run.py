@@ -21,11 +21,11 @@ from urdfsync.identification.results import (
     NUMBERS,
     QUANTITIES,
     Array,
-    Body,
     Excitation,
     FittedNumber,
     Identification,
     IdentifyOptions,
+    MovingLink,
     Regressor,
     Series,
     Unexcited,
@@ -251,7 +251,7 @@ def _problem(
     notes = list[Diagnostic]()
     chosen_links, chosen_joints = options.links, options.joints
     some = bool(chosen_links or chosen_joints)
-    fitted, bodies = list[int](), list[Body]()
+    fitted, bodies = list[int](), list[MovingLink]()
     for k, body in enumerate(regressor.bodies):
         is_wanted = body.name in chosen_links if some else body.is_first
         if is_body(body):
@@ -327,11 +327,11 @@ def find_motion(
     if not driven:
         message = f"Run of robot `{robot.name}` has no input for a joint"
         raise ConfigError.of("identify", message, shown(robot.folder), hint='choose `inputs = "names"`')
-    course, efforts, first, condition, numbers = excite(regressor, seconds, seed, progress)
-    tables = dict(zip(QUANTITIES, (course.q, course.v, efforts), strict=True))
-    columns = [course.times, *(tables[regressor.axes[k].command][:, k] for k in driven)]
+    trajectory, efforts, first, condition, numbers = excite(regressor, seconds, seed, progress)
+    tables = dict(zip(QUANTITIES, (trajectory.q, trajectory.v, efforts), strict=True))
+    columns = [trajectory.times, *(tables[regressor.axes[k].command][:, k] for k in driven)]
     rows = [",".join(f"{number:.9g}" for number in row) for row in np.column_stack(columns)]
     header = ",".join(["time", *(regressor.axes[k].input for k in driven)])
     resting = tuple(axis.name for axis in regressor.axes if not axis.command)
-    duration = float(course.times[-1])
+    duration = float(trajectory.times[-1])
     return "\n".join([header, *rows, ""]), Excitation(robot.name, duration, first, condition, numbers, resting, {})

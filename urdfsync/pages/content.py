@@ -26,7 +26,7 @@ from urdfsync.files import shown
 from urdfsync.output.outline import number_table, outline
 from urdfsync.output.sections import Section, Table
 from urdfsync.pages.picture import Picture, picture
-from urdfsync.pages.scene import Body, Hinge, Loop, Scene
+from urdfsync.pages.scene import Body, Hinge, LoopConstraint, Scene
 from urdfsync.versions.comparison import Comparison, Contents, compare_sources
 from urdfsync.versions.report import to_section
 
@@ -171,7 +171,7 @@ def _change_words(changes: Changes) -> dict[str, list[str]]:
 
 def _edited(edits: RobotEdits, scene: Scene) -> dict[str, list[tuple[str, str, str]]]:
     """Return the edits of each element of the picture, in its own files and in the robot model."""
-    parts: Sequence[Body | Hinge | Loop] = (*scene.bodies, *scene.hinges, *scene.loops)
+    parts: Sequence[Body | Hinge | LoopConstraint] = (*scene.bodies, *scene.hinges, *scene.loops)
     elements = {f"component `{part.component}`": part.element for part in parts}
     edited: dict[str, list[tuple[str, str, str]]] = {part.element: [] for part in parts}
     for file in edits.files:

@@ -84,7 +84,7 @@ class End(msgspec.Struct, frozen=True):
     pose: Pose
 
 
-class Loop(msgspec.Struct, frozen=True):
+class LoopConstraint(msgspec.Struct, frozen=True):
     """A connection of two bodies that hinges already connect.
 
     The loop's equations hold position and axes of the second end, resolved in the first end.
@@ -108,14 +108,14 @@ class Scene(msgspec.Struct, frozen=True):
     hinges: tuple[Hinge, ...]
     missing: tuple[str, ...] = ()
     """Shapes that can't be shown, with reasons, in words."""
-    loops: tuple[Loop, ...] = ()
+    loops: tuple[LoopConstraint, ...] = ()
     height: float | None = None
     """The height of the root above the ground when the robot stands there at its start; None if its base is fixed."""
     noun: str = "robot"
     """The word for the whole scene."""
 
 
-class Triangles(msgspec.Struct, frozen=True):
+class PageMesh(msgspec.Struct, frozen=True):
     """The triangles of a mesh as a page shows them."""
 
     points: int
@@ -147,7 +147,7 @@ class Pictures(Protocol):
         """Return the poses that files beside a source define, as positions of hinges, and faults of the files."""
         ...
 
-    def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
+    def triangles(self, path: str, content: bytes, key: str, most: int) -> PageMesh | str:
         """Return about `most` triangles of a mesh without the model's scale, or a text that says why there are none.
 
         The mesh is the imported file at `path`, or, without a path, the file of the dependency `key`.

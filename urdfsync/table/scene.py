@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.domain import Import, Target
-from urdfsync.pages.scene import Body, Hinge, Pose, Scene, Shape, Triangles
+from urdfsync.pages.scene import Body, Hinge, PageMesh, Pose, Scene, Shape
 from urdfsync.table.model import FROM, TO, Options, Table, shown_unit
 from urdfsync.table.names import component_name
 
@@ -61,7 +61,7 @@ def named_poses(source: Path, table: Table) -> tuple[Mapping[str, Mapping[str, f
     return {}, ()
 
 
-def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:  # noqa: ARG001 - see `Pictures`
+def triangles(path: str, content: bytes, key: str, most: int) -> PageMesh | str:  # noqa: ARG001 - see `Pictures`
     """Return the reason why no mesh can be shown."""
     return "a table has no meshes"
 

@@ -53,10 +53,10 @@ def _mesh_name(key: str, file: Import, imports: Mapping[str, Import]) -> str:
     return f"{file.source_hash}{key.removeprefix(whole)}{' part' if is_split else ''}"
 
 
-def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.Loop:
+def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.LoopConstraint:
     ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
     parent, child = (End(f"link {link}", _matrix(poses.pose(origin))) for link, origin in ends)
-    return scenes.Loop(
+    return scenes.LoopConstraint(
         element=f"loop {loop.name}",
         component=tree.loop(loop.name).component,
         facts=tuple(_facts(loop)),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
-from urdfsync.pages.scene import Triangles
+from urdfsync.pages.scene import PageMesh
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.meshes.process import MeshError, MeshProcess, MeshRequest
 
@@ -47,7 +47,7 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
     return Conversion(content if lookup.as_is(mesh) and not is_split else whole, facts, more)
 
 
-def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
+def triangles(path: str, content: bytes, key: str, most: int) -> PageMesh | str:
     """Return about `most` triangles of a mesh without its scale, or the reason why the mesh can't be read.
 
     The mesh is the imported file at `path`, to which the scale in `key` is applied. Without a path, `content` is the
@@ -62,4 +62,4 @@ def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str
         ((packed, facts),) = _process.read(request, content)
     except MeshError as error:
         return str(error)
-    return Triangles(content=packed, **facts)
+    return PageMesh(content=packed, **facts)

@@ -15,7 +15,7 @@ import numpy as np
 
 from urdfsync.checks.experiment import Sample
 from urdfsync.diagnostics import SourceError
-from urdfsync.identification.results import JOINT_NUMBERS, Axis, Body, Loss
+from urdfsync.identification.results import JOINT_NUMBERS, Axis, Loss, MovingLink
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
 from urdfsync.urdf.parse import xml
@@ -91,7 +91,7 @@ class PinocchioRegressor:
         self.axes = tuple(_axes(assembly, joints, gears))
         model, pin = self.reference.model, self.reference.pin
         self._rows = {name: row for name, row in self.reference.coordinates().items() if row >= 6}
-        bodies, self._columns = list[Body](), list[tuple[int, Array]]()
+        bodies, self._columns = list[MovingLink](), list[tuple[int, Array]]()
         for link in tree.links:
             frame = model.frames[model.getFrameId(link.name, pin.BODY)]
             if frame.parentJoint < 2 or link.inertial is None:  # the base rests, and a frame has no body
@@ -99,7 +99,7 @@ class PinocchioRegressor:
             inertial = link.inertial
             numbers = inertial.mass, *inertial.origin.xyz, *(getattr(inertial.inertia, name) for name in _TENSOR)
             rotation = np.array(pin.rpy.rpyToMatrix(*inertial.origin.rpy))
-            bodies.append(Body(link.name, np.array(numbers), rotation, frame.placement.translation.any() == 0))
+            bodies.append(MovingLink(link.name, np.array(numbers), rotation, frame.placement.translation.any() == 0))
             self._columns.append((frame.parentJoint - 1, _moved(pin, frame.placement)))
         self.bodies = tuple(bodies)
         self.losses: tuple[Loss, ...] = tuple(
