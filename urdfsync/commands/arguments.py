@@ -37,7 +37,7 @@ class UsageError(UrdfsyncError):
         self.usage = parser.format_usage()
 
 
-class Parser(argparse.ArgumentParser):
+class CommandParser(argparse.ArgumentParser):
     """A parser that raises UsageError for bad arguments."""
 
     def __init__(self, **options: Any) -> None:
@@ -53,7 +53,7 @@ class Parser(argparse.ArgumentParser):
 
 
 Value = TypeVar("Value")
-Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
+Commands: TypeAlias = "argparse._SubParsersAction[CommandParser]"
 
 
 def count(text: str) -> int:
@@ -151,7 +151,9 @@ _SHARED: Mapping[str, dict[str, Any]] = {
 """Arguments and options that several commands take."""
 
 
-def add_command(commands: Commands, name: str, shared: str = "", *, formats: bool = False, **texts: Any) -> Parser:
+def add_command(
+    commands: Commands, name: str, shared: str = "", *, formats: bool = False, **texts: Any
+) -> CommandParser:
     """Add the parser of a command, with some of `_SHARED` and with the options that every command has.
 
     With `formats`, the command can write its result in each `Format`.
@@ -182,7 +184,7 @@ def add_dry_run(container: argparse._ActionsContainer) -> None:
     container.add_argument("-n", "--dry-run", action="store_true", help="show what would be done, write nothing")
 
 
-def add_tool(parser: Parser, titles: Mapping[str, str]) -> None:
+def add_tool(parser: CommandParser, titles: Mapping[str, str]) -> None:
     """Add the option `--tool`; `titles` has the compiler's name for each of its values."""
     *names, last = (name if name == title else f"{name} for {title}" for name, title in titles.items())
     which = f"the compiler: {', '.join(names)}, or {last}"

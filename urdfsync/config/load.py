@@ -85,7 +85,7 @@ def parse(text: str, file: Path, name: str) -> Config:
 
     Raises ConfigError with one diagnostic for each fault.
     """
-    reader = _Reader(text, name, file.parent)
+    reader = _ConfigReader(text, name, file.parent)
     reader.check_characters()
     robots = () if reader.problems else tuple(reader.robots())
     check, check_lines = reader.check()
@@ -139,7 +139,7 @@ class _Table(NamedTuple):
     lines: Mapping[str, int]
 
 
-class _Reader:
+class _ConfigReader:
     """One pass over a document; gathers `problems` instead of stopping at the first."""
 
     def __init__(self, text: str, file: str, root: Path) -> None:

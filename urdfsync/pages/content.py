@@ -24,7 +24,7 @@ from urdfsync.engine.stage import draw_model
 from urdfsync.engine.united import with_meanings
 from urdfsync.files import shown
 from urdfsync.output.outline import number_table, outline
-from urdfsync.output.sections import Section, Table
+from urdfsync.output.sections import Section, TextTable
 from urdfsync.pages.picture import Picture, picture
 from urdfsync.pages.scene import Body, Hinge, LoopConstraint, Scene
 from urdfsync.versions.comparison import Comparison, Contents, compare_sources
@@ -39,7 +39,7 @@ class Content(msgspec.Struct, frozen=True):
     """The version that is shown."""
     section: Section
     """The changes in words."""
-    numbers: Table
+    numbers: TextTable
     """Mass, reach, loads and other properties of both versions."""
     against: str
     """The older version, in words."""

@@ -38,7 +38,7 @@ def shown_unit(kind: str) -> str:
     return "" if kind in ("1", *TYPES) else kind
 
 
-class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class TableOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The options of one table."""
 
     key: str = ""

@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Companion, Reading
 from urdfsync.spelling import counted, name_and_unit, nearest
 from urdfsync.table import formats
-from urdfsync.table.model import FROM, NOTHING, TO, TYPES, Options, Sheet, Table, Value
+from urdfsync.table.model import FROM, NOTHING, TO, TYPES, Sheet, Table, TableOptions, Value
 from urdfsync.table.names import find_clashes
 from urdfsync.table.units import Unit, find_unit, is_same_kind
 
@@ -33,9 +33,9 @@ class _Column(NamedTuple):
     type: Unit | str
 
 
-def read(content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
+def read(content: bytes, file: str, options: TableOptions, *companions: Companion) -> Reading:
     """Read a source; see `Domain.read`."""
-    reader = _Reader(options)
+    reader = _TableReader(options)
     try:
         elements, connections = formats.read_sheets(content, file, *companions)
         table = reader.read(elements, connections)
@@ -46,10 +46,10 @@ def read(content: bytes, file: str, options: Options, *companions: Companion) ->
     return Reading(None if is_wrong else table, tuple(reader.findings), reader.lines, files, tuple(reader.of_options))
 
 
-class _Reader:
+class _TableReader:
     """Reads one source, and collects its findings."""
 
-    def __init__(self, options: Options) -> None:
+    def __init__(self, options: TableOptions) -> None:
         self.findings: list[Diagnostic] = []
         self.of_options: list[tuple[str, Diagnostic]] = []
         self.lines: dict[str, int] = {}

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from urdfsync.domain import Import, Target
 from urdfsync.pages.scene import Body, Hinge, PageMesh, Pose, Scene, Shape
-from urdfsync.table.model import FROM, TO, Options, Table, shown_unit
+from urdfsync.table.model import FROM, TO, Table, TableOptions, shown_unit
 from urdfsync.table.names import component_name
 
 _MOST = 500
@@ -26,7 +26,7 @@ def scene(
     table: Table,
     imports: Mapping[str, Import],  # noqa: ARG001 - a table refers to no files
     target: Target,
-    options: Options,
+    options: TableOptions,
 ) -> tuple[Scene, Mapping[str, str]]:
     """Return the picture of a table, which has no meshes."""
     places, root = _places(table), f"table {target.name}"
