@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Mapping, Sequence
-from types import ModuleType
 from typing import Any
 
 import msgspec
@@ -17,6 +15,7 @@ from urdfsync.domain import (
     ElementKey,
     Features,
     Import,
+    LazyModule,
     Order,
     Reading,
     Role,
@@ -27,17 +26,6 @@ from urdfsync.table.model import FROM, TO, Table, TableOptions, Value, shown_uni
 from urdfsync.table.names import column_name, component_name
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
-
-
-class _Module:
-    """A module that few commands need. The first use loads it."""
-
-    def __init__(self, name: str) -> None:
-        self._name = f"urdfsync.table.{name}"
-
-    def __get__(self, domain: TableDomain, owner: type[TableDomain]) -> ModuleType:
-        """Return the module."""
-        return importlib.import_module(self._name)
 
 
 class _Columns:
@@ -71,7 +59,9 @@ class TableDomain(Domain):
     options = TableOptions
     companions = (CompanionKind("connections", ".connections.csv"),)
     parts = _Columns()
-    advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
+    advice = LazyModule("urdfsync.table.starter")
+    simulation = LazyModule("urdfsync.table.benches")
+    pictures = LazyModule("urdfsync.table.scene")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:
         """Return templates for a table. The user edits these templates."""
