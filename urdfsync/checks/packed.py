@@ -59,7 +59,7 @@ class ClassText(msgspec.Struct, frozen=True, array_like=True):
     """The names in the text, a line for each."""
 
 
-Library: TypeAlias = Sequence[ClassText]
+LibraryTexts: TypeAlias = Sequence[ClassText]
 """The texts of all classes of a library, in the order of its text."""
 
 
@@ -78,7 +78,7 @@ def names_in(text: str) -> frozenset[str]:
     return frozenset(filter(None, _WORD.findall(text)))
 
 
-def packed(libraries: Mapping[str, Library], named: Iterable[str]) -> dict[str, str]:
+def packed(libraries: Mapping[str, LibraryTexts], named: Iterable[str]) -> dict[str, str]:
     """Return the text of each library, with the classes that are reached from the words `named`."""
     names, inside = dict[str, list[str]](), dict[str, set[str]]()
     for class_text in itertools.chain.from_iterable(libraries.values()):
@@ -98,7 +98,7 @@ def packed(libraries: Mapping[str, Library], named: Iterable[str]) -> dict[str, 
     return {name: "".join(_kept(library, found)) for name, library in libraries.items()}
 
 
-def _kept(library: Library, found: Container[str]) -> Iterator[str]:
+def _kept(library: LibraryTexts, found: Container[str]) -> Iterator[str]:
     """Yield the texts of the classes `found`, and empty lines for others: the lines of a file keep their numbers."""
     has_begun = False
     for class_text in library:

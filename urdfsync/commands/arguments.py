@@ -52,7 +52,7 @@ class CommandParser(argparse.ArgumentParser):
         return [name for action in self._actions for name in action.option_strings]
 
 
-Value = TypeVar("Value")
+Returned = TypeVar("Returned")
 Commands: TypeAlias = "argparse._SubParsersAction[CommandParser]"
 
 
@@ -221,8 +221,12 @@ def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, Ro
 
 
 def call(
-    function: Callable[..., Value], kind: type[msgspec.Struct], args: argparse.Namespace, console: Console, **given: Any
-) -> Value:
+    function: Callable[..., Returned],
+    kind: type[msgspec.Struct],
+    args: argparse.Namespace,
+    console: Console,
+    **given: Any,
+) -> Returned:
     """Warn of settings without effect, then call a function of the API for the chosen robots.
 
     The fields of `kind` are set by arguments of the same names, or by `given`.
@@ -232,7 +236,7 @@ def call(
         robots = select_robots(args, loaded, console)
     given = {"progress": console.progress, **chosen(kind, args), **given, "config": loaded}
     if not robots:  # an empty share; the API takes no names for all robots
-        return cast("Value", [])
+        return cast("Returned", [])
     value = function(*(robot.name for robot in robots), **given)
     if kind is BuildOptions and robots == loaded.robots and not console.has_warned:
         remember_configuration(loaded, reads)

@@ -27,7 +27,7 @@ from urdfsync.config.settings import (
     OWN_KEYS,
     STATE_FOLDER,
     CheckConfig,
-    Compiler,
+    CompilerName,
     Config,
     Keys,
     RobotConfig,
@@ -190,7 +190,7 @@ class _ConfigReader:
         table = self._table("`[check]`", self._subtable("check"), "check")
         self._refuse_unknown(table, _names_of(CheckConfig))
         keys: CheckConfig = self._read(table, CheckConfig) or CheckConfig()
-        for compiler in get_args(Compiler):
+        for compiler in get_args(CompilerName):
             program = keys.program(compiler)
             if Path(program).name != program:  # a bare name is looked for on the PATH
                 keys = msgspec.structs.replace(keys, **{compiler: str(self._absolute(Path(program)))})

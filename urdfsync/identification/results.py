@@ -132,7 +132,7 @@ class Unexcited(msgspec.Struct, frozen=True):
     paths: tuple[str, ...]
 
 
-class Series(NamedTuple):
+class EffortSeries(NamedTuple):
     """Samples for a plot: times in s, and for each joint its measured effort, that of the model, and after the fit."""
 
     times: Array
@@ -179,7 +179,7 @@ class Identification(msgspec.Struct, frozen=True):
     """The written files, by their options."""
     diagnostics: tuple[Diagnostic, ...] = ()
     series: Any = None
-    """`Series` for a plot."""
+    """`EffortSeries` for a plot."""
 
 
 class Excitation(msgspec.Struct, frozen=True):

@@ -21,13 +21,13 @@ from urdfsync.identification.results import (
     NUMBERS,
     QUANTITIES,
     Array,
+    EffortSeries,
     Excitation,
     FittedNumber,
     Identification,
     IdentifyOptions,
     MovingLink,
     Regressor,
-    Series,
     Unexcited,
 )
 from urdfsync.spelling import nearest
@@ -131,12 +131,12 @@ class Measured:
                 rows.append(JointFit(f"joint {axis.name}", unit, whole, before, after, offset, count))
         return tuple(rows)
 
-    def series(self, target: Array, delta: Array) -> Series:
+    def series(self, target: Array, delta: Array) -> EffortSeries:
         """Return the stored samples."""
         times, rows, is_free = (np.concatenate(parts) for parts in zip(*self._stored, strict=True))
         count = len(delta)
         measured, model = rows[:, :, count:-1] @ target[:-1], rows[:, :, -1]
-        return Series(times, measured, model, model + rows[:, :, :count] @ delta, is_free)
+        return EffortSeries(times, measured, model, model + rows[:, :, :count] @ delta, is_free)
 
     def doubts(self, options: IdentifyOptions) -> Iterator[Diagnostic]:
         """Yield a warning for what was asked for and is not in the log."""

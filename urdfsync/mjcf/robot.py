@@ -15,7 +15,7 @@ import numpy as np
 from urdfsync.mjcf.drives import Drives
 from urdfsync.mjcf.scene import MujocoScene
 from urdfsync.mjcf.shapes import add_friction, add_shapes
-from urdfsync.mjcf.turns import Vector, rpy, turned
+from urdfsync.mjcf.turns import Array, rpy, turned
 from urdfsync.translation.writer import UrdfElement, free_name, rounded
 
 _TYPES = {
@@ -38,7 +38,7 @@ class Links:
         self.offsets = {body: self._offset(body) for body in scene.bodies}
         """Origin of each link in the frame of its body."""
 
-    def _anchors(self, body: int) -> Iterator[Vector]:
+    def _anchors(self, body: int) -> Iterator[Array]:
         """Yield the origin of each joint of a body. A sliding joint acts the same at any origin."""
         model, anchor = self.scene.model, np.zeros(3)
         for joint in self.scene.joints_of(body):
@@ -46,7 +46,7 @@ class Links:
                 anchor = np.array(model.jnt_pos[joint])
             yield anchor
 
-    def _offset(self, body: int) -> Vector:
+    def _offset(self, body: int) -> Array:
         return [np.zeros(3), *self._anchors(body)][-1]
 
     def place(self, body: int, position: Any) -> tuple[float, ...]:

@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from urdfsync.mjcf.scene import MujocoScene
-from urdfsync.mjcf.turns import Vector, inverse, product, rpy, turned
+from urdfsync.mjcf.turns import Array, inverse, product, rpy, turned
 from urdfsync.translation.writer import UrdfElement, rounded
 
 _SHOWN = 2
@@ -34,11 +34,11 @@ _KINDS = {
 class _Shape(NamedTuple):
     tag: str
     attributes: dict[str, Any]
-    position: Vector
-    quaternion: Vector
+    position: Array
+    quaternion: Array
 
 
-def add_shapes(link: UrdfElement, scene: MujocoScene, body: int, offset: Vector) -> None:
+def add_shapes(link: UrdfElement, scene: MujocoScene, body: int, offset: Array) -> None:
     """Add the shapes of a body; `offset` is the origin of the link in the frame of the body."""
     model, first = scene.model, scene.model.body_geomadr[body]
     shapes = {number: _shape(scene, number) for number in range(first, first + model.body_geomnum[body])}

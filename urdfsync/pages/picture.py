@@ -18,7 +18,7 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.files import digest, shown
 from urdfsync.pages.scene import PageMesh, Pictures, Scene
-from urdfsync.versions.comparison import Contents
+from urdfsync.versions.comparison import VersionContents
 
 _MOST, _LEAST = 500_000, 200
 """The greatest number of triangles of a page, and the least share of one mesh. A triangle takes some 13 bytes."""
@@ -51,7 +51,7 @@ class _MeshFile(NamedTuple):
     is_source: bool = False
 
 
-def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> Picture:
+def picture(inputs: Inputs, generation: Generation, older: VersionContents | None) -> Picture:
     """Return the picture of a robot, beside an older version. Raises UrdfsyncError for a domain without pictures."""
     robot, imported = inputs.robot, generation.imported
     pictures = inputs.domain.pictures

@@ -10,9 +10,9 @@ import msgspec
 
 from urdfsync.domain import Import, Snapshot, Target
 
-Pose: TypeAlias = tuple[float, ...]
+PagePose: TypeAlias = tuple[float, ...]
 """16 numbers of a homogeneous matrix, column after column, as WebGL has them."""
-Facts: TypeAlias = Sequence[tuple[str, str]]
+Properties: TypeAlias = Sequence[tuple[str, str]]
 """Properties of an element in words, for people."""
 
 
@@ -25,7 +25,7 @@ class Shape(msgspec.Struct, frozen=True):
     """`box`, `cylinder`, `capsule`, `sphere`, `ellipsoid` or `mesh`; cylinders and capsules stand along z."""
     size: tuple[float, ...]
     """Edges of a box; half axes of an ellipsoid; radius, and perhaps length without half spheres, of other shapes."""
-    pose: Pose
+    pose: PagePose
     """In the frame of the body."""
     color: tuple[float, ...]
     """Red, green, blue and opacity, from 0 to 1."""
@@ -40,10 +40,10 @@ class Body(msgspec.Struct, frozen=True):
     """The element in the domain's words: `link hand`."""
     component: str
     """The body's name in the diagram."""
-    facts: Facts
+    facts: Properties
     shapes: tuple[Shape, ...] = ()
     mass: float = 0.0
-    center: Pose | None = None
+    center: PagePose | None = None
     """The frame of the body's inertia, in the centre of mass; None for a body without mass."""
     inertia: tuple[float, ...] = ()
     """The moments and products xx, xy, xz, yy, yz and zz in this frame."""
@@ -55,10 +55,10 @@ class Hinge(msgspec.Struct, frozen=True):
     element: str
     """Empty if the connection is only a place in the picture."""
     component: str
-    facts: Facts
+    facts: Properties
     parent: str
     child: str
-    pose: Pose
+    pose: PagePose
     """The pose of the axis's frame in the parent's frame, at position 0."""
     axis: tuple[float, ...]
     motion: str = ""
@@ -81,7 +81,7 @@ class End(msgspec.Struct, frozen=True):
     """A frame on a body."""
 
     body: str
-    pose: Pose
+    pose: PagePose
 
 
 class LoopConstraint(msgspec.Struct, frozen=True):
@@ -92,7 +92,7 @@ class LoopConstraint(msgspec.Struct, frozen=True):
 
     element: str
     component: str
-    facts: Facts
+    facts: Properties
     ends: tuple[End, End]
     translations: tuple[tuple[float, ...], ...]
     """Directions along which both ends have the same position."""

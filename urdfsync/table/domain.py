@@ -22,7 +22,7 @@ from urdfsync.domain import (
     Target,
 )
 from urdfsync.modelica.literals import capitalize_first
-from urdfsync.table.model import FROM, TO, Table, TableOptions, Value, shown_unit
+from urdfsync.table.model import FROM, TO, CellValue, Table, TableOptions, shown_unit
 from urdfsync.table.names import column_name, component_name
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
@@ -159,7 +159,7 @@ _SHEETS = {"column": ("columns", "elements"), "connection column": ("connection_
 _FOLDERS = (("Records", Role.RECORD, "record"), ("Models", Role.MODEL, "model"))
 
 
-def _without(cells: Mapping[str, Value], column: str) -> dict[str, Value]:
+def _without(cells: Mapping[str, CellValue], column: str) -> dict[str, CellValue]:
     return {name: cell for name, cell in cells.items() if name != column}
 
 
@@ -167,7 +167,7 @@ def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
     return Artifact(f"{folder}package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
 
 
-def _element(key: str, row: Mapping[str, Value], units: Mapping[str, str], options: TableOptions) -> dict[str, Any]:
+def _element(key: str, row: Mapping[str, CellValue], units: Mapping[str, str], options: TableOptions) -> dict[str, Any]:
     """Return an element for templates; its row has no empty cells."""
     component = component_name(key)
     names = {"name": key, "class": capitalize_first(component), "component": component}

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.domain import Import, Target
-from urdfsync.pages.scene import Body, Hinge, PageMesh, Pose, Scene, Shape
+from urdfsync.pages.scene import Body, Hinge, PageMesh, PagePose, Scene, Shape
 from urdfsync.table.model import FROM, TO, Table, TableOptions, shown_unit
 from urdfsync.table.names import component_name
 
@@ -94,6 +94,6 @@ def _places(table: Table) -> dict[str, tuple[float, float]]:
     return {key: places[key] for key in sorted(places)[:_MOST]}
 
 
-def _pose(x: float = 0.0, y: float = 0.0, angle: float = 0.0) -> Pose:
+def _pose(x: float = 0.0, y: float = 0.0, angle: float = 0.0) -> PagePose:
     cos, sin = math.cos(angle), math.sin(angle)
     return (cos, sin, 0.0, 0.0, -sin, cos, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x, y, _BOX[2] / 2, 1.0)

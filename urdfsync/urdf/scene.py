@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.domain import Import, Target
 from urdfsync.pages import scene as scenes
-from urdfsync.pages.scene import Body, End, Hinge, Pose, Scene, Shape
+from urdfsync.pages.scene import Body, End, Hinge, PagePose, Scene, Shape
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics import poses
 from urdfsync.urdf.kinematics.loops import ClosedLoops, Closure
@@ -133,7 +133,7 @@ def _hinge(closed: ClosedLoops, joint: Joint, start: float) -> Hinge:
     )
 
 
-def _matrix(pose: poses.Pose) -> Pose:
+def _matrix(pose: poses.Pose) -> PagePose:
     """Return a pose as a homogeneous matrix, column after column."""
     rotation, translation = pose
     columns = [(*(row[column] for row in rotation), 0.0) for column in range(3)]

@@ -32,7 +32,7 @@ _LONGEST = 300
 _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
 
-Facts: TypeAlias = dict[str, Any]
+MeshFacts: TypeAlias = dict[str, Any]
 """Facts of a shape by name: see `convert`."""
 
 
@@ -72,7 +72,7 @@ class MeshAnswer(msgspec.Struct, frozen=True):
     """A line from the process; the bytes of each file follow."""
 
     sizes: tuple[int, ...] = ()
-    facts: tuple[Facts, ...] = ()
+    facts: tuple[MeshFacts, ...] = ()
     problem: str = ""
     """The reason why the file can't be used; empty for a usable file."""
     hint: str = ""
@@ -98,7 +98,7 @@ class MeshProcess:
 
     def read(
         self, request: MeshRequest, content: bytes, others: Mapping[str, bytes] | None = None
-    ) -> list[tuple[bytes, Facts]]:
+    ) -> list[tuple[bytes, MeshFacts]]:
         """Return the imported files of a mesh, with their facts.
 
         Raises MeshError, or OSError if the process can't start.
