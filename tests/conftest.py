@@ -135,20 +135,20 @@ def modelica_library() -> Iterator[Path]:
     """
     from urdfsync.checks import libraries
     from urdfsync.checks.cache import UserCache
-    from urdfsync.checks.packed import Library
+    from urdfsync.checks.packed import LibraryTexts
     from urdfsync.modelica.stored import parse_file
 
     try:
         folder = find_standard_library()["Modelica"].parent
     except UrdfsyncError:
         pytest.skip(NO_LIBRARY)
-    known, take_apart, parts = functools.cache(content_hash), libraries._pieces, dict[Path, Library]()
+    known, take_apart, parts = functools.cache(content_hash), libraries._class_texts, dict[Path, LibraryTexts]()
 
     def hash_once(root: Path, without: Collection[str] = ()) -> str:
         is_fixed = root.is_relative_to(folder) or root.is_relative_to(sys.prefix)
         return known(root, tuple(without)) if is_fixed else content_hash(root, without)
 
-    def take_apart_once(name: str, path: Path, cache: UserCache) -> Library:
+    def take_apart_once(name: str, path: Path, cache: UserCache) -> LibraryTexts:
         if not path.is_relative_to(folder):
             return take_apart(name, path, cache)
         if path not in parts:
@@ -156,7 +156,7 @@ def modelica_library() -> Iterator[Path]:
         return parts[path]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(libraries, "_pieces", take_apart_once)
+        patch.setattr(libraries, "_class_texts", take_apart_once)
         patch.setattr("urdfsync.checks.names.parse_file", functools.cache(parse_file))
         for module in ("contents", "libraries"):
             patch.setattr(f"urdfsync.checks.{module}.content_hash", hash_once)

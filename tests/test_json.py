@@ -41,7 +41,7 @@ from urdfsync.simulation.cases import Cases
 from urdfsync.simulation.export import Exported
 from urdfsync.simulation.fmu import FmuTrial
 from urdfsync.simulation.models import Input
-from urdfsync.simulation.outcomes import Extent, JointName, JointOutcome, Outcome, Study
+from urdfsync.simulation.outcomes import CaseRange, JointName, JointOutcome, Outcome, Study
 from urdfsync.simulation.results import SimulateResult
 from urdfsync.watch import events
 from urdfsync.watch.report import event_values, show_json
@@ -359,7 +359,7 @@ def test_identify(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatc
 
 def varied() -> Study:
     """A model in two cases, of which one failed."""
-    joint = JointOutcome((None, None, Extent(0.0, 8.0, -20.0, 20.0), None), None, None, ())
+    joint = JointOutcome((None, None, CaseRange(0.0, 8.0, -20.0, 20.0), None), None, None, ())
     outcome = Outcome((JointName("joint hold", "robot", ("", "", "N·m", "")),), (joint,))
     cases, failed = Cases(("mass",), [(1.0,), (2.0,)]), Outcome(problem="the simulation stops at 1 s")
     return Study("arm", "Arm.ArmTest", 10.0, 0.02, 1e-6, cases, [outcome, failed], 12.5, 0, "urdfsync simulate arm")

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from urdfsync.engine.edits import RobotEdits
     from urdfsync.identification.report import IdentificationDisplay
     from urdfsync.identification.results import Excitation
-    from urdfsync.simulation.report import Simulation, StudyDisplay
+    from urdfsync.simulation.report import SimulationDisplay, StudyDisplay
     from urdfsync.versions.comparison import Comparison
 
 R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
@@ -226,7 +226,7 @@ def simulate(
     trusted: bool = False,
     progress: Progress = no_progress,
     **given: Any,
-) -> Simulation:
+) -> SimulationDisplay:
     """Simulate a robot, as `urdfsync simulate` does. Without `robots`, the configuration must have only one robot.
 
     `given` are fields of `SimulateOptions`, such as `model` and `stop` (s). The result has `series` (times in s, and
@@ -236,7 +236,7 @@ def simulate(
     from urdfsync.checks import compilers
     from urdfsync.simulation import run
     from urdfsync.simulation.files import check_outputs, input_files, write_outputs
-    from urdfsync.simulation.report import Simulation
+    from urdfsync.simulation.report import SimulationDisplay
     from urdfsync.simulation.results import SimulateOptions
 
     loaded, files = load(config), files or {}
@@ -251,7 +251,7 @@ def simulate(
     else:
         result = run.simulate(loaded, robot, options, progress)
     write_outputs(files, result)
-    return Simulation(**msgspec.structs.asdict(result) | {"files": files})
+    return SimulationDisplay(**msgspec.structs.asdict(result) | {"files": files})
 
 
 def vary(

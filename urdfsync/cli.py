@@ -121,20 +121,20 @@ def _terminated_as_interrupted() -> Iterator[None]:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
-class _ProgramParser(arguments.Parser):
+class _ProgramParser(arguments.CommandParser):
     """The parser of the arguments before a command."""
 
     def format_help(self) -> str:
         return overview.help_text()
 
 
-def _parser(given: Sequence[str]) -> arguments.Parser:
+def _parser(given: Sequence[str]) -> arguments.CommandParser:
     """Return the parser of a command, if a command comes first; else the parser of all commands."""
     names = given[:1] if given and given[0] in _COMMANDS else _COMMANDS
     parser = _ProgramParser(prog="urdfsync")
     parser.add_argument("--version", action="version", version=overview.VERSION)
     commands = parser.add_subparsers(
-        title="commands", dest="command", metavar="COMMAND", required=True, parser_class=arguments.Parser
+        title="commands", dest="command", metavar="COMMAND", required=True, parser_class=arguments.CommandParser
     )
     for name in names:
         _module(name).add(commands)

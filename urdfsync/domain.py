@@ -8,9 +8,11 @@ plans and writes these files. This module depends on no domain and does no IO.
 from __future__ import annotations
 
 import enum
+import importlib
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import msgspec
@@ -259,6 +261,17 @@ class Target(msgspec.Struct, frozen=True):
     """Full name, for example `Plant.Robots.Arm`."""
     name: str
     """Class name of the main model, for example `Arm`."""
+
+
+class LazyModule:
+    """A module with an optional feature of a domain, as an attribute of the domain. The first use loads the module."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __get__(self, domain: object, owner: type) -> ModuleType:
+        """Return the module."""
+        return importlib.import_module(self._name)
 
 
 class Domain(Protocol):

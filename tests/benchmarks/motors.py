@@ -13,7 +13,7 @@ from urdfsync.config import templates_folder
 from urdfsync.domain import Artifact, Target
 from urdfsync.engine.render import Renderer
 from urdfsync.table.domain import DOMAIN
-from urdfsync.table.model import Options
+from urdfsync.table.model import TableOptions
 
 _HEADER = "name,torque [N.cm],inertia [g.cm2],poles [integer],maker"
 
@@ -42,8 +42,8 @@ class Motors:
 
     def render_and_write(self) -> Measurement:
         """Return a measurement of rendering all texts and writing each to a new file that is then renamed."""
-        reading = DOMAIN.read(self._file.read_bytes(), "motors.csv", Options())
-        found = DOMAIN.artifacts(reading.snapshot, {}, Target("Robot0", "Robot0"), Options())
+        reading = DOMAIN.read(self._file.read_bytes(), "motors.csv", TableOptions())
+        found = DOMAIN.artifacts(reading.snapshot, {}, Target("Robot0", "Robot0"), TableOptions())
         artifacts = [artifact for artifact in found if isinstance(artifact, Artifact)]
         renderer = Renderer([templates_folder(DOMAIN)], is_trusted=True)
 

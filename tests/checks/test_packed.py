@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync.checks.libraries import library_texts
-from urdfsync.checks.packed import names_in, original_place, packed, pieces
+from urdfsync.checks.packed import class_texts, names_in, original_place, packed
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import declared
 
@@ -45,7 +45,7 @@ def library(tmp_path: Path) -> Path:
 
 def whole(library: Path) -> str:
     """The text of a library with all classes."""
-    taken_apart = pieces("Lib", library_texts(library))
+    taken_apart = class_texts("Lib", library_texts(library))
     names = {name for piece in taken_apart for name in piece.owner.split(".")}
     return packed({"Lib": taken_apart}, names)["Lib"]
 
@@ -119,7 +119,7 @@ end Lib;
     }.items(),
 )
 def test_classes_are_kept_that_are_reached_by_names(named: str, kept: str) -> None:
-    text = packed({"Lib": pieces("Lib", {"Lib.mo": PACKAGE.encode()})}, names_in(named))["Lib"]
+    text = packed({"Lib": class_texts("Lib", {"Lib.mo": PACKAGE.encode()})}, names_in(named))["Lib"]
     stored = parse(text)
     assert not stored.faults
     found = {".".join(each.path[1:]).rpartition(".")[2] for each in declared(stored.classes)}
@@ -144,7 +144,7 @@ HEADS = {
 @pytest.mark.parametrize("head", HEADS.values(), ids=HEADS)
 def test_files_of_a_package_are_in_it_whatever_stands_around_its_name(head: str) -> None:
     texts = {"package.mo": f"{head}constant Real x = 1; end Lib;".encode(), "A.mo": b"within Lib; model A end A;"}
-    stored = parse(packed({"Lib": pieces("Lib", texts)}, ["A"])["Lib"])
+    stored = parse(packed({"Lib": class_texts("Lib", texts)}, ["A"])["Lib"])
     assert not stored.faults
     assert {".".join(each.path) for each in declared(stored.classes)} == {"Lib", "Lib.A", "Lib.x"}
 
@@ -156,13 +156,13 @@ def test_files_of_a_package_are_in_it_whatever_stands_around_its_name(head: str)
     "package Lib model extends R Real x; end R; end Lib;",
 ])  # fmt: skip
 def test_functions_that_are_called_without_their_names_are_kept(text: str) -> None:
-    kept = packed({"Lib": pieces("Lib", {"Lib.mo": text.encode()})}, ["R"])["Lib"]
+    kept = packed({"Lib": class_texts("Lib", {"Lib.mo": text.encode()})}, ["R"])["Lib"]
     assert kept.replace("// urdfsync: Lib.mo:1", "").split() == text.split()
 
 
 def test_a_comment_that_ends_with_a_bracket_opens_none() -> None:
     text = "package Lib model P Real x annotation(X=1, // (\n Y=2); end P; P Line(k=2); end Lib;"
-    assert "Line(k=2)" in packed({"Lib": pieces("Lib", {"Lib.mo": text.encode()})}, ["P"])["Lib"]
+    assert "Line(k=2)" in packed({"Lib": class_texts("Lib", {"Lib.mo": text.encode()})}, ["P"])["Lib"]
 
 
 def test_lines_behind_a_class_that_is_left_out_keep_their_file() -> None:
@@ -170,7 +170,7 @@ def test_lines_behind_a_class_that_is_left_out_keep_their_file() -> None:
         "package.mo": b"package Lib\n  model X\n  end X;\n  constant Real y = 1;\nend Lib;",
         "A.mo": b"model A end A;",
     }
-    lines = packed({"Lib": pieces("Lib", texts)}, ["A"])["Lib"].split("\n")
+    lines = packed({"Lib": class_texts("Lib", texts)}, ["A"])["Lib"].split("\n")
     (line,) = [number for number, each in enumerate(lines, 1) if "Real y" in each]
     assert original_place("\n".join(lines), line) == ("package.mo", 4)
 
@@ -179,5 +179,5 @@ def test_lines_behind_a_class_that_is_left_out_keep_their_file() -> None:
     "text", [b"", b"// nothing", b"within ;", b"package Foo end Foo;", b'package Lib "caf\xe9" end Lib;']
 )
 def test_a_damaged_library_is_left_to_the_compiler(text: bytes) -> None:
-    assert isinstance(packed({"Lib": pieces("Lib", {"Lib.mo": text})}, ["Foo"])["Lib"].encode(), bytes)
-    assert packed({"Lib": pieces("Lib", {})}, [])["Lib"] == ""
+    assert isinstance(packed({"Lib": class_texts("Lib", {"Lib.mo": text})}, ["Foo"])["Lib"].encode(), bytes)
+    assert packed({"Lib": class_texts("Lib", {})}, [])["Lib"] == ""

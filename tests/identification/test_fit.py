@@ -19,9 +19,11 @@ from urdfsync.identification.fit import (
     pseudo_inertia,
     pseudo_inertia_slopes,
 )
-from urdfsync.identification.results import Body, IdentifyOptions
+from urdfsync.identification.results import IdentifyOptions, MovingLink
 
-BOX = Body("box", np.array([2.0, 0.1, -0.2, 0.3, 0.02, 0.03, 0.04, 0.001, -0.002, 0.003]), np.eye(3), is_first=True)
+BOX = MovingLink(
+    "box", np.array([2.0, 0.1, -0.2, 0.3, 0.02, 0.03, 0.04, 0.001, -0.002, 0.003]), np.eye(3), is_first=True
+)
 OPTIONS = IdentifyOptions()
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from urdfsync.identification.log import Piece
+from urdfsync.identification.log import LogPiece
 from urdfsync.identification.results import Axis
 from urdfsync.identification.signals import find_cutoff, prepare, target_at, thinned
 
@@ -13,7 +13,7 @@ AXIS = Axis("elbow", "elbow", "rad", 0.0, (-9, 9), 9.0, np.inf, 1.0, "position",
 CUTOFF = 5.0
 
 
-def turning(jump: float) -> Piece:
+def turning(jump: float) -> LogPiece:
     """A joint of inertia 1 that swings at 0.4 Hz; at each turn, its effort jumps, and a controller evens that out."""
     times = np.arange(0, 20, 0.002)
     speed = np.cos(0.8 * np.pi * times)
@@ -23,7 +23,7 @@ def turning(jump: float) -> Piece:
     speed = np.cumsum(gain) * 0.002
     position = np.cumsum(speed - speed.mean()) * 0.002
     velocity, acceleration = np.gradient(position, times), np.gradient(np.gradient(position, times), times)
-    return Piece(times, position[:, None], velocity[:, None], acceleration[:, None])
+    return LogPiece(times, position[:, None], velocity[:, None], acceleration[:, None])
 
 
 @pytest.mark.parametrize("has_velocities", [True, False])
@@ -51,7 +51,10 @@ def test_the_cutoff_follows_from_the_pieces_that_move() -> None:
     """Neither noise at rest nor the length of a short piece is taken for a fast motion."""
     moving = turning(0.0)
     noise = 1e-4 * np.random.default_rng(0).standard_normal(moving.position.shape)
-    resting, short = moving._replace(position=noise), Piece(*(values[:600] for values in moving if values is not None))
+    resting, short = (
+        moving._replace(position=noise),
+        LogPiece(*(values[:600] for values in moving if values is not None)),
+    )
     alone = find_cutoff([moving], [AXIS], [0])
     assert alone < 10
     for pieces in ([resting, moving], [moving, resting], [short, moving]):

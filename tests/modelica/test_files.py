@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from urdfsync.modelica.classes import Node
+from urdfsync.modelica.classes import ClassNode
 from urdfsync.modelica.files import (
     TooManyFoldersError,
     class_of_file,
@@ -36,7 +36,7 @@ def test_a_file_in_a_wrong_place_hides_no_class_of_its_name(tmp_path: Path) -> N
     assert sources.unread == [Path("/nowhere/Part/Rotational.mo")]
     scopes = Scopes(sources)
     mine = scopes.node(("Mine",))
-    assert isinstance(mine, Node)
+    assert isinstance(mine, ClassNode)
     assert list(unresolved(mine, scopes)) == []
 
 

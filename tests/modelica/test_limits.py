@@ -18,7 +18,7 @@ from support.packages import generate, strict
 from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
-from urdfsync.simulation.bench import Axis, Signal
+from urdfsync.simulation.bench import JointSignals, Signal
 from urdfsync.simulation.joints import joint_results
 from urdfsync.urdf.benches import bench as bench_of
 
@@ -211,7 +211,7 @@ def test_later_passings_are_told_from_the_results(modelica_library: Path, tmp_pa
             assert [one.time for one in result.passed] == pytest.approx([time for *_, time in expected], abs=0.02)
 
 
-def signals(axis: Axis) -> list[Signal]:
+def signals(axis: JointSignals) -> list[Signal]:
     return [signal for signal in (axis.position, axis.velocity, axis.effort, axis.acceleration) if signal]
 
 

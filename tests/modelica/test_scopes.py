@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from support.plant import PLANT, USER, classes_in, library_classes, stored_below
 
-from urdfsync.modelica.classes import Node, Type
-from urdfsync.modelica.scopes import ANYTHING, INTERFACES, Element, Missing, Scopes
+from urdfsync.modelica.classes import ClassNode, Type
+from urdfsync.modelica.scopes import ANYTHING, INTERFACES, Missing, NamedElement, Scopes
 from urdfsync.modelica.stored import StoredClasses
 from urdfsync.modelica.syntax import Name
 
@@ -17,9 +17,9 @@ from urdfsync.modelica.syntax import Name
 def test_what_a_name_means() -> None:
     scopes = Scopes(classes_in(PLANT, USER))
     mine = scopes.node(("User", "MyTest"))
-    assert isinstance(mine, Node)
+    assert isinstance(mine, ClassNode)
     boom = scopes.lookup(Name(("crane", "boom"), 1), mine)
-    assert isinstance(boom, Element)
+    assert isinstance(boom, NamedElement)
     assert {str(one) for one in boom.types} == {"Plant.Links.Boom", "Plant.Parts.PartialPart", "User.Telescope"}
     assert isinstance(scopes.lookup(Name(("crane", "boom", "width"), 1), mine), Missing)
     assert scopes.lookup(Name(("Modelica", "Constants", "pi"), 1), mine) is ANYTHING
@@ -32,12 +32,12 @@ def test_every_use_in_a_generated_package_can_be_told() -> None:
     scopes, count, faults = Scopes(sources), 0, []
     for stored in stored_below(sources, ("UrdfSync", "Examples", "SixAxisArm")):
         node = scopes.node(stored)
-        assert isinstance(node, Node)
+        assert isinstance(node, ClassNode)
         for name in {one for one in node.definition.uses if not one.is_called and one.parts != ("time",)}:
             faults += [f"{name} is missing in {stored}"] if isinstance(scopes.lookup(name, node), Missing) else []
             for index, part in enumerate(name.parts):
                 parts = (*name.parts[:index], f"{part}q", *name.parts[index + 1 :])
-                if isinstance(scopes.lookup(name._replace(parts=parts), node), Element):
+                if isinstance(scopes.lookup(name._replace(parts=parts), node), NamedElement):
                     faults.append(f"{'.'.join(parts)} has a meaning in {stored}")
                 count += 1
     assert faults == []
@@ -62,7 +62,7 @@ def meaning(body: str, name: str, start: str = "model") -> list[str] | None:
     found = scopes.lookup(
         Name(tuple(name.strip(".").split(".")), 1, is_global=name[:1] == "."), scopes.node(("Own", "Mine"))
     )
-    return sorted(map(str, found.types)) if isinstance(found, Element) else None
+    return sorted(map(str, found.types)) if isinstance(found, NamedElement) else None
 
 
 BOOM = "Plant.Links.Boom"

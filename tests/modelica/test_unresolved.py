@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from support.plant import MARKED_PLANT, MARKED_USER, PLANT, USER, classes_in, library_classes, stored_below
 
-from urdfsync.modelica.classes import Node
+from urdfsync.modelica.classes import ClassNode
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.stored import StoredClasses
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
@@ -19,7 +19,7 @@ def found(*texts: str) -> list[Unresolved]:
     sources = classes_in(*texts)
     scopes = Scopes(sources)
     nodes = (scopes.node(name) for name in sources.users)
-    return [one for node in nodes if isinstance(node, Node) for one in unresolved(node, scopes)]
+    return [one for node in nodes if isinstance(node, ClassNode) for one in unresolved(node, scopes)]
 
 
 def told(body: str) -> list[str]:
@@ -119,7 +119,7 @@ def test_the_standard_library_is_no_misspelled_name() -> None:
     sources = StoredClasses("None", Path("None"), {}, library, lambda name: None)
     scopes = Scopes(sources)
     nodes = [scopes.node(name) for name in sources.users]
-    assert [one for node in nodes if isinstance(node, Node) for one in unresolved(node, scopes)] == []
+    assert [one for node in nodes if isinstance(node, ClassNode) for one in unresolved(node, scopes)] == []
 
 
 def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
@@ -168,7 +168,7 @@ def faults_in(top: str, *inside: str) -> list[str]:
     scopes, count, faults = Scopes(sources), 0, []
     for name in stored_below(sources, (top, *inside)):
         node = scopes.node(name)
-        if isinstance(node, Node):
+        if isinstance(node, ClassNode):
             count += 1
             faults += [f"{node.file}:{one.line}: {one.name}" for one in unresolved(node, scopes)]
     assert count > 100

@@ -13,7 +13,7 @@ from markdown_it import MarkdownIt
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.console import line
 from urdfsync.output.markdown import FOLDED, LONGEST, MOST_ROWS, document
-from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.output.sections import Mark, Section, TextTable
 
 RENDER = MarkdownIt("commonmark").enable(["table", "strikethrough"]).render
 HOSTILE = "a|`b`<script>alert(1)</script>\n# @octocat #12 __x__ *y* ~~z~~ [l](http://m.n) ![p](q) &amp; $m$ \\|"
@@ -21,7 +21,7 @@ FINE = Section("arm", "in step, 15 files", Mark.FINE)
 
 
 def section(*rows: tuple[str, ...], mark: Mark = Mark.OPEN, robot: str = "arm") -> Section:
-    return Section(robot, "1 file to write", mark, tables=[Table("Changes", ("Element", "Change"), rows)])
+    return Section(robot, "1 file to write", mark, tables=[TextTable("Changes", ("Element", "Change"), rows)])
 
 
 def cells(rendered: str) -> list[str]:
@@ -36,7 +36,7 @@ def cells(rendered: str) -> list[str]:
 @example("</td><br>")
 def test_quoted_text_shows_as_it_is(text: str) -> None:
     written = document(
-        [Section(text, text, Mark.OPEN, points=[line((text, ""))], tables=[Table("Changes", ("",), [(text,)])])]
+        [Section(text, text, Mark.OPEN, points=[line((text, ""))], tables=[TextTable("Changes", ("",), [(text,)])])]
     )
     rendered = RENDER(written)
     assert rendered == written  # no line of it is read as Markdown

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.output.sections import Mark, Section, Table, findings_table
+from urdfsync.output.sections import Mark, Section, TextTable, findings_table
 
 ERROR = Diagnostic(Severity.ERROR, "no-link", "there is no link", "arm.urdf", 3, hint="export it again")
 
@@ -17,7 +17,7 @@ def test_findings_have_their_place_and_the_worst_are_first() -> None:
 
 
 def test_one_line_is_enough_where_there_are_no_details() -> None:
-    empty = Table("Files", ("File",), [])
+    empty = TextTable("Files", ("File",), [])
     assert not Section("arm", "in step", Mark.FINE, tables=[empty]).has_details
-    assert Section("arm", "in step", Mark.FINE, tables=[empty, Table("Files", ("File",), [("a",)])]).has_details
+    assert Section("arm", "in step", Mark.FINE, tables=[empty, TextTable("Files", ("File",), [("a",)])]).has_details
     assert Section("arm", "in step", Mark.FINE, verdict=ERROR).has_details

@@ -14,7 +14,7 @@ from support.meshes import NODES, tenfold
 from support.pages import data_of, faces_of, read
 
 from urdfsync.engine.result import Exit
-from urdfsync.pages.scene import Triangles
+from urdfsync.pages.scene import PageMesh
 from urdfsync.urdf import scene
 
 Report = Callable[..., Path]
@@ -49,7 +49,7 @@ def test_large_meshes_share_what_small_ones_leave_and_the_page_has_one_line_abou
     assert re.search(r"2 meshes are coarser here than in the file: \S+ has [\d,]+ of its 20,480 tri", read(page).words)
     simplify = scene.triangles
 
-    def triangles(*arguments: Any) -> Triangles | str:
+    def triangles(*arguments: Any) -> PageMesh | str:
         made.append(arguments[-1])
         return simplify(*arguments)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from support.sdfs import FOLDER, SOURCE, arm, hinge, joint, link, model, problem, read, sdf, urdf
 
-from urdfsync.sdf.document import Document
+from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frames
 from urdfsync.translation.files import Files, TranslationError
 
@@ -55,7 +55,7 @@ def test_a_merged_include_has_its_names_in_the_model_around_it() -> None:
 
 def test_each_element_has_a_place() -> None:
     frames = Frames(
-        Document(
+        SdfDocument(
             SOURCE,
             files := Files(
                 {
@@ -81,7 +81,7 @@ def test_comments_are_those_of_gazebos_parser() -> None:
 def test_a_missing_file_is_recorded() -> None:
     files = Files({SOURCE: including("<uri>hand.sdf</uri>").encode()}, [FOLDER])
     with pytest.raises(TranslationError):
-        Frames(Document(SOURCE, files))
+        Frames(SdfDocument(SOURCE, files))
     assert files.hashes[f"{FOLDER}/hand.sdf"] is None
 
 

@@ -7,17 +7,17 @@ import re
 
 import pytest
 
-from urdfsync.simulation.bench import Axis, Bench, LoopSignals, Signal
+from urdfsync.simulation.bench import Bench, JointSignals, LoopSignals, Signal
 from urdfsync.simulation.joints import joint_results, loop_results, pattern, robots
 from urdfsync.simulation.results import LoopResult, PassedLimit, Range
 
-ELBOW = Axis(
+ELBOW = JointSignals(
     "joint elbow",
     Signal("elbow.phi", "rad", ("elbow.lower", "elbow.upper")),
     Signal("elbow.w", "rad/s", ("elbow.fastest",)),
     Signal("elbowAxis.tau", "N·m", ("elbow.strongest",), (("elbow.ratio", "elbowMotor.tau"),)),
 )
-WRIST = Axis("joint wrist", Signal("wrist.phi", "rad"), Signal("wrist.w", "rad/s"))
+WRIST = JointSignals("joint wrist", Signal("wrist.phi", "rad"), Signal("wrist.w", "rad/s"))
 PIN = LoopSignals("loop pin", "pin.gap", *(tuple(f"pin.{name}[{i}]" for i in (1, 2, 3)) for name in ("f", "t")))
 TIMES = (0.0, 1.0, 2.0, 3.0)
 
@@ -63,7 +63,7 @@ def test_infinite_limits_are_none() -> None:
 
 def test_a_body_with_angles_is_no_numbered_robot() -> None:
     """`Body` of the standard library has `phi[1]`, but not the other variables of the generic robot."""
-    numbered = [Axis(ELBOW.element, Signal("phi[1]", "rad"), Signal("w_phi[1]", "rad/s"))]
+    numbered = [JointSignals(ELBOW.element, Signal("phi[1]", "rad"), Signal("w_phi[1]", "rad/s"))]
     names = "time robot.elbow.phi robot.elbow.w robot.base.body.phi[1] robot.base.body.w_a[1]".split()
     assert robots([[ELBOW], numbered], dict.fromkeys(names, (0.0,))) == [("robot", [ELBOW])]
 
@@ -112,7 +112,7 @@ def test_loops_tell_their_greatest_gap_and_the_sizes_of_force_and_torque() -> No
 
 def test_a_robot_of_numbered_axes_is_found_as_well_and_no_vector_of_a_controller() -> None:
     numbered = [
-        Axis(axis.element, Signal(f"phi[{i}]", "rad"), Signal(f"w[{i}]", "rad/s"))
+        JointSignals(axis.element, Signal(f"phi[{i}]", "rad"), Signal(f"w[{i}]", "rad/s"))
         for i, axis in enumerate((ELBOW, WRIST), 1)
     ]
     one = dict.fromkeys(("time", "robot.phi[1]", "robot.phi[2]", "controller.phi[1]"), (0.0,))

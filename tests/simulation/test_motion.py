@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from urdfsync.diagnostics import SourceError
 from urdfsync.files import shown
 from urdfsync.simulation.models import Input
-from urdfsync.simulation.motion import MOST_ROWS, Motion, find_overshoots, read_motion, second_derivatives
+from urdfsync.simulation.motion import MOST_ROWS, InputMotion, find_overshoots, read_motion, second_derivatives
 
 INPUTS = [Input("elbow_phi", "rad"), Input("slide_s", "m"), Input("speeds[2]", "rad/s"), Input("wrist_tau", "N.m")]
 HEADER = "time,elbow_phi,slide_s,speeds[2],wrist_tau"
@@ -129,10 +129,10 @@ def test_few_points_make_a_line_and_a_parabola() -> None:
 def test_a_spline_that_leaves_its_rows_is_told_with_its_number() -> None:
     """Rows at uneven times: the joint shall turn to 90° and stay, and the spline goes far beyond."""
     turn = (0.0, 0.0, math.pi / 2, math.pi / 2)
-    uneven = Motion((0.0, 2.0, 2.2, 4.0), ((INPUTS[0], turn), (INPUTS[3], turn)))
+    uneven = InputMotion((0.0, 2.0, 2.2, 4.0), ((INPUTS[0], turn), (INPUTS[3], turn)))
     (found,) = find_overshoots(uneven, Path("m.csv"))
     assert found.message == "`elbow_phi` reaches -5.963 rad (-341.7°) at 0.8498 s, and the rows around have 0 and 0"
     times = tuple(number / 8 for number in range(17))
     sine = tuple(math.sin(2 * math.pi * time) for time in times)
-    assert not list(find_overshoots(Motion(times, ((INPUTS[0], sine),)), Path("m.csv")))
-    assert not list(find_overshoots(Motion((0.0, 1.0), ((INPUTS[0], turn[1:3]),)), Path("m.csv")))
+    assert not list(find_overshoots(InputMotion(times, ((INPUTS[0], sine),)), Path("m.csv")))
+    assert not list(find_overshoots(InputMotion((0.0, 1.0), ((INPUTS[0], turn[1:3]),)), Path("m.csv")))

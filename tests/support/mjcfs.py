@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from urdfsync.diagnostics import Severity
-from urdfsync.mjcf.document import Document, read_document
+from urdfsync.mjcf.document import MjcfDocument, read_document
 from urdfsync.mjcf.urdf import translated
 from urdfsync.translation.files import Files, TranslationError
 from urdfsync.urdf.options import Options
@@ -58,7 +58,7 @@ def body(inside: str, outside: str = "") -> str:
     return world(f'<body name="part">{inertial}{inside}</body>', outside)
 
 
-def document(text: str, files: Mapping[str, str | bytes] | None = None) -> Document:
+def document(text: str, files: Mapping[str, str | bytes] | None = None) -> MjcfDocument:
     """Read an MJCF; `files` stand in its folder."""
     contents = {
         SOURCE: text,

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import pytest
 
 from urdfsync.diagnostics import Severity
-from urdfsync.sdf.document import Document
+from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frames
 from urdfsync.sdf.robot import translated
 from urdfsync.sdf.worker import choose_model
@@ -80,11 +80,11 @@ def arm(link: str = "", joint: str = "<axis/>", more: str = "", version: str = "
     return model(links + joints + more, version)
 
 
-def urdf(text: str, files: Mapping[str, str] | None = None, robot: str = "") -> tuple[str, Document]:
+def urdf(text: str, files: Mapping[str, str] | None = None, robot: str = "") -> tuple[str, SdfDocument]:
     """Return the URDF of an SDF; `files` stand in its folder."""
     contents = {SOURCE: text.encode()}
     contents |= {os.path.normpath(f"{FOLDER}/{name}"): inside.encode() for name, inside in (files or {}).items()}
-    frames = Frames(document := Document(SOURCE, Files(contents, [FOLDER])))
+    frames = Frames(document := SdfDocument(SOURCE, Files(contents, [FOLDER])))
     return write(translated(frames, choose_model(frames, robot)))[0], document
 
 

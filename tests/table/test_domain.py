@@ -13,7 +13,7 @@ from support.networks import edit
 from urdfsync.domain import Companion, Target
 from urdfsync.engine.result import Exit
 from urdfsync.table.domain import DOMAIN
-from urdfsync.table.model import Options, Table
+from urdfsync.table.model import Table, TableOptions
 
 MOTORS = "name,torque [N.cm],inertia [g.cm2],maker\nMX-64,600,12.5,Robotis\nXM 430,410,3,\n"
 MODEL = """\
@@ -185,7 +185,7 @@ def test_templates_are_needed_for_each_kind(project: Path, execute: Execute) -> 
 
 
 def test_the_record_of_a_domain_without_templates_has_all_columns() -> None:
-    table = DOMAIN.read(MOTORS.encode(), "motors.csv", Options()).snapshot
+    table = DOMAIN.read(MOTORS.encode(), "motors.csv", TableOptions()).snapshot
     assert isinstance(table, Table)
     assert DOMAIN.unit(table, ["elements", "MX-64", "inertia"]) == "kg.m2"
     assert DOMAIN.unit(table, ["elements", "MX-64", "maker"]) == ""
@@ -214,8 +214,8 @@ def test_the_page_shows_elements_and_connections(project: Path, execute: Execute
     Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\n")
     name_connections()
     links = Companion("connections", "links.csv", b"from,to\nMX-64,XM 430\n")
-    table = DOMAIN.read(MOTORS.encode(), "motors.csv", Options(), links).snapshot
-    picture, meshes = DOMAIN.pictures.scene(table, {}, Target("Motors", "Motors"), Options())
+    table = DOMAIN.read(MOTORS.encode(), "motors.csv", TableOptions(), links).snapshot
+    picture, meshes = DOMAIN.pictures.scene(table, {}, Target("Motors", "Motors"), TableOptions())
     assert [body.element for body in picture.bodies] == ["table Motors", "element MX-64", "element XM 430"]
     assert [len(body.shapes) for body in picture.bodies] == [1, 1, 1]
     assert ("torque", "6 N.m") in picture.bodies[1].facts

@@ -13,7 +13,7 @@ import openpyxl
 import pytest
 
 from urdfsync.domain import Companion, Reading
-from urdfsync.table.model import Options, Table
+from urdfsync.table.model import Table, TableOptions
 from urdfsync.table.reading import read
 
 HEADER = "name,mass [kg]\n"
@@ -22,7 +22,7 @@ HEADER = "name,mass [kg]\n"
 def reading(content: str | bytes, file: str = "parts.csv", links: str = "", **options: Any) -> Reading:
     """The reading of a table, perhaps with connections in a CSV of their own."""
     companions = [Companion("connections", "links.csv", links.encode())] if links else []
-    return read(content.encode() if isinstance(content, str) else content, file, Options(**options), *companions)
+    return read(content.encode() if isinstance(content, str) else content, file, TableOptions(**options), *companions)
 
 
 def table(content: str | bytes, file: str = "parts.csv", links: str = "", **options: Any) -> Table:

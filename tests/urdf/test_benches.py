@@ -7,7 +7,7 @@ from support.loops import FIVE_BAR
 from support.robots import tree
 
 from urdfsync.domain import Target
-from urdfsync.simulation.bench import Axis, Bench, Signal
+from urdfsync.simulation.bench import Bench, JointSignals, Signal
 from urdfsync.urdf import benches
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
@@ -37,7 +37,7 @@ def test_joints_that_move_have_variables_and_limits_in_the_package() -> None:
     assert (found.test, found.run) == ("ArmTest", "ArmRun")
     assert freedoms(ARM, Options()) == 2, "the finger follows"
     ((first, finger, wheel),) = found.layouts
-    assert first == Axis(
+    assert first == JointSignals(
         "joint base_joint",
         Signal("base_joint.revolute.phi", "rad", (f"{name}.lower", f"{name}.upper")),
         Signal("base_joint.revolute.w", "rad/s", (f"{name}.velocity",)),

@@ -14,16 +14,16 @@ import msgspec
 
 from urdfsync.checks.cache import UserCache, cache_errors, digest
 from urdfsync.checks.contents import RESOURCES, content_hash, package_texts
-from urdfsync.checks.packed import Library, Piece, names_in, packed, pieces
+from urdfsync.checks.packed import ClassText, LibraryTexts, class_texts, names_in, packed
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
-Version: TypeAlias = tuple[int, ...]
+LibraryVersion: TypeAlias = tuple[int, ...]
 
-OLDEST: Version = (4, 1)  # the embedded compiler accepts no older ones
-NEXT: Version = (5,)  # newer versions are untested, and used only without an older one
+OLDEST: LibraryVersion = (4, 1)  # the embedded compiler accepts no older ones
+NEXT: LibraryVersion = (5,)  # newer versions are untested, and used only without an older one
 
 _COPY_REVISION = 7  # raise this number when libraries are taken apart in another way
 
@@ -41,7 +41,7 @@ def find_standard_library(configured: Path | None = None) -> Mapping[str, Path]:
 
     Returns the three libraries by their names: each is a folder with a `package.mo`, or a file. Raises UrdfsyncError.
     """
-    candidates = list[tuple[Version, dict[str, Path]]]()
+    candidates = list[tuple[LibraryVersion, dict[str, Path]]]()
     for place in [configured] if configured else library_folders():
         for version, path in _versions(place, "Modelica"):
             parts = {"Modelica": path}
@@ -165,7 +165,7 @@ def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCac
     Raises CacheError, OutputError for an unreadable library, and UrdfsyncError for a library with bad links.
     """
     named = frozenset[str]().union(*(names_in(text.decode("utf-8", "surrogateescape")) for text in texts))
-    libraries = {name: _pieces(name, path, cache) for name, path in sorted(parts.items())}
+    libraries = {name: _class_texts(name, path, cache) for name, path in sorted(parts.items())}
     copies = packed(libraries, named)
     target = cache.libraries / digest(copies)[:16]
     with cache_errors(cache.folder):
@@ -185,16 +185,16 @@ def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCac
     return target
 
 
-def _pieces(name: str, path: Path, cache: UserCache) -> Library:
-    """Return all pieces of a library. Raises UrdfsyncError, and OutputError for an unreadable library."""
+def _class_texts(name: str, path: Path, cache: UserCache) -> LibraryTexts:
+    """Return the text of each class of a library. Raises UrdfsyncError, and OutputError for an unreadable library."""
     key = f"library-{digest(_COPY_REVISION, name, content_hash(path, [RESOURCES]))}"
-    if (found := cache.load(key, list[Piece])) is None:
-        found = pieces(name, library_texts(path))
+    if (found := cache.load(key, list[ClassText])) is None:
+        found = class_texts(name, library_texts(path))
         cache.save(key, found)
     return found
 
 
-def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
+def _versions(place: Path, name: str) -> list[tuple[LibraryVersion, Path]]:
     """Return all versions of a library in a folder, the newest first, an unknown version last."""
     versions = []
     for path in _entries(place):

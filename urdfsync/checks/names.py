@@ -15,7 +15,7 @@ from urdfsync.checks.results import listed
 from urdfsync.config.advice import brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import shown
-from urdfsync.modelica.classes import Node
+from urdfsync.modelica.classes import ClassNode
 from urdfsync.modelica.files import class_of_file, files_that_use, place_of, text_of
 from urdfsync.modelica.layout import check_class_file
 from urdfsync.modelica.scopes import Scopes
@@ -81,7 +81,7 @@ def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic
             yield msgspec.structs.replace(finding, severity=Severity.WARNING, file=shown(path))
 
 
-def _unresolved(nodes: Iterable[Node], scopes: Scopes) -> list[tuple[Path, Unresolved]]:
+def _unresolved(nodes: Iterable[ClassNode], scopes: Scopes) -> list[tuple[Path, Unresolved]]:
     return [(Path(node.file), fault) for node in nodes for fault in unresolved(node, scopes)]
 
 

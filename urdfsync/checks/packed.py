@@ -49,7 +49,7 @@ _UNNAMED = {"constructor", "destructor", "equalityConstraint", *(f"'{operator}'"
 _WORD = re.compile(rf"{_STRING}|{_REMARK}|({_NAME})", re.DOTALL)
 
 
-class Piece(msgspec.Struct, frozen=True, array_like=True):
+class ClassText(msgspec.Struct, frozen=True, array_like=True):
     """A text of a class; the text of a package lacks the classes inside."""
 
     owner: str
@@ -59,18 +59,18 @@ class Piece(msgspec.Struct, frozen=True, array_like=True):
     """The names in the text, a line for each."""
 
 
-Library: TypeAlias = Sequence[Piece]
-"""All pieces of a library, in the order of its text."""
+LibraryTexts: TypeAlias = Sequence[ClassText]
+"""The texts of all classes of a library, in the order of its text."""
 
 
-def pieces(name: str, texts: Mapping[str, bytes]) -> list[Piece]:
-    """Return the pieces of a library; `files` are by their path in the library's folder."""
+def class_texts(name: str, texts: Mapping[str, bytes]) -> list[ClassText]:
+    """Return the texts of all classes of a library; `files` are by their path in the library's folder."""
     inside = dict[str, list[str]]()
     for path in sorted(path for path in texts if path.endswith(".mo")):
         inside.setdefault(_stem(path).rpartition("/")[0], []).append(path)
     top = "package.mo" if "package.mo" in texts else next(iter(texts), "")
     found = _texts(name, top, texts, inside) if top else ()
-    return [Piece(owner, text, "\n".join(names_in(text))) for owner, text in found]
+    return [ClassText(owner, text, "\n".join(names_in(text))) for owner, text in found]
 
 
 def names_in(text: str) -> frozenset[str]:
@@ -78,12 +78,12 @@ def names_in(text: str) -> frozenset[str]:
     return frozenset(filter(None, _WORD.findall(text)))
 
 
-def packed(libraries: Mapping[str, Library], named: Iterable[str]) -> dict[str, str]:
+def packed(libraries: Mapping[str, LibraryTexts], named: Iterable[str]) -> dict[str, str]:
     """Return the text of each library, with the classes that are reached from the words `named`."""
     names, inside = dict[str, list[str]](), dict[str, set[str]]()
-    for piece in itertools.chain.from_iterable(libraries.values()):
-        names.setdefault(piece.owner, []).append(piece.names)
-        inside.setdefault(piece.owner.rpartition(".")[0], set()).add(piece.owner)
+    for class_text in itertools.chain.from_iterable(libraries.values()):
+        names.setdefault(class_text.owner, []).append(class_text.names)
+        inside.setdefault(class_text.owner.rpartition(".")[0], set()).add(class_text.owner)
     reached, found, new, waiting = {*libraries, *named, *_UNNAMED}, set[str](), [*libraries], dict[str, list[str]]()
     while new:
         owner = new.pop()
@@ -95,19 +95,19 @@ def packed(libraries: Mapping[str, Library], named: Iterable[str]) -> dict[str, 
         for word in {*"\n".join(names.get(owner, ())).split("\n")} - reached:  # an empty library has no text
             reached.add(word)
             new += waiting.pop(word, ())
-    return {name: "".join(_kept(pieces, found)) for name, pieces in libraries.items()}
+    return {name: "".join(_kept(library, found)) for name, library in libraries.items()}
 
 
-def _kept(library: Library, found: Container[str]) -> Iterator[str]:
-    """Yield the pieces of the classes `found`, and empty lines for others: the lines of a file keep their numbers."""
+def _kept(library: LibraryTexts, found: Container[str]) -> Iterator[str]:
+    """Yield the texts of the classes `found`, and empty lines for others: the lines of a file keep their numbers."""
     has_begun = False
-    for piece in library:
-        is_found = piece.owner in found
-        has_begun = is_found if piece.text.startswith(f"\n{_MARK}") else has_begun or is_found
+    for class_text in library:
+        is_found = class_text.owner in found
+        has_begun = is_found if class_text.text.startswith(f"\n{_MARK}") else has_begun or is_found
         if is_found:
-            yield piece.text
+            yield class_text.text
         elif has_begun:
-            yield "\n" * piece.text.count("\n")
+            yield "\n" * class_text.text.count("\n")
 
 
 def original_place(text: str, line: int) -> tuple[str, int]:

@@ -21,7 +21,7 @@ from urdfsync.checks.results import (
 )
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.console import StyledLine, line
-from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.output.sections import Mark, Section, TextTable
 from urdfsync.spelling import counted
 
 _MARKS = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.DIFFERS: Mark.WRONG, CheckStatus.FAILED: Mark.WRONG}
@@ -223,7 +223,7 @@ def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
     if verbose is None:
         more = (f"not compared: {sentence}" for sentence in dict.fromkeys(result.unchecked))
     points = [line(("  ", ""), sentence) for sentence in (*sentences, *((words, "dim") for words in more))]
-    table = Table(f"Compared with {result.reference}", ("", "", "Worst"), rows)
+    table = TextTable(f"Compared with {result.reference}", ("", "", "Worst"), rows)
     about = result.robot, result.summary, _MARKS.get(status, Mark.OPEN)
     return Section(*about, points, [table], result.diagnostics, finding, most=len(points))
 

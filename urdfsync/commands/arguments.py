@@ -37,7 +37,7 @@ class UsageError(UrdfsyncError):
         self.usage = parser.format_usage()
 
 
-class Parser(argparse.ArgumentParser):
+class CommandParser(argparse.ArgumentParser):
     """A parser that raises UsageError for bad arguments."""
 
     def __init__(self, **options: Any) -> None:
@@ -52,8 +52,8 @@ class Parser(argparse.ArgumentParser):
         return [name for action in self._actions for name in action.option_strings]
 
 
-Value = TypeVar("Value")
-Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
+Returned = TypeVar("Returned")
+Commands: TypeAlias = "argparse._SubParsersAction[CommandParser]"
 
 
 def count(text: str) -> int:
@@ -158,7 +158,9 @@ _SHARED: Mapping[str, dict[str, Any]] = {
 """Arguments and options that several commands take."""
 
 
-def add_command(commands: Commands, name: str, shared: str = "", *, formats: bool = False, **texts: Any) -> Parser:
+def add_command(
+    commands: Commands, name: str, shared: str = "", *, formats: bool = False, **texts: Any
+) -> CommandParser:
     """Add the parser of a command, with some of `_SHARED` and with the options that every command has.
 
     With `formats`, the command can write its result in each `Format`.
@@ -189,7 +191,7 @@ def add_dry_run(container: argparse._ActionsContainer) -> None:
     container.add_argument("-n", "--dry-run", action="store_true", help="show what would be done, write nothing")
 
 
-def add_tool(parser: Parser, titles: Mapping[str, str]) -> None:
+def add_tool(parser: CommandParser, titles: Mapping[str, str]) -> None:
     """Add the option `--tool`; `titles` has the compiler's name for each of its values."""
     *names, last = (name if name == title else f"{name} for {title}" for name, title in titles.items())
     which = f"the compiler: {', '.join(names)}, or {last}"
@@ -226,8 +228,12 @@ def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, Ro
 
 
 def call(
-    function: Callable[..., Value], kind: type[msgspec.Struct], args: argparse.Namespace, console: Console, **given: Any
-) -> Value:
+    function: Callable[..., Returned],
+    kind: type[msgspec.Struct],
+    args: argparse.Namespace,
+    console: Console,
+    **given: Any,
+) -> Returned:
     """Warn of settings without effect, then call a function of the API for the chosen robots.
 
     The fields of `kind` are set by arguments of the same names, or by `given`.
@@ -237,7 +243,7 @@ def call(
         robots = select_robots(args, loaded, console)
     given = {"progress": console.progress, **chosen(kind, args), **given, "config": loaded}
     if not robots:  # an empty share; the API takes no names for all robots
-        return cast("Value", [])
+        return cast("Returned", [])
     value = function(*(robot.name for robot in robots), **given)
     if kind is BuildOptions and robots == loaded.robots and not console.has_warned:
         remember_configuration(loaded, reads)

@@ -30,7 +30,7 @@ from urdfsync.engine.remembered import remember_configuration
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.git import hook
-from urdfsync.git.clone import Change, Commit, export
+from urdfsync.git.clone import Commit, PathChange, export
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
 from urdfsync.spelling import counted
@@ -44,8 +44,8 @@ _OF_ALL = (".gitattributes", ".gitmodules")
 """Files by which git changes the content of other files."""
 
 
-class Fault(msgspec.Struct, frozen=True):
-    """A reason why one robot keeps a commit from passing."""
+class Rejection(msgspec.Struct, frozen=True):
+    """A reason why the hook rejects a commit: one robot is out of step."""
 
     diagnostic: Diagnostic
     result: Result
@@ -72,25 +72,27 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the configuration of --config, or all configurations that git tracks."""
-    faults, errors = list[Fault](), list[Diagnostic]()
+    rejections, errors = list[Rejection](), list[Diagnostic]()
     try:
         with export(git.Repository(), args.wait) as commit:
             for file in _find_configurations(commit, args.config):
                 try:
-                    faults += _find_faults(commit, file, arguments.request(args, console), args.mode == "build")
+                    rejections += _find_rejections(commit, file, arguments.request(args, console), args.mode == "build")
                 except git.GitError:
                     raise
                 except Exception as error:  # noqa: BLE001 - one configuration's error does not stop the others
                     errors += findings_of(error)
     except git.GitError as error:
         raise SourceError.of("git", str(error), hint="without a repository, use `urdfsync build --check`") from None
-    for fault in faults:
-        result = fault.result
-        is_telling = (result.failed or result.conflicts or result.is_broken) and not fault.is_enough
+    for rejection in rejections:
+        result = rejection.result
+        is_telling = (result.failed or result.conflicts or result.is_broken) and not rejection.is_enough
         if console.is_document or is_telling:
             show_result(console, result)
-    code = exit_code([fault.result for fault in faults], check=True) or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
-    return console.end(Exit.ERROR if errors else code, [*(fault.diagnostic for fault in faults), *errors])
+    code = exit_code([rejection.result for rejection in rejections], check=True) or (
+        Exit.OUT_OF_STEP if rejections else Exit.IN_STEP
+    )
+    return console.end(Exit.ERROR if errors else code, [*(rejection.diagnostic for rejection in rejections), *errors])
 
 
 def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
@@ -109,8 +111,8 @@ def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
     )
 
 
-def _find_faults(commit: Commit, file: Path, options: BuildOptions, is_writing: bool) -> Iterator[Fault]:
-    """Yield the faults of the robots of one configuration; with `is_writing`, build them. Raises UrdfsyncError."""
+def _find_rejections(commit: Commit, file: Path, options: BuildOptions, is_writing: bool) -> Iterator[Rejection]:
+    """Yield the rejections of the robots of one configuration; with `is_writing`, build them. Raises UrdfsyncError."""
     dry = msgspec.structs.replace(options, dry=True)
     with commit.clone:
         if noop.is_in_step(str(file)):
@@ -128,7 +130,7 @@ def _find_faults(commit: Commit, file: Path, options: BuildOptions, is_writing: 
             remember_configuration(config, settings)
             return
     judged = [
-        _Judged(commit, config, robot, result)
+        _OutOfStepRobot(commit, config, robot, result)
         for robot, result in zip(config.robots, results, strict=True)
         if not result.in_step
     ]
@@ -147,7 +149,7 @@ def _find_faults(commit: Commit, file: Path, options: BuildOptions, is_writing: 
             alone = msgspec.structs.replace(options, renews=False)
             built = {result.robot: result for result in build(ours, stale, alone)}
     for one in judged:
-        yield one.fault(here.get(one.robot.name), built.get(one.robot.name), is_writing)
+        yield one.reject(here.get(one.robot.name), built.get(one.robot.name), is_writing)
 
 
 def _is_touched(commit: Commit, entries: Iterable[Entry], *folders: str) -> bool:
@@ -178,7 +180,7 @@ class _Places:
             "/".join(path.split("/")[:depth]) for path in self.files for depth in range(path.count("/") + 1)
         }
 
-    def select(self, changed: Mapping[str, Change], folders: tuple[str, ...] = ()) -> set[str]:
+    def select(self, changed: Mapping[str, PathChange], folders: tuple[str, ...] = ()) -> set[str]:
         """Return the changed paths that a build depends on."""
         return {
             path
@@ -186,14 +188,14 @@ class _Places:
             if path in self.files or path in self._around or path.startswith(folders) or self._is_listed(path, change)
         }
 
-    def _is_listed(self, path: str, change: Change) -> bool:
+    def _is_listed(self, path: str, change: PathChange) -> bool:
         """Return whether a change adds a name to a listing of a folder, or takes one away."""
         folder, _, name = path.rpartition("/")
-        kinds = self._listings.get(folder, ()) if change is not Change.CONTENT else ()
-        return any(counting(kind, (name,), lambda _: change is Change.FOLDER) for kind in kinds)
+        kinds = self._listings.get(folder, ()) if change is not PathChange.CONTENT else ()
+        return any(counting(kind, (name,), lambda _: change is PathChange.FOLDER) for kind in kinds)
 
 
-class _Judged:
+class _OutOfStepRobot:
     """A robot that is out of step in the clone."""
 
     def __init__(self, commit: Commit, config: Config, robot: RobotConfig, result: Result) -> None:
@@ -203,38 +205,38 @@ class _Judged:
         folders = [str(folder) for folder in (robot.folder, bases, robot.templates) if folder]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.clone.inside(folder)) is not None)
 
-    def fault(self, here: Result | None, built: Result | None, is_writing: bool) -> Fault:
-        """Return the fault; `here` is the result of a dry run in the working tree, `built` that of a build."""
+    def reject(self, here: Result | None, built: Result | None, is_writing: bool) -> Rejection:
+        """Return the rejection; `here` is the result of a dry run in the working tree, `built` that of a build."""
         if built is None and here and here.in_step:
             return self._not_staged(here, is_writing)
         result = built or (here if is_writing and here and here.failed else self.result)
         if result.failed or result.conflicts or result.is_broken:
-            return self._fault("out-of-step", result.summary, "", result)
+            return self._reject("out-of-step", result.summary, "", result)
         hint = _adding(self._find_missing(built, index := git.Index()), index, self.folders) if built else _BUILD
-        return self._fault("out-of-step", f"out of step: {result.summary}", hint, result)
+        return self._reject("out-of-step", f"out of step: {result.summary}", hint, result)
 
-    def _not_staged(self, here: Result, is_writing: bool) -> Fault:
-        """Return the fault if only the working tree is in step."""
+    def _not_staged(self, here: Result, is_writing: bool) -> Rejection:
+        """Return the rejection if only the working tree is in step."""
         index, result = git.Index(), here if is_writing else self.result
         places = _Places(self._commit.clone, here.reads.entries)
-        hidden = places.select(dict.fromkeys(index.hidden, Change.FILE), self.folders)
+        hidden = places.select(dict.fromkeys(index.hidden, PathChange.FILE), self.folders)
         missing = self._find_missing(here, index)
         if hidden:
             message, hint = (
                 f"git ignores changes of {', '.join(sorted(hidden))}",
                 "`git help update-index` says how to undo this",
             )
-            return self._fault("hidden", message, hint, result, is_enough=True)
+            return self._reject("hidden", message, hint, result, is_enough=True)
         if missing:
             message, hint = (
                 f"in step, but not staged: {counted(len(missing), 'file')}",
                 _adding(missing, index, self.folders),
             )
-            return self._fault("not-staged", message, hint, result, is_enough=True)
+            return self._reject("not-staged", message, hint, result, is_enough=True)
         message, hint = "in step, but a clone is not", "clone the repository, and run `urdfsync build --check` there"
         if nested := sorted(self._nested(here)):
             hint = f"commit the changes in {nested[0]}, make it a submodule, and `git add` it"
-        return self._fault("out-of-step", f"{message}: {self.result.summary}", hint, result)
+        return self._reject("out-of-step", f"{message}: {self.result.summary}", hint, result)
 
     def _find_missing(self, here: Result, index: git.Index) -> set[str]:
         """Return the files to add to the commit: those that differ in the index, and that a build depends on."""
@@ -243,8 +245,8 @@ class _Judged:
             _Places(Clone(str(top), str(top)), here.reads.entries),
             _Places(self._commit.clone, self.result.reads.entries),
         )
-        unstaged = dict.fromkeys(index.unstaged, Change.FILE)
-        untracked = dict.fromkeys(index.untracked, Change.CONTENT)  # only those that the build reads
+        unstaged = dict.fromkeys(index.unstaged, PathChange.FILE)
+        untracked = dict.fromkeys(index.untracked, PathChange.CONTENT)  # only those that the build reads
         found = {path for places in (own, cloned) for path in places.select(unstaged, self.folders)} | own.select(
             untracked
         )
@@ -272,9 +274,9 @@ class _Judged:
             return place.removeprefix(f"{self._state}{os.sep}").startswith(_COMMITTED)
         return not path.endswith(".mo") or path.startswith(self.folders) or path in self._commit.files
 
-    def _fault(self, code: str, message: str, hint: str, result: Result, *, is_enough: bool = False) -> Fault:
+    def _reject(self, code: str, message: str, hint: str, result: Result, *, is_enough: bool = False) -> Rejection:
         message, place = f"robot `{self.robot.name}`: {message}", shown(self._config.file)
-        return Fault(Diagnostic(Severity.ERROR, code, message, place, hint=hint), result, is_enough)
+        return Rejection(Diagnostic(Severity.ERROR, code, message, place, hint=hint), result, is_enough)
 
 
 def _adding(paths: Collection[str], index: git.Index, folders: Sequence[str] = ()) -> str:

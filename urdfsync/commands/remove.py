@@ -15,7 +15,7 @@ from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
-from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.output.sections import Mark, Section, TextTable
 from urdfsync.output.terminal import file_line, text
 from urdfsync.state.transaction import save
 
@@ -69,7 +69,7 @@ def _show(console: Console, result: Result, words: str) -> None:
     console.findings(result.diagnostics)
     decided = [action for action in result.actions.decided if action.writes or action.reason in ORPHANS]
     rows = [(result.shown(action.path), action.word, _reason(action)) for action in decided]
-    files = Table("Files", ("File", "", "Why"), rows, file_line, _FILES, "file")
+    files = TextTable("Files", ("File", "", "Why"), rows, file_line, _FILES, "file")
     section = Section(result.robot, "; ".join([words, *result.counts(ORPHANS)]), Mark.FINE, tables=[files])
     console.tell(text(section, verbose=console.verbose))
 

@@ -27,7 +27,7 @@ from urdfsync.config.settings import (
     OWN_KEYS,
     STATE_FOLDER,
     CheckConfig,
-    Compiler,
+    CompilerName,
     Config,
     Keys,
     RobotConfig,
@@ -85,7 +85,7 @@ def parse(text: str, file: Path, name: str) -> Config:
 
     Raises ConfigError with one diagnostic for each fault.
     """
-    reader = _Reader(text, name, file.parent)
+    reader = _ConfigReader(text, name, file.parent)
     reader.check_characters()
     robots = () if reader.problems else tuple(reader.robots())
     check, check_lines = reader.check()
@@ -139,7 +139,7 @@ class _Table(NamedTuple):
     lines: Mapping[str, int]
 
 
-class _Reader:
+class _ConfigReader:
     """One pass over a document; gathers `problems` instead of stopping at the first."""
 
     def __init__(self, text: str, file: str, root: Path) -> None:
@@ -190,7 +190,7 @@ class _Reader:
         table = self._table("`[check]`", self._subtable("check"), "check")
         self._refuse_unknown(table, _names_of(CheckConfig))
         keys: CheckConfig = self._read(table, CheckConfig) or CheckConfig()
-        for compiler in get_args(Compiler):
+        for compiler in get_args(CompilerName):
             program = keys.program(compiler)
             if Path(program).name != program:  # a bare name is looked for on the PATH
                 keys = msgspec.structs.replace(keys, **{compiler: str(self._absolute(Path(program)))})

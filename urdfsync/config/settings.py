@@ -22,7 +22,7 @@ STATE_FOLDER = ".urdfsync"
 """Holds the recorded state; beside the configuration."""
 OWN_KEYS = ("source", "arguments", "command", "command_inputs", "package", "class", "renamed")
 """Keys that `[defaults]` can't have."""
-Compiler: TypeAlias = Literal["rumoca", "omc"]
+CompilerName: TypeAlias = Literal["rumoca", "omc"]
 """The table of compilers, the default first: each is a module of `checks/compilers`."""
 
 
@@ -64,7 +64,7 @@ class CheckConfig(msgspec.Struct, frozen=True):
 
     library: Path | None = None
     """The folder that holds the Modelica Standard Library, absolute; None to search for the library."""
-    tool: Literal[Compiler, "both"] = "rumoca"
+    tool: Literal[CompilerName, "both"] = "rumoca"
     """See `checks.compilers.choose`."""
     omc: str = ""
     """OpenModelica's compiler, as an absolute path or a name on the PATH; empty to search for the compiler."""

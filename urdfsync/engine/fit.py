@@ -20,7 +20,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.package_after import PackageAfter, as_file, code_words
 from urdfsync.engine.package_names import class_of, declared_names
 from urdfsync.files import shown
-from urdfsync.modelica.classes import Node
+from urdfsync.modelica.classes import ClassNode
 from urdfsync.modelica.files import (
     PACKAGE_FILE,
     ClassName,
@@ -30,7 +30,7 @@ from urdfsync.modelica.files import (
     text_of,
 )
 from urdfsync.modelica.layout import check_class_file, check_order, check_places
-from urdfsync.modelica.scopes import Element, Scopes
+from urdfsync.modelica.scopes import NamedElement, Scopes
 from urdfsync.modelica.statements import (
     TOO_LONG,
     EditedStatements,
@@ -245,7 +245,7 @@ class _Package(PackageAfter):
                 if finding.severity is Severity.ERROR:
                     yield Misfit(files.path(key), finding, key, is_broken=self._files[package].is_expected)
 
-    def _instance(self, node: Node, scopes: Scopes, paths: Iterable[str]) -> str:
+    def _instance(self, node: ClassNode, scopes: Scopes, paths: Iterable[str]) -> str:
         """Return the place where one of these files instantiates a class; empty if no file does."""
         for path in paths:
             other = scopes.node(self.class_name(path))
@@ -256,11 +256,11 @@ class _Package(PackageAfter):
             types += [one.type for one in redeclared if one]
             for name in types:
                 meaning = scopes.lookup(name, other)
-                if isinstance(meaning, Element) and meaning.types[0].node is node:
+                if isinstance(meaning, NamedElement) and meaning.types[0].node is node:
                     return f"{shown(self.inputs.files.path(self._files[path].key))}:{name.line}"
         return ""
 
-    def _look_at_head(self, path: str, node: Node, scopes: Scopes, paths: Iterable[str]) -> Iterator[Diagnostic]:
+    def _look_at_head(self, path: str, node: ClassNode, scopes: Scopes, paths: Iterable[str]) -> Iterator[Diagnostic]:
         """Check that an edited class still has its kind, and that no file instantiates a partial class."""
         generated = self._differences[path].generated if path in self._differences else None
         if generated is None:
@@ -312,7 +312,7 @@ class _Package(PackageAfter):
 def _faults(
     reading: ShortText,
     findings: Sequence[Diagnostic],
-    nodes: Sequence[Node],
+    nodes: Sequence[ClassNode],
     scopes: Scopes,
     lost: Callable[[str], bool] | None = None,
 ) -> Iterator[tuple[Unresolved | None, Diagnostic]]:

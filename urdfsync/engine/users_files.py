@@ -20,7 +20,7 @@ _MOST_KEPT = 50_000_000
 """The greatest number of bytes of files in memory; further files are read again each time."""
 
 
-class _Files(Mapping[Path, bytes]):
+class _FilesOnDemand(Mapping[Path, bytes]):
     """Files that are read on demand. An unreadable file counts as empty."""
 
     def __init__(self, paths: Iterable[Path]) -> None:
@@ -85,5 +85,5 @@ def find_users_files(
     except TooManyFoldersError:
         return UsersFiles({}, {}, is_too_wide=True)
     paths = (*below, *(place for place in places if place.suffix == ".mo"))
-    files = _Files(path for path in paths if not any(str(parent) in packages for parent in path.parents))
+    files = _FilesOnDemand(path for path in paths if not any(str(parent) in packages for parent in path.parents))
     return UsersFiles(files, files_that_use(files, names))

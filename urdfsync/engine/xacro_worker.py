@@ -160,7 +160,7 @@ class _OpenedFile(io.TextIOWrapper):
             raise NotTextError(self.name, cast(io.BytesIO, self.buffer).getvalue()) from None
 
 
-class _Builder(expatbuilder.ExpatBuilderNS):
+class _DocumentBuilder(expatbuilder.ExpatBuilderNS):
     """Builds a document; each element knows its file and line."""
 
     file = ""
@@ -190,7 +190,7 @@ _uses: dict[str, None] = {}
 
 def _parse(file: _OpenedFile) -> Any:
     """Parse a file as `minidom.parse` does. Raises ExpatError."""
-    builder = _Builder()
+    builder = _DocumentBuilder()
     builder.file = file.name
     document = builder.parseFile(file.buffer)
     _macros.update(macro.getAttribute("name") for macro in document.getElementsByTagName("xacro:macro"))

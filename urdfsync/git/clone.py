@@ -30,7 +30,7 @@ _MOST_OBJECTS = 20
 """A clone with more objects in one of 256 folders is made anew: each export adds some, and git never deletes them."""
 
 
-class Change(enum.Enum):
+class PathChange(enum.Enum):
     """What a commit changes at a path."""
 
     CONTENT = enum.auto()
@@ -48,7 +48,7 @@ class Commit(msgspec.Struct, frozen=True):
     export: ExportedIndex
     files: frozenset[str]
     """All files, links and submodules of the commit. All paths are from the top."""
-    changed: Mapping[str, Change] | None
+    changed: Mapping[str, PathChange] | None
     """The files, links and submodules that the commit changes. A folder counts if its first file is new, or its last
     file is deleted. None without a former commit."""
 
@@ -154,14 +154,14 @@ def _list(clone: str, tree: str) -> list[tuple[str, str, str]]:
     return [(path, facts.split()[0], facts.split()[2]) for facts, _, path in lines]
 
 
-def _changes(clone: str, commit: str, tree: str) -> Iterator[tuple[str, Change]]:
+def _changes(clone: str, commit: str, tree: str) -> Iterator[tuple[str, PathChange]]:
     """Yield the paths that differ in two trees, as in `Commit.changed`."""
     lines = list_paths("diff-tree", "-r", "-t", "--raw", "--no-renames", f"{commit}^{{tree}}", tree, clone=clone)
     for facts, path in zip(lines[::2], lines[1::2], strict=True):
         modes = {facts[1:7], facts[8:14]}
         if modes != {_FOLDER}:
             is_folder = not modes.isdisjoint({_FOLDER, _SUBMODULE})
-            yield path, Change.CONTENT if len(modes) == 1 else Change.FOLDER if is_folder else Change.FILE
+            yield path, PathChange.CONTENT if len(modes) == 1 else PathChange.FOLDER if is_folder else PathChange.FILE
 
 
 def _find_submodules(clone: str, tree: str, entries: Iterable[tuple[str, str, str]]) -> dict[str, tuple[str, str]]:

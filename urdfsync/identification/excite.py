@@ -25,7 +25,7 @@ _NO_LIMIT = {"rad": (np.pi, 2.0), "m": (0.5, 0.3)}
 _DEPENDENT = 1e-4
 
 
-class Course(NamedTuple):
+class Trajectory(NamedTuple):
     """A motion: times, and for each axis positions, velocities and accelerations."""
 
     times: Array
@@ -36,36 +36,38 @@ class Course(NamedTuple):
 
 def excite(
     regressor: Regressor, seconds: float, seed: int, progress: Progress
-) -> tuple[Course, Array, float, float, int]:
+) -> tuple[Trajectory, Array, float, float, int]:
     """Return a motion with its efforts, the condition of the first motion, that of this one, and the numbers."""
     rng, axes = np.random.default_rng(seed), regressor.axes
-    columns, chosen = _Columns(regressor), list[int]()
+    derivatives, chosen = _Derivatives(regressor), list[int]()
     best, best_cost, first = np.zeros(0), np.inf, np.inf
     for number in range(_TRIES + _STEPS):
         progress("looking for a motion", number, _TRIES + _STEPS)
         fresh = rng.standard_normal((2, len(axes), _HARMONICS))
         tried = fresh if number < _TRIES else best + 0.3 * fresh * rng.random()
-        course = _course(tried, axes, seconds, np.linspace(0, seconds, _LOOKS))
-        scaled = columns.at(course)
+        trajectory = _trajectory(tried, axes, seconds, np.linspace(0, seconds, _LOOKS))
+        scaled = derivatives.at(trajectory)
         chosen = chosen or _independent(scaled)
         cost = float(np.linalg.cond(scaled[:, chosen] / np.linalg.norm(scaled[:, chosen], axis=0)))
         first = min(first, cost) if number == 0 else first
         if cost < best_cost:
             best, best_cost = tried, cost
     times = np.linspace(0, seconds, round(seconds * _RATE) + 1)
-    course = _course(best, axes, seconds, times)
-    _, efforts = regressor.rows(*course[1:])
+    trajectory = _trajectory(best, axes, seconds, times)
+    _, efforts = regressor.rows(*trajectory[1:])
     limits = np.array([axis.effort for axis in axes])
     with np.errstate(invalid="ignore"):
         load = float(np.nanmax(np.abs(efforts) / limits)) if np.isfinite(limits).any() else 0.0
     if load > _SHARE:  # a slower motion needs less effort; gravity remains
         slow = float(np.sqrt(load / _SHARE))
-        course = _course(best, axes, seconds * slow, np.linspace(0, seconds * slow, round(seconds * slow * _RATE) + 1))
-        _, efforts = regressor.rows(*course[1:])
-    return course, efforts, first, best_cost, len(chosen)
+        trajectory = _trajectory(
+            best, axes, seconds * slow, np.linspace(0, seconds * slow, round(seconds * slow * _RATE) + 1)
+        )
+        _, efforts = regressor.rows(*trajectory[1:])
+    return trajectory, efforts, first, best_cost, len(chosen)
 
 
-class _Columns:
+class _Derivatives:
     """The derivatives of efforts by the numbers of records, in units of their sizes."""
 
     def __init__(self, regressor: Regressor) -> None:
@@ -78,8 +80,8 @@ class _Columns:
         self._slopes = problem.slopes(problem.start)[:count, :count]
         self._slopes *= problem.sizes(np.ones(len(regressor.losses) + 1))[:count]
 
-    def at(self, course: Course) -> Array:
-        derivatives, efforts = self._regressor.rows(*course[1:])
+    def at(self, trajectory: Trajectory) -> Array:
+        derivatives, efforts = self._regressor.rows(*trajectory[1:])
         scales = np.sqrt(np.mean(efforts**2, axis=0)) + 1e-9
         rows = derivatives[:, :, self._places] / scales[:, None]
         return np.asarray(rows.reshape(-1, len(self._places)) @ self._slopes)
@@ -93,7 +95,7 @@ def _independent(columns: Array) -> list[int]:
     return sorted(int(place) for place in order[: np.count_nonzero(sizes > _DEPENDENT * sizes[0])])
 
 
-def _course(numbers: Array, axes: Sequence[Axis], seconds: float, times: Array) -> Course:
+def _trajectory(numbers: Array, axes: Sequence[Axis], seconds: float, times: Array) -> Trajectory:
     """Return the motion of Fourier coefficients, which begins and ends at rest, moved and stretched into the limits."""
     steps = np.arange(1, _HARMONICS + 1)
     sines, cosines = numbers / steps
@@ -119,4 +121,4 @@ def _course(numbers: Array, axes: Sequence[Axis], seconds: float, times: Array) 
         results[0][:, k] = middle + width * (results[0][:, k] - ends / 2)
         results[1][:, k] *= width
         results[2][:, k] *= width
-    return Course(times, *results)
+    return Trajectory(times, *results)

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from urdfsync.identification.results import Array, Body, Loss
+from urdfsync.identification.results import Array, Loss, MovingLink
 from urdfsync.identification.signals import shift_slopes, target_at
 
 _EXCITED = 3.0
@@ -139,7 +139,7 @@ def _parameters_of(matrix: Array) -> Array:
     return np.stack([matrix[..., 3, 3], *(matrix[..., 3, n] for n in range(3)), *parts], axis=-1)
 
 
-def is_body(body: Body) -> bool:
+def is_body(body: MovingLink) -> bool:
     """Return whether the numbers of a link are those of a real body."""
     matrix = pseudo_inertia(body.numbers, body.rotation)
     return bool(np.isfinite(matrix).all() and np.linalg.eigvalsh(matrix)[0] > 1e-12 * np.trace(matrix))
@@ -148,7 +148,7 @@ def is_body(body: Body) -> bool:
 class LeastSquares:
     """The numbers of a robot, and how far others are from them."""
 
-    def __init__(self, bodies: Sequence[Body], losses: Sequence[Loss], axes: int) -> None:
+    def __init__(self, bodies: Sequence[MovingLink], losses: Sequence[Loss], axes: int) -> None:
         self.bodies, self.losses, self.axes = bodies, losses, axes
         numbers, values = [body.numbers for body in bodies], [loss.value for loss in losses]
         self.start = np.concatenate([*numbers, values, np.zeros(axes + 1)])

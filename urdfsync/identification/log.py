@@ -63,7 +63,7 @@ class Column(NamedTuple):
     factor: float
 
 
-class Piece(NamedTuple):
+class LogPiece(NamedTuple):
     """Samples without a gap: times in s, and a column for each axis in SI at the joint's side."""
 
     times: Array
@@ -172,7 +172,7 @@ class Log:
             _refuse(self.file, f"`{cell}` can't be read in {unit}", 1, f"give it in {' or '.join(UNITS[wanted])}")
         return UNITS[wanted][unit] if unit else 1.0
 
-    def pieces(self) -> Iterator[Piece]:
+    def pieces(self) -> Iterator[LogPiece]:
         """Yield the pieces of the log. Raises SourceError for a row that can't be read, and for wrong units."""
         usual, last = 0.0, -math.inf
         for rows in self._rows():
@@ -207,7 +207,7 @@ class Log:
             return self._bag.rows(ROWS)
         return _parquet_rows(self.file) if self._is_parquet else _csv_rows(self.file, self.header)
 
-    def _piece(self, times: Array, rows: Array) -> Piece:
+    def _piece(self, times: Array, rows: Array) -> LogPiece:
         shape = len(rows), len(self._axes)
         tables = {quantity: np.zeros(shape) for quantity in QUANTITIES}
         tables["position"] += [axis.start for axis in self._axes]
@@ -217,7 +217,7 @@ class Log:
             self._check_range(self._axes[k], tables["position"][:, k])
         moving = [k for k in range(shape[1]) if (k, "position") in self.columns]
         has_velocities = all((k, "velocity") in self.columns for k in moving)
-        return Piece(times, tables["position"], tables["velocity"] if has_velocities else None, tables["effort"])
+        return LogPiece(times, tables["position"], tables["velocity"] if has_velocities else None, tables["effort"])
 
     def _check_steps(self, usual: float) -> None:
         """Refuse times in another unit than the header says."""

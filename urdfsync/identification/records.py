@@ -27,7 +27,7 @@ _ITEM = re.compile(r"\[(\d)\]$")
 _ELEMENT = re.compile(r"(\w+) (.*)", re.DOTALL)
 
 
-class Place:
+class RecordValue:
     """One value in one record."""
 
     def __init__(self, path: str, value: Value) -> None:
@@ -56,9 +56,9 @@ class Records:
         generated = _by_element({path: _text(self.package.generated[path]) for path in self.paths})
         for element, paths in self.values.items():
             edits = dict[str, tuple[float, ...]]()
-            for path, places in paths.items():
+            for path, copies in paths.items():
                 before = generated.get(element, {}).get(path)
-                edited = places[0]
+                edited = copies[0]
                 if before is None or before[0].text == edited.text:
                     continue
                 numbers, message = edited.numbers, f"{element}: {path} is edited to `{edited.text}`"
@@ -95,29 +95,29 @@ class Records:
         Nothing is written if one of the files changed since it was read, or if one can't be written. A number stays if
         its change is far below its standard error.
         """
-        changes = dict[str, list[tuple[Place, str]]]()
+        changes = dict[str, list[tuple[RecordValue, str]]]()
         values = dict[tuple[str, str], list[str]]()
         for number in numbers:
             if not number.is_written or abs(number.after - number.before) < _NOISE * number.error:
                 continue
             item, path = _ITEM.search(number.path), _ITEM.sub("", number.path)
-            places = self.values[number.element][path]
+            copies = self.values[number.element][path]
             words = values.setdefault((number.element, path), [])
             if not words:
-                words += [repr(part) for part in places[0].numbers or ()]
+                words += [repr(part) for part in copies[0].numbers or ()]
             words[int(item[1]) - 1 if item else 0] = f"{number.after:.6g}"
         for (element, path), words in values.items():
-            for place in self.values[element][path]:
-                text = f"{{{', '.join(map(_short, words))}}}" if place.text.startswith("{") else _short(words[0])
-                changes.setdefault(place.path, []).append((place, text))
+            for copy in self.values[element][path]:
+                text = f"{{{', '.join(map(_short, words))}}}" if copy.text.startswith("{") else _short(words[0])
+                changes.setdefault(copy.path, []).append((copy, text))
         folder, contents = self.package.robot.folder, dict[Path, bytes]()
         for path, of_file in changes.items():
             before = read_unrecorded(folder / path)
             if before != self.package.on_disk[path]:
                 raise ConfigError.of("identify", "the file was saved meanwhile", shown(folder / path), hint="try again")
             text = _text(before)
-            for place, new in sorted(of_file, key=lambda each: -each[0].start):
-                text = text[: place.start] + new + text[place.start + len(place.text) :]
+            for copy, new in sorted(of_file, key=lambda each: -each[0].start):
+                text = text[: copy.start] + new + text[copy.start + len(copy.text) :]
             contents[folder / path] = text.encode(errors="surrogateescape")
         written = list[Path]()
         for file, content in contents.items():
@@ -156,9 +156,9 @@ def _short(word: str) -> str:
     return word.removesuffix(".0")
 
 
-def _by_element(texts: Mapping[str, str]) -> dict[str, dict[str, list[Place]]]:
+def _by_element(texts: Mapping[str, str]) -> dict[str, dict[str, list[RecordValue]]]:
     """Return the values of links and joints by element and path; those of the elements' own records come first."""
-    found = dict[str, dict[str, list[Place]]]()
+    found = dict[str, dict[str, list[RecordValue]]]()
     for path, text in sorted(texts.items(), key=lambda item: "/" not in item[0]):
         prefix = "" if "/" in path else None
         names, values = dict[str, str](), read_values(text)
@@ -170,5 +170,5 @@ def _by_element(texts: Mapping[str, str]) -> dict[str, dict[str, list[Place]]]:
         for value in values:
             component, _, rest = ("", "", value.path) if prefix == "" else value.path.partition(".")
             if component in names:
-                found.setdefault(names[component], {}).setdefault(rest, []).append(Place(path, value))
+                found.setdefault(names[component], {}).setdefault(rest, []).append(RecordValue(path, value))
     return found

@@ -50,7 +50,7 @@ class Axis(NamedTuple):
     """The name of this input of Run."""
 
 
-class Body(NamedTuple):
+class MovingLink(NamedTuple):
     """A link that moves."""
 
     name: str
@@ -74,7 +74,7 @@ class Regressor(Protocol):
     """A robot whose efforts are linear in its parameters."""
 
     axes: tuple[Axis, ...]
-    bodies: tuple[Body, ...]
+    bodies: tuple[MovingLink, ...]
     losses: tuple[Loss, ...]
 
     def rows(self, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
@@ -132,7 +132,7 @@ class Unexcited(msgspec.Struct, frozen=True):
     paths: tuple[str, ...]
 
 
-class Series(NamedTuple):
+class EffortSeries(NamedTuple):
     """Samples for a plot: times in s, and for each joint its measured effort, that of the model, and after the fit."""
 
     times: Array
@@ -179,7 +179,7 @@ class Identification(msgspec.Struct, frozen=True):
     """The written files, by their options."""
     diagnostics: tuple[Diagnostic, ...] = ()
     series: Any = None
-    """`Series` for a plot."""
+    """`EffortSeries` for a plot."""
 
 
 class Excitation(msgspec.Struct, frozen=True):

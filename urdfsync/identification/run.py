@@ -21,13 +21,13 @@ from urdfsync.identification.results import (
     NUMBERS,
     QUANTITIES,
     Array,
-    Body,
+    EffortSeries,
     Excitation,
     FittedNumber,
     Identification,
     IdentifyOptions,
+    MovingLink,
     Regressor,
-    Series,
     Unexcited,
 )
 from urdfsync.spelling import nearest
@@ -131,12 +131,12 @@ class Measured:
                 rows.append(JointFit(f"joint {axis.name}", unit, whole, before, after, offset, count))
         return tuple(rows)
 
-    def series(self, target: Array, delta: Array) -> Series:
+    def series(self, target: Array, delta: Array) -> EffortSeries:
         """Return the stored samples."""
         times, rows, is_free = (np.concatenate(parts) for parts in zip(*self._stored, strict=True))
         count = len(delta)
         measured, model = rows[:, :, count:-1] @ target[:-1], rows[:, :, -1]
-        return Series(times, measured, model, model + rows[:, :, :count] @ delta, is_free)
+        return EffortSeries(times, measured, model, model + rows[:, :, :count] @ delta, is_free)
 
     def doubts(self, options: IdentifyOptions) -> Iterator[Diagnostic]:
         """Yield a warning for what was asked for and is not in the log."""
@@ -251,7 +251,7 @@ def _problem(
     notes = list[Diagnostic]()
     chosen_links, chosen_joints = options.links, options.joints
     some = bool(chosen_links or chosen_joints)
-    fitted, bodies = list[int](), list[Body]()
+    fitted, bodies = list[int](), list[MovingLink]()
     for k, body in enumerate(regressor.bodies):
         is_wanted = body.name in chosen_links if some else body.is_first
         if is_body(body):
@@ -327,11 +327,11 @@ def find_motion(
     if not driven:
         message = f"Run of robot `{robot.name}` has no input for a joint"
         raise ConfigError.of("identify", message, shown(robot.folder), hint='choose `inputs = "names"`')
-    course, efforts, first, condition, numbers = excite(regressor, seconds, seed, progress)
-    tables = dict(zip(QUANTITIES, (course.q, course.v, efforts), strict=True))
-    columns = [course.times, *(tables[regressor.axes[k].command][:, k] for k in driven)]
+    trajectory, efforts, first, condition, numbers = excite(regressor, seconds, seed, progress)
+    tables = dict(zip(QUANTITIES, (trajectory.q, trajectory.v, efforts), strict=True))
+    columns = [trajectory.times, *(tables[regressor.axes[k].command][:, k] for k in driven)]
     rows = [",".join(f"{number:.9g}" for number in row) for row in np.column_stack(columns)]
     header = ",".join(["time", *(regressor.axes[k].input for k in driven)])
     resting = tuple(axis.name for axis in regressor.axes if not axis.command)
-    duration = float(course.times[-1])
+    duration = float(trajectory.times[-1])
     return "\n".join([header, *rows, ""]), Excitation(robot.name, duration, first, condition, numbers, resting, {})

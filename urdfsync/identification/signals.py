@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from urdfsync.identification.log import Piece
+from urdfsync.identification.log import LogPiece
 from urdfsync.identification.results import Array, Axis
 
 SHIFTS = np.linspace(-0.1, 0.1, 21)
@@ -56,7 +56,7 @@ class Samples(NamedTuple):
     rate: float
 
 
-def find_cutoff(pieces: Iterable[Piece], axes: Sequence[Axis], measured: Sequence[int]) -> float:
+def find_cutoff(pieces: Iterable[LogPiece], axes: Sequence[Axis], measured: Sequence[int]) -> float:
     """Return the cut-off frequency in Hz for a motion: that of the fastest piece and joint of those that move."""
     seconds, sizes, cutoffs = list[float](), list[list[float]](), list[list[float]]()
     still = np.array([_STILL if axes[k].unit == "rad" else 0.1 * _STILL for k in measured])
@@ -88,7 +88,7 @@ def _border(cutoff: float) -> float:
     return float(SHIFTS[-1] + 1.5 / cutoff)
 
 
-def prepare(piece: Piece, axes: Sequence[Axis], cutoff: float) -> Samples | None:
+def prepare(piece: LogPiece, axes: Sequence[Axis], cutoff: float) -> Samples | None:
     """Return the samples of a piece; None if it is shorter than the filter."""
     from scipy.interpolate import CubicSpline  # these imports take 0.5 s
     from scipy.signal import butter, sosfiltfilt

@@ -56,7 +56,7 @@ _MOVABLE = frozenset({"arguments", "annotation"})
 """Lists without a meaning if they are empty."""
 
 
-Path: TypeAlias = tuple[str, ...]
+ElementPath: TypeAlias = tuple[str, ...]
 Layout: TypeAlias = frozenset[str] | None
 """The annotations with the user's layout. None for a merge between two people: all layout and comments count."""
 
@@ -69,7 +69,7 @@ def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree, *, is
     return _merge((), base, mine, generated, frozenset() if is_export else None)
 
 
-def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_layout: Layout) -> list[Piece]:
+def _merge(path: ElementPath, base: Node | None, mine: Node, generated: Node, users_layout: Layout) -> list[Piece]:
     """Merge a thing that exists on both sides."""
     if base and base.text == mine.text and not users_layout:
         return [generated.text]
@@ -94,7 +94,9 @@ def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_lay
     return _merge_whole(path, base, mine, generated)
 
 
-def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, users_layout: Layout) -> list[Piece]:
+def _merge_statement(
+    path: ElementPath, base: Node | None, mine: Node, other: Node, users_layout: Layout
+) -> list[Piece]:
     """Merge one part of a class between two people, with comments: `_merge` would keep only the comments of `mine`."""
     merged = _merge_comments(base.text if base else "", mine.text, other.text)
     if merged is None:
@@ -120,7 +122,7 @@ def _has_body(node: Node) -> bool:
     return isinstance(node, SyntaxTree) and (node.kind is TreeKind.BODY or node.find("body") is not None)
 
 
-def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
+def _merge_whole(path: ElementPath, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
     """Merge a thing without parts: take one side's text, or merge blocks, algorithms and strings by lines."""
     is_users = base is None or not is_same(base, mine)
     has_lines = all("\n" in node.text for node in (mine, generated)) and (not is_users or _has_lines(path, generated))
@@ -139,7 +141,7 @@ def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> 
     return [_contradiction(path, base, mine, generated)]
 
 
-def _has_lines(path: Path, node: Node) -> bool:
+def _has_lines(path: ElementPath, node: Node) -> bool:
     """Whether a text that the user changed is merged line by line; other texts are merged as a whole."""
     if not isinstance(node, Leaf):
         return False
@@ -147,12 +149,12 @@ def _has_lines(path: Path, node: Node) -> bool:
     return is_block or path[-1].startswith("statements of ") or len(node.words) == 1
 
 
-def _contradiction(path: Path, base: Node | None, mine: Node | None, generated: Node | None) -> Contradiction:
+def _contradiction(path: ElementPath, base: Node | None, mine: Node | None, generated: Node | None) -> Contradiction:
     texts = [node.text if node else "" for node in (base, mine, generated)]
     return Contradiction(path, *texts)
 
 
-def _contradiction_of_lines(path: Path, texts: Sequence[str]) -> list[Piece]:
+def _contradiction_of_lines(path: ElementPath, texts: Sequence[str]) -> list[Piece]:
     """Return the common first lines of three texts, then a contradiction of the rest."""
     base, mine, other = texts
     start = mine[: min(same_count(mine, base), same_count(mine, other))].rfind("\n") + 1
@@ -186,7 +188,7 @@ class _Item(msgspec.Struct, eq=False):
 
 
 def _merge_parts(
-    path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: Layout
+    path: ElementPath, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: Layout
 ) -> list[Piece]:
     """Merge a thing that has parts."""
     trees = base or SyntaxTree(mine.kind, ()), mine, generated
@@ -281,7 +283,7 @@ def _with_blanks(part: Part | None) -> str:
 
 
 def _merge_around(
-    path: Path, base: Part | None, mine: Part, other: Part, pieces: list[Piece]
+    path: ElementPath, base: Part | None, mine: Part, other: Part, pieces: list[Piece]
 ) -> tuple[Sequence[str], list[Piece]]:
     """Merge the comments around a part between two people; comments that both changed make the part a contradiction."""
     before = _merge_comments(base.before if base else "", mine.before, other.before)

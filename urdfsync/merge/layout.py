@@ -34,7 +34,7 @@ _PLACEMENTS = {
 }
 _ARRAYS = {key: re.compile(rf"\b{key}\s*=\s*(\{{[^()=]*\}})") for key in ("extent", "origin", "points")}
 
-Box: TypeAlias = tuple[complex, complex]
+Rectangle: TypeAlias = tuple[complex, complex]
 """The place of a component: its lower left and its upper right corner."""
 
 
@@ -119,7 +119,7 @@ def _shifts(
     return shifts
 
 
-def _touch(box: Box, other: Box) -> bool:
+def _touch(box: Rectangle, other: Rectangle) -> bool:
     """Whether two boxes overlap."""
     return all(low.real < high.real and low.imag < high.imag for low, high in ((box[0], other[1]), (other[0], box[1])))
 
@@ -159,7 +159,7 @@ def _arrays(text: str, place: str) -> Iterator[re.Match[str] | None]:
         yield _ARRAYS[key].search(text, *placement.span(1)) if placement else None
 
 
-def _box(part: Part, place: str) -> Box | None:
+def _box(part: Part, place: str) -> Rectangle | None:
     """Return the place of a component in the diagram or in the icon; None without a place."""
     corners, origins = map(_points, _arrays(part.node.text, place))
     if len(corners) != 2 or not part.key.startswith("component "):

@@ -28,7 +28,7 @@ class Contradiction(NamedTuple):
 Piece: TypeAlias = str | Contradiction
 
 
-class Change(NamedTuple):
+class Hunk(NamedTuple):
     """`old[start:stop]` became `new[new_start:new_stop]`; one of these two ranges may be empty."""
 
     start: int
@@ -111,7 +111,7 @@ def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[st
     return merged
 
 
-def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
+def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Hunk]:
     """Return the changes that turn `old` into `new`, in order; between two changes there is a common item.
 
     If several lists of changes are shortest, this returns git's list. As in git, the list may be too long if items are
@@ -129,14 +129,14 @@ def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
     for hunk in pygit2.Patch.create_from(old_text.encode(), new_text.encode(), context_lines=0).hunks:
         # libgit2 numbers lines from 1, and gives an empty range the number of the line before
         start, new_start = hunk.old_start - (hunk.old_lines > 0), hunk.new_start - (hunk.new_lines > 0)
-        changes.append(Change(start, start + hunk.old_lines, new_start, new_start + hunk.new_lines))
+        changes.append(Hunk(start, start + hunk.old_lines, new_start, new_start + hunk.new_lines))
     return changes
 
 
 def find_regions(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> Iterator[Region]:
     """Yield the places where a side differs from base, in order; overlapping or touching changes are one place."""
     changes = [(change, side) for side, text in enumerate((mine, generated)) for change in compare(base, text)]
-    groups: list[list[tuple[Change, int]]] = []
+    groups: list[list[tuple[Hunk, int]]] = []
     stop = -1
     for change, side in sorted(changes):
         if change.start > stop:  # an unchanged line separates this change from the changes before

@@ -17,9 +17,9 @@ from xml.etree.ElementTree import Element, SubElement, tostring
 import mujoco
 import numpy as np
 
-from urdfsync.mjcf.document import Document
+from urdfsync.mjcf.document import MjcfDocument
 from urdfsync.mjcf.drives import Drives
-from urdfsync.mjcf.scene import WORLD, Scene, read_scene
+from urdfsync.mjcf.scene import WORLD, MujocoScene, read_scene
 from urdfsync.urdf.parse.xml import parse
 
 _STATES = 5
@@ -54,7 +54,7 @@ class _Joint(NamedTuple):
     urdf: tuple[slice, slice]
 
 
-def compare(document: Document, text: str, body: str = "") -> tuple[int, tuple[str, ...]]:
+def compare(document: MjcfDocument, text: str, body: str = "") -> tuple[int, tuple[str, ...]]:
     """Return how many numbers were compared, and a line for each quantity that differs. Raises TranslationError."""
     scene = read_scene(document, body)
     root = parse(text.encode()).root
@@ -75,7 +75,7 @@ def compare(document: Document, text: str, body: str = "") -> tuple[int, tuple[s
     return total, tuple(differences)
 
 
-def _leave_out(scene: Scene) -> None:
+def _leave_out(scene: MujocoScene) -> None:
     """Remove from MuJoCo's mass matrix what no URDF has: the translation has told it."""
     model = scene.model
     for joint in range(model.njnt):
@@ -118,7 +118,7 @@ def _read_urdf(root: Element, floating: str) -> Any:
     return mujoco.MjSpec.from_string(tostring(robot, "unicode")).compile()
 
 
-def _joints(scene: Scene, urdf: Any) -> Iterator[_Joint]:
+def _joints(scene: MujocoScene, urdf: Any) -> Iterator[_Joint]:
     """Yield the joints of the robot."""
     bodies = {*scene.bodies}
     for number in range(scene.model.njnt):
@@ -135,7 +135,7 @@ def _places(model: Any, joint: int) -> tuple[slice, slice]:
     return position, velocity
 
 
-def _constants(scene: Scene, urdf: Any, joints: list[_Joint], root: Element) -> Iterator[_Numbers]:
+def _constants(scene: MujocoScene, urdf: Any, joints: list[_Joint], root: Element) -> Iterator[_Numbers]:
     """Yield masses, losses and ranges; add armatures and springs of the URDF to its model."""
     model = scene.model
     for body in scene.bodies:
@@ -161,7 +161,7 @@ def _constants(scene: Scene, urdf: Any, joints: list[_Joint], root: Element) -> 
     mujoco.mj_setConst(urdf, mujoco.MjData(urdf))  # the mass matrix of a body that only slides is a constant
 
 
-def _efforts(scene: Scene, root: Element) -> Iterator[_Numbers]:
+def _efforts(scene: MujocoScene, root: Element) -> Iterator[_Numbers]:
     """Yield the greatest effort of the motors of each joint that has a limit of effort.
 
     MuJoCo computes the force of each motor alone: position, velocity and command are far on the side where it pushes.
@@ -201,7 +201,7 @@ def _effort(model: Any, moved: Mapping[int, float], side: int, gear: float) -> f
     return float(sum(each.item() for each in efforts))
 
 
-def _laws(scene: Scene, root: Element) -> Iterator[_Numbers]:
+def _laws(scene: MujocoScene, root: Element) -> Iterator[_Numbers]:
     """Yield the effort of each drive whose law is in the URDF, at random positions, speeds and commands.
 
     Far commands show the limits of the command, without those of the effort, and then the limits of the effort. For an
@@ -337,7 +337,7 @@ def _moved_by(drives: Drives, leader: int) -> dict[int, float]:
     return {leader: 1.0} | followers
 
 
-def _motion(scene: Scene, urdf: Any, joints: list[_Joint], random: np.random.Generator) -> Iterator[_Numbers]:
+def _motion(scene: MujocoScene, urdf: Any, joints: list[_Joint], random: np.random.Generator) -> Iterator[_Numbers]:
     """Yield the numbers of both models at a random state."""
     model = scene.model
     source, other = mujoco.MjData(model), mujoco.MjData(urdf)

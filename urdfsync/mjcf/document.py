@@ -16,7 +16,7 @@ from pathlib import PurePosixPath
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
-from urdfsync.translation.files import Files, Place, TranslationError
+from urdfsync.translation.files import Files, SourcePlace, TranslationError
 from urdfsync.translation.writer import in_xml
 
 _LEFT_OUT = ("texture", "hfield", "skin")
@@ -30,13 +30,13 @@ _MOST_ELEMENTS = 20_000
 """The most elements of a model with its copies. The largest robots have 3,000; for 30,000 copies MuJoCo takes 20 s."""
 
 
-class Document(NamedTuple):
+class MjcfDocument(NamedTuple):
     """The text of an MJCF, and what MuJoCo needs to read it."""
 
     source: str
     """Path of the source."""
     text: str
-    places: list[Place]
+    places: list[SourcePlace]
     """Place of each line of the text and of the `models`."""
     meshes: dict[str, str]
     """Paths of the files of meshes, by their names in the text."""
@@ -44,21 +44,23 @@ class Document(NamedTuple):
     """Contents of these files by the same names."""
     models: dict[str, str]
     """Texts of the models that the text attaches, by their names in it."""
-    noted: list[tuple[str, str, Place]]
+    noted: list[tuple[str, str, SourcePlace]]
     """Tag, name and place of each element without an effect on the robot."""
 
-    def place(self, line: int) -> Place:
+    def place(self, line: int) -> SourcePlace:
         """Return the place of a line; the first place for an unknown line."""
         return self.places[line - 1 if 0 < line <= len(self.places) else 0]
 
 
-def read_document(source: str, files: Files) -> Document:
+def read_document(source: str, files: Files) -> MjcfDocument:
     """Read an MJCF with all files that it names. Raises TranslationError."""
-    document = Document(source, "", [], {}, {}, {}, [])
+    document = MjcfDocument(source, "", [], {}, {}, {}, [])
     return _read_model(source, files, document, ("", 0), ())
 
 
-def _read_model(source: str, files: Files, shared: Document, place: Place, around: tuple[str, ...]) -> Document:
+def _read_model(
+    source: str, files: Files, shared: MjcfDocument, place: SourcePlace, around: tuple[str, ...]
+) -> MjcfDocument:
     """Return the document of a model; its meshes and models are added to those of `shared`."""
     if source in around:
         raise TranslationError("the model attaches itself", place)
@@ -78,7 +80,7 @@ def _read_model(source: str, files: Files, shared: Document, place: Place, aroun
 
 
 def _include(
-    element: Element, file: str, main: str, files: Files, places: dict[Element, Place], around: tuple[str, ...]
+    element: Element, file: str, main: str, files: Files, places: dict[Element, SourcePlace], around: tuple[str, ...]
 ) -> None:
     """Replace each `<include>` below an element by the elements of its file; `main` is the folder of the source."""
     children = list[Element]()
@@ -106,7 +108,12 @@ def _include(
 
 
 def _name_files(
-    root: Element, source: str, files: Files, places: Mapping[Element, Place], shared: Document, around: tuple[str, ...]
+    root: Element,
+    source: str,
+    files: Files,
+    places: Mapping[Element, SourcePlace],
+    shared: MjcfDocument,
+    around: tuple[str, ...],
 ) -> None:
     """Give each file of a mesh or of an attached model a name of ours; leave out what only draws."""
     folder, settings = os.path.dirname(source), dict[str, str]()  # noqa: PTH120
@@ -159,7 +166,7 @@ def _count(element: Element) -> int:
     return 1 + sum(map(_count, element)) * (int(text) if text.isdecimal() and len(text) < 10 else 1)
 
 
-def _lines(element: Element, places: Mapping[Element, Place]) -> Iterator[tuple[str, Place]]:
+def _lines(element: Element, places: Mapping[Element, SourcePlace]) -> Iterator[tuple[str, SourcePlace]]:
     """Yield the lines of an element, each with its place."""
     place = places[element]
     yield f"<{element.tag}{in_xml(element.attrib)}{'' if len(element) else '/'}>", place

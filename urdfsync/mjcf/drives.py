@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 
 import mujoco
 
-from urdfsync.mjcf.scene import Scene
-from urdfsync.translation.writer import Node, rounded
+from urdfsync.mjcf.scene import MujocoScene
+from urdfsync.translation.writer import UrdfElement, rounded
 from urdfsync.urdf.robot import Command
 
 _HOME = "home"
@@ -38,7 +38,7 @@ class Follower(NamedTuple):
     offset: float
 
 
-class Motor(NamedTuple):
+class JointActuator(NamedTuple):
     """An actuator that moves one joint."""
 
     actuator: int
@@ -77,7 +77,7 @@ class _Limits:
         }
 
 
-class Part(NamedTuple):
+class OmittedPart(NamedTuple):
     """A part that acts on the robot, and that no model has."""
 
     what: str
@@ -88,14 +88,14 @@ class Part(NamedTuple):
 class Drives:
     """The couplings and motors of a robot's joints."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: MujocoScene) -> None:
         self.scene = scene
         bodies = {*scene.bodies}
         self.joints = [n for n in range(scene.model.njnt) if int(scene.model.jnt_bodyid[n]) in bodies]
-        self.left_out = list[Part]()
+        self.left_out = list[OmittedPart]()
         self.followers = dict[int, Follower]()
         self._read_couplings()
-        self.motors = defaultdict[int, list[Motor]](list)
+        self.motors = defaultdict[int, list[JointActuator]](list)
         groups = scene.model.opt.disableactuator
         self.disabled = [n for n in range(scene.model.nu) if groups & 1 << int(scene.model.actuator_group[n])]
         """Actuators that an option switches off."""
@@ -105,7 +105,7 @@ class Drives:
 
     def leave_out(self, what: str, kind: str, number: int, name: str = "") -> None:
         """Note an element that acts on the robot, and that no model has."""
-        self.left_out.append(Part(what, name or self.scene.name(kind, number), self.scene.line(kind, number)))
+        self.left_out.append(OmittedPart(what, name or self.scene.name(kind, number), self.scene.line(kind, number)))
 
     def _has_axis(self, joint: int) -> bool:
         return joint in self.joints and int(self.scene.model.jnt_type[joint]) in _AXES  # numpy's are never `in`
@@ -176,7 +176,7 @@ class Drives:
             return
         length = float(model.actuator_gear[number][0]) * sum(factor * self.offset(joint) for joint, factor in pulls)
         servo, effort = self._read_law(number, command, gear, length, pulls)
-        self.motors[joint].append(Motor(number, command, gear, effort, servo))
+        self.motors[joint].append(JointActuator(number, command, gear, effort, servo))
 
     def pulls(self, tendon: int) -> Iterator[tuple[int, float]]:
         """Yield the joints of a fixed tendon with their factors; nothing for a spatial tendon."""
@@ -239,7 +239,7 @@ class Drives:
         is_servo = is_servo and all(map(math.isfinite, servo.values()))
         return servo if is_servo else None, limits.greatest_effort()
 
-    def add_numbers(self, joint: Node, number: int, kind: str) -> None:
+    def add_numbers(self, joint: UrdfElement, number: int, kind: str) -> None:
         """Add limits, losses and coupling of a joint to its element."""
         model, motors = self.scene.model, self.motors.get(number, [])
         dof, efforts = model.jnt_dofadr[number], [motor.effort for motor in motors]
@@ -271,7 +271,7 @@ class Drives:
             leader, multiplier, offset = self.followers[number]
             joint.add("mimic", joint=self.scene.joints[leader], multiplier=multiplier, offset=offset)
 
-    def add_control(self, robot: Node) -> None:
+    def add_control(self, robot: UrdfElement) -> None:
         """Add the motors, their gears, and the starts of joints. With any motor, a joint without one is passive."""
         scene, starts = self.scene, self._starts()
         if not self.motors and not starts:

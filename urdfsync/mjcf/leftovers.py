@@ -8,9 +8,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from urdfsync.mjcf.drives import Drives, Part
-from urdfsync.mjcf.scene import Scene
-from urdfsync.translation.writer import Node
+from urdfsync.mjcf.drives import Drives, OmittedPart
+from urdfsync.mjcf.scene import MujocoScene
+from urdfsync.translation.writer import UrdfElement
 
 _GRAVITY = (0.0, 0.0, -9.81)
 _SWITCHES = ("GRAVITY", "CONSTRAINT", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION", "PASSIVE", "SPRING", "DAMPER")
@@ -22,7 +22,7 @@ _AT_ONCE = (mujoco.mjtDyn.mjDYN_NONE, mujoco.mjtDyn.mjDYN_INTEGRATOR)
 _FREE, _BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
 
 
-def find_left_out(scene: Scene, drives: Drives) -> None:
+def find_left_out(scene: MujocoScene, drives: Drives) -> None:
     """Add to the drives' list what acts on the robot by other means than joints and motors."""
     model = scene.model
     for joint in drives.joints:
@@ -60,32 +60,36 @@ def find_left_out(scene: Scene, drives: Drives) -> None:
         signature = int(model.exclude_signature[number])
         excluded = {signature >> 16, signature & 0xFFFF}
         if 0 in excluded and not excluded.isdisjoint(scene.bodies):
-            drives.left_out.append(Part("contact without the ground", "", _option_line(scene, "exclude", "body1")))
+            drives.left_out.append(
+                OmittedPart("contact without the ground", "", _option_line(scene, "exclude", "body1"))
+            )
     _find_global(scene, drives)
 
 
-def _find_global(scene: Scene, drives: Drives) -> None:
+def _find_global(scene: MujocoScene, drives: Drives) -> None:
     """Add what acts on all bodies: switches, another gravity, or a fluid."""
     model = scene.model
     for name in (*_SWITCHES, *["CONTACT"] * scene.is_floating):
         if model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0):
-            drives.left_out.append(Part("disabled flag", name.lower(), _option_line(scene, "flag", name.lower())))
+            drives.left_out.append(
+                OmittedPart("disabled flag", name.lower(), _option_line(scene, "flag", name.lower()))
+            )
     if not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
         words = " ".join(f"{value:g}" for value in model.opt.gravity)
-        drives.left_out.append(Part("gravity", words, _option_line(scene, "option", "gravity")))
+        drives.left_out.append(OmittedPart("gravity", words, _option_line(scene, "option", "gravity")))
     for name in ("density", "viscosity"):
         if getattr(model.opt, name):
-            drives.left_out.append(Part("fluid", name, _option_line(scene, "option", name)))
+            drives.left_out.append(OmittedPart("fluid", name, _option_line(scene, "option", name)))
 
 
-def _option_line(scene: Scene, tag: str, attribute: str) -> int:
+def _option_line(scene: MujocoScene, tag: str, attribute: str) -> int:
     """Return the last line of the text with an element that has an attribute: later options count; 0 for none."""
     lines = scene.document.text.split("\n")
     has = (line.lstrip().startswith(f"<{tag} ") and f' {attribute}="' in line for line in reversed(lines))
     return next((len(lines) - number for number, is_it in enumerate(has) if is_it), 0)
 
 
-def _add_soft(robot: Node, scene: Scene, drives: Drives) -> None:
+def _add_soft(robot: UrdfElement, scene: MujocoScene, drives: Drives) -> None:
     """Add an element for each constraint that gives way more or less than usual in MuJoCo: no model's does."""
     model = scene.model
     for joint in drives.joints:
@@ -120,7 +124,7 @@ def _forces(model: Any) -> Iterator[Any]:
             yield getattr(model, f"tendon_{name}")
 
 
-def add_leftovers(robot: Node, scene: Scene, drives: Drives) -> None:
+def add_leftovers(robot: UrdfElement, scene: MujocoScene, drives: Drives) -> None:
     """Add an element for each part that is left out, and for each element without an effect."""
     for part in drives.left_out:
         robot.add("left_out", part.line, name=part.name, what=part.what)

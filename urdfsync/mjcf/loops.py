@@ -10,14 +10,14 @@ import mujoco
 from urdfsync.mjcf.drives import Drives
 from urdfsync.mjcf.robot import Links
 from urdfsync.mjcf.turns import rpy
-from urdfsync.translation.writer import Node
+from urdfsync.translation.writer import UrdfElement
 
 _KINDS = {mujoco.mjtEq.mjEQ_CONNECT: "connect", mujoco.mjtEq.mjEQ_WELD: "weld"}
 _POINT, _PLACE, _TURN = slice(0, 3), slice(3, 6), slice(6, 10)
 """Places of numbers in an equality: a point in each body, or the pose of the second body in the first one."""
 
 
-def add_loops(robot: Node, links: Links, drives: Drives) -> None:
+def add_loops(robot: UrdfElement, links: Links, drives: Drives) -> None:
     """Add a loop for each equality of two bodies or two sites; other equalities are left out."""
     scene, model = links.scene, links.scene.model
     for number in range(model.neq):

@@ -13,10 +13,10 @@ import mujoco
 import numpy as np
 
 from urdfsync.mjcf.drives import Drives
-from urdfsync.mjcf.scene import Scene
+from urdfsync.mjcf.scene import MujocoScene
 from urdfsync.mjcf.shapes import add_friction, add_shapes
-from urdfsync.mjcf.turns import Vector, rpy, turned
-from urdfsync.translation.writer import Node, free_name, rounded
+from urdfsync.mjcf.turns import Array, rpy, turned
+from urdfsync.translation.writer import UrdfElement, free_name, rounded
 
 _TYPES = {
     mujoco.mjtJoint.mjJNT_FREE: "floating",
@@ -31,14 +31,14 @@ _SAME = 1e-9
 class Links:
     """The links of a robot with the places of their frames."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: MujocoScene) -> None:
         self.scene, self._taken, self._taken_joints = scene, {*scene.links}, {*scene.joints}
         self.sites: dict[int, str] = {}
         """Links of the sites with a name."""
         self.offsets = {body: self._offset(body) for body in scene.bodies}
         """Origin of each link in the frame of its body."""
 
-    def _anchors(self, body: int) -> Iterator[Vector]:
+    def _anchors(self, body: int) -> Iterator[Array]:
         """Yield the origin of each joint of a body. A sliding joint acts the same at any origin."""
         model, anchor = self.scene.model, np.zeros(3)
         for joint in self.scene.joints_of(body):
@@ -46,7 +46,7 @@ class Links:
                 anchor = np.array(model.jnt_pos[joint])
             yield anchor
 
-    def _offset(self, body: int) -> Vector:
+    def _offset(self, body: int) -> Array:
         return [np.zeros(3), *self._anchors(body)][-1]
 
     def place(self, body: int, position: Any) -> tuple[float, ...]:
@@ -54,7 +54,7 @@ class Links:
         offset = self.offsets[body]
         return rounded(position - offset) if offset.any() else tuple(map(float, position))
 
-    def add(self, robot: Node, drives: Drives) -> None:
+    def add(self, robot: UrdfElement, drives: Drives) -> None:
         """Add all links and joints to the robot."""
         for body in self.scene.bodies:
             if body != self.scene.bodies[0]:
@@ -62,7 +62,7 @@ class Links:
             self._add_link(robot, body)
         self._add_sites(robot)
 
-    def _add_link(self, robot: Node, body: int) -> None:
+    def _add_link(self, robot: UrdfElement, body: int) -> None:
         model, line = self.scene.model, self.scene.line("body", body)
         link = robot.add("link", line, name=self.scene.links[body])
         mass, moments = model.body_mass[body], model.body_inertia[body]
@@ -91,7 +91,7 @@ class Links:
         same = np.allclose(compiled, [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], rtol=0, atol=_SAME * (xx + yy + zz))
         return written if same else None
 
-    def _add_joints(self, robot: Node, body: int, drives: Drives) -> None:
+    def _add_joints(self, robot: UrdfElement, body: int, drives: Drives) -> None:
         """Add the joints from a body's parent to the body, with a link between each two of them."""
         scene, model = self.scene, self.scene.model
         parent = model.body_parentid[body]
@@ -122,14 +122,14 @@ class Links:
                 robot.add("link", line, name=child)
             name, before = child, anchor
 
-    def _add_weld(self, robot: Node, line: int, parent: int, child: str, position: Any, quaternion: Any) -> None:
+    def _add_weld(self, robot: UrdfElement, line: int, parent: int, child: str, position: Any, quaternion: Any) -> None:
         """Add a fixed joint from a body to a link."""
         joint = robot.add("joint", line, name=free_name(f"{child}_fixed", self._taken_joints), type="fixed")
         joint.add("parent", link=self.scene.links[parent])
         joint.add("child", link=child)
         joint.add("origin", xyz=self.place(parent, position), rpy=rpy(quaternion))
 
-    def _add_sites(self, robot: Node) -> None:
+    def _add_sites(self, robot: UrdfElement) -> None:
         """Add a link without mass for each site with a name."""
         model = self.scene.model
         for site in range(model.nsite):

@@ -8,7 +8,7 @@ from typing import Any
 
 import mujoco
 
-from urdfsync.mjcf.document import Document
+from urdfsync.mjcf.document import MjcfDocument
 from urdfsync.spelling import nearest
 from urdfsync.translation.files import TranslationError
 from urdfsync.translation.writer import free_name
@@ -40,10 +40,10 @@ f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4
 """A mesh as OBJ."""
 
 
-class Scene:
+class MujocoScene:
     """A model as MuJoCo compiles it, and the robot in it: the bodies below `root`."""
 
-    def __init__(self, document: Document, spec: Any, model: Any, body: str) -> None:
+    def __init__(self, document: MjcfDocument, spec: Any, model: Any, body: str) -> None:
         """`body` is the user's choice; empty for none. Raises TranslationError if there is not one robot."""
         self.document, self.spec, self.model = document, spec, model
         self._elements = {kind: {one.id: one for one in getattr(spec, name)} for kind, (_, name) in _KINDS.items()}
@@ -140,7 +140,7 @@ class Scene:
         return f"{self.links[body]}_joint{place if self.model.body_jntnum[body] > 1 else ''}"
 
 
-def read_scene(document: Document, body: str = "") -> Scene:
+def read_scene(document: MjcfDocument, body: str = "") -> MujocoScene:
     """Compile a document, and choose its robot. Raises TranslationError."""
     # MuJoCo would write its warnings into a file of the working folder
     mujoco.set_mju_user_warning(lambda _: None)
@@ -161,7 +161,7 @@ def read_scene(document: Document, body: str = "") -> Scene:
         model = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise _in_words(document, str(error)) from None
-    return Scene(document, spec, model, body)
+    return MujocoScene(document, spec, model, body)
 
 
 def _needs_meshes(spec: Any) -> bool:
@@ -178,7 +178,7 @@ def _line_in(text: str) -> int:
     return next((int(found[2]) for found in _LINE.finditer(text) if found[2]), 0)
 
 
-def _in_words(document: Document, text: str) -> TranslationError:
+def _in_words(document: MjcfDocument, text: str) -> TranslationError:
     """Return MuJoCo's error with the user's file and line."""
     words = " ".join(_LINE.sub(lambda found: found[1] or "", text).split())
     words = words.removeprefix("XML Error: ").removeprefix("Error: ")

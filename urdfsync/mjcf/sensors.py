@@ -13,7 +13,7 @@ import numpy as np
 
 from urdfsync.mjcf.robot import Links
 from urdfsync.mjcf.turns import rpy
-from urdfsync.translation.writer import Node
+from urdfsync.translation.writer import UrdfElement
 
 _KINDS = {mujoco.mjtSensor.mjSENS_ACCELEROMETER: "accelerometer", mujoco.mjtSensor.mjSENS_GYRO: "gyroscope"}
 
@@ -21,7 +21,7 @@ _KINDS = {mujoco.mjtSensor.mjSENS_ACCELEROMETER: "accelerometer", mujoco.mjtSens
 _LOADS = {mujoco.mjtSensor.mjSENS_FORCE: "force", mujoco.mjtSensor.mjSENS_TORQUE: "torque"}
 
 
-def _add_load(robot: Node, links: Links, number: int, joints: Mapping[str, str]) -> bool:
+def _add_load(robot: UrdfElement, links: Links, number: int, joints: Mapping[str, str]) -> bool:
     """Add a sensor of force and torque for a sensor of MuJoCo; return whether the package has such a sensor."""
     scene, model = links.scene, links.scene.model
     site = int(model.sensor_objid[number])
@@ -44,7 +44,7 @@ def _add_load(robot: Node, links: Links, number: int, joints: Mapping[str, str])
     return True
 
 
-def add_sensors(robot: Node, links: Links) -> None:
+def add_sensors(robot: UrdfElement, links: Links) -> None:
     """Add the sensors of the robot; a note names the others."""
     scene, model = links.scene, links.scene.model
     joints = {

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
-from urdfsync.mjcf.scene import Scene
-from urdfsync.mjcf.turns import Vector, inverse, product, rpy, turned
-from urdfsync.translation.writer import Node, rounded
+from urdfsync.mjcf.scene import MujocoScene
+from urdfsync.mjcf.turns import Array, inverse, product, rpy, turned
+from urdfsync.translation.writer import UrdfElement, rounded
 
 _SHOWN = 2
 """The last group of geoms that viewers show."""
@@ -34,11 +34,11 @@ _KINDS = {
 class _Shape(NamedTuple):
     tag: str
     attributes: dict[str, Any]
-    position: Vector
-    quaternion: Vector
+    position: Array
+    quaternion: Array
 
 
-def add_shapes(link: Node, scene: Scene, body: int, offset: Vector) -> None:
+def add_shapes(link: UrdfElement, scene: MujocoScene, body: int, offset: Array) -> None:
     """Add the shapes of a body; `offset` is the origin of the link in the frame of the body."""
     model, first = scene.model, scene.model.body_geomadr[body]
     shapes = {number: _shape(scene, number) for number in range(first, first + model.body_geomnum[body])}
@@ -56,7 +56,7 @@ def add_shapes(link: Node, scene: Scene, body: int, offset: Vector) -> None:
                 element.add("material", name="").add("color", rgba=_color(scene, number))
 
 
-def add_friction(link: Node, scene: Scene, body: int) -> None:
+def add_friction(link: UrdfElement, scene: MujocoScene, body: int) -> None:
     """Add the sliding friction of the geoms that can touch others, and a note if they have several.
 
     Of two geoms that touch, MuJoCo takes the greater friction: the greatest counts for the link.
@@ -72,7 +72,7 @@ def add_friction(link: Node, scene: Scene, body: int) -> None:
             contact.add("friction")
 
 
-def _shape(scene: Scene, number: int) -> _Shape:
+def _shape(scene: MujocoScene, number: int) -> _Shape:
     """Return the shape of a geom, with its pose in the frame of the body."""
     model = scene.model
     kind = _KINDS.get(mujoco.mjtGeom(model.geom_type[number]), "unknown")
@@ -92,7 +92,7 @@ def _shape(scene: Scene, number: int) -> _Shape:
     return _Shape(kind, attributes, position, quaternion)
 
 
-def _mesh(scene: Scene, number: int, position: Any, quaternion: Any) -> _Shape:
+def _mesh(scene: MujocoScene, number: int, position: Any, quaternion: Any) -> _Shape:
     """Return a mesh in the coordinates of its file.
 
     MuJoCo moves each mesh to its centre of mass, and turns it to its principal axes. `mesh_pos` and `mesh_quat` are the
@@ -112,7 +112,7 @@ def _mesh(scene: Scene, number: int, position: Any, quaternion: Any) -> _Shape:
     return _Shape("mesh", {"filename": filename, "scale": tuple(scale)}, place, turn)
 
 
-def _color(scene: Scene, number: int) -> tuple[float, ...]:
+def _color(scene: MujocoScene, number: int) -> tuple[float, ...]:
     """Return the colour of a geom as MuJoCo draws it, without textures."""
     model = scene.model
     own, material = tuple(map(float, model.geom_rgba[number])), model.geom_matid[number]

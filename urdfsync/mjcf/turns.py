@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from urdfsync.translation.writer import rounded
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 
-Vector: TypeAlias = NDArray[np.float64]
+Array: TypeAlias = NDArray[np.float64]
 
 
 def rpy(quaternion: Any) -> tuple[float, ...]:
@@ -20,20 +20,20 @@ def rpy(quaternion: Any) -> tuple[float, ...]:
     return rounded(roll_pitch_yaw((x, y, z, w)))
 
 
-def turned(quaternion: Any, vector: Any) -> Vector:
+def turned(quaternion: Any, vector: Any) -> Array:
     """Return a vector turned by a quaternion."""
     result = np.zeros(3)
     mujoco.mju_rotVecQuat(result, np.asarray(vector, float), np.asarray(quaternion, float))
     return result
 
 
-def product(first: Any, second: Any) -> Vector:
+def product(first: Any, second: Any) -> Array:
     """Return the product of two quaternions: the turn by `second`, then by `first`."""
     result = np.zeros(4)
     mujoco.mju_mulQuat(result, np.asarray(first, float), np.asarray(second, float))
     return result
 
 
-def inverse(quaternion: Any) -> Vector:
+def inverse(quaternion: Any) -> Array:
     """Return the quaternion of the opposite turn."""
     return np.asarray(quaternion, float) * [1.0, -1.0, -1.0, -1.0]

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
-from urdfsync.mjcf.document import Document
+from urdfsync.mjcf.document import MjcfDocument
 from urdfsync.mjcf.drives import Drives
 from urdfsync.mjcf.leftovers import add_leftovers, find_left_out
 from urdfsync.mjcf.loops import add_loops
 from urdfsync.mjcf.robot import Links
 from urdfsync.mjcf.scene import read_scene
 from urdfsync.mjcf.sensors import add_sensors
-from urdfsync.translation.writer import Node, write
+from urdfsync.translation.writer import UrdfElement, write
 
 _NO_NAME = "MuJoCo Model"
 """MuJoCo's name of a model without a name."""
 
 
-def translated(document: Document, body: str = "") -> tuple[str, tuple[tuple[int, str, int], ...]]:
+def translated(document: MjcfDocument, body: str = "") -> tuple[str, tuple[tuple[int, str, int], ...]]:
     """Return the URDF of the robot below `body`, and the place of each of its lines. Raises TranslationError.
 
     Without `body`, the document must have one robot.
@@ -25,7 +25,7 @@ def translated(document: Document, body: str = "") -> tuple[str, tuple[tuple[int
     scene = read_scene(document, body)
     drives, links = Drives(scene), Links(scene)
     name = scene.spec.modelname
-    robot = Node("robot", 0, name=PurePath(document.source).stem if name == _NO_NAME else name, version="1.2")
+    robot = UrdfElement("robot", 0, name=PurePath(document.source).stem if name == _NO_NAME else name, version="1.2")
     if scene.is_floating:
         robot.add("free_root", scene.line("body", scene.root), link=scene.links[scene.root])
     links.add(robot, drives)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 
 from urdfsync.engine.exchange import Answer, Problem, Request, serve
-from urdfsync.mjcf.document import Document, read_document
+from urdfsync.mjcf.document import MjcfDocument, read_document
 from urdfsync.translation import program
 from urdfsync.translation.files import Files, TranslationError
 
@@ -36,7 +36,7 @@ def translate(request: Request) -> Answer:
     return program.answer(request, files, "mjcf", ("body",), translate_or_compare, too_deep)
 
 
-def _read(source: str, files: Files) -> Document:
+def _read(source: str, files: Files) -> MjcfDocument:
     if files.read(source).startswith(_COMPILED):
         raise TranslationError(
             "this is a compiled model of MuJoCo (MJB)", (source, 0), "name the XML file of the model"

@@ -11,7 +11,7 @@ import msgspec
 from urdfsync.modelica.syntax import Class, Component, Modifier, Name
 
 
-class Node(msgspec.Struct, eq=False, dict=True):
+class ClassNode(msgspec.Struct, eq=False, dict=True):
     """A class at its place. Each node equals only itself."""
 
     definition: Class
@@ -19,8 +19,8 @@ class Node(msgspec.Struct, eq=False, dict=True):
     """Its full name."""
     file: str = ""
     """The path of the class's file, as in `StoredClasses`; empty without a file."""
-    parent: Node | None = None
-    classes: dict[str, Node | None] = msgspec.field(default_factory=dict)
+    parent: ClassNode | None = None
+    classes: dict[str, ClassNode | None] = msgspec.field(default_factory=dict)
     """Classes inside of this class that were read so far."""
     bases: tuple[Type, ...] | None = None
     """The resolved base classes; None before they are resolved."""
@@ -38,13 +38,13 @@ class Scoped(NamedTuple):
     """Modifiers, and the class in which they are written."""
 
     arguments: tuple[Modifier, ...]
-    scope: Node | None
+    scope: ClassNode | None
 
 
 class Type(NamedTuple):
     """The class of a component, or a base class, with all its modifiers."""
 
-    node: Node
+    node: ClassNode
     modifiers: tuple[Scoped, ...] = ()
 
     def __str__(self) -> str:
@@ -54,10 +54,10 @@ class Type(NamedTuple):
 Types: TypeAlias = tuple[Type, ...]
 
 
-def predefined(name: str, components: Iterable[str] = ()) -> Node:
+def predefined(name: str, components: Iterable[str] = ()) -> ClassNode:
     """Return a type of the language with these attributes or literals."""
     parts = [Component(Name((name,), 0), Name(("",), 0)) for name in components]
-    return Node(Class(Name((name,), 0), "type", components=parts), (name,))
+    return ClassNode(Class(Name((name,), 0), "type", components=parts), (name,))
 
 
 OPAQUE = predefined("")

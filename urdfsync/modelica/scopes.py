@@ -12,7 +12,7 @@ import contextlib
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from urdfsync.modelica.classes import OPAQUE, Node, Scoped, Type, Types, predefined
+from urdfsync.modelica.classes import OPAQUE, ClassNode, Scoped, Type, Types, predefined
 from urdfsync.modelica.names import FUNCTIONS
 from urdfsync.modelica.stored import StoredClasses
 from urdfsync.modelica.syntax import Component, Extends, Name
@@ -49,7 +49,7 @@ _DEEPEST = 40
 """The longest chain of lookups: a longer chain is a circle."""
 
 
-class Element(NamedTuple):
+class NamedElement(NamedTuple):
     """A named thing: a component, a class, a literal, an attribute, or a part of the language."""
 
     types: Types
@@ -69,7 +69,7 @@ class Missing(NamedTuple):
     """Number of the part in the name, from 0."""
 
 
-ANYTHING = Element((Type(OPAQUE),))
+ANYTHING = NamedElement((Type(OPAQUE),))
 """Any element of an `OPAQUE` class."""
 _TYPES = {name: predefined(name, attributes.split()) for name, attributes in _PREDEFINED.items()}
 
@@ -79,35 +79,35 @@ class Scopes:
 
     def __init__(self, sources: StoredClasses) -> None:
         self._sources = sources
-        self._tops: dict[str, Node | None] = {}
-        self._resolving: frozenset[Node] = frozenset()
+        self._tops: dict[str, ClassNode | None] = {}
+        self._resolving: frozenset[ClassNode] = frozenset()
         """Classes whose base classes are being resolved; until then, inherited elements of these classes do not
         count."""
         self._depth = 0
 
-    def node(self, name: Sequence[str]) -> Node | None:
+    def node(self, name: Sequence[str]) -> ClassNode | None:
         """Return the class with this full name; None for an unavailable or inherited class."""
         node = self._top(name[0]) if name else None
         for part in name[1:]:
             node = node and self._child(node, part)
         return None if node is OPAQUE else node
 
-    def users(self) -> Iterator[Node]:
+    def users(self) -> Iterator[ClassNode]:
         """Yield the classes of the user's files, each with the class around it, in the order of the files."""
         for node in self._sources.all_users:
-            yield Node(node.definition, node.name, node.file, self.node(node.name[:-1]))
+            yield ClassNode(node.definition, node.name, node.file, self.node(node.name[:-1]))
 
-    def _top(self, name: str) -> Node | None:
+    def _top(self, name: str) -> ClassNode | None:
         if name not in self._tops:
             self._tops[name] = self._sources.stored((name,))
         return self._tops[name]
 
-    def _child(self, node: Node, name: str) -> Node | None:
+    def _child(self, node: ClassNode, name: str) -> ClassNode | None:
         if node is OPAQUE:
             return OPAQUE
         if name not in node.classes:
             definition = next((inner for inner in node.definition.classes if inner.name.parts[0] == name), None)
-            child = Node(definition, (*node.name, name), node.file) if definition else None
+            child = ClassNode(definition, (*node.name, name), node.file) if definition else None
             if child is None and (node.definition.kind == "package" or node.file.endswith("package.mo")):
                 child = self._sources.stored((*node.name, name))
             if child is not None and child is not OPAQUE:
@@ -117,7 +117,7 @@ class Scopes:
 
     # --- lookup ---------------------------------------------------------------------------------------------------
 
-    def lookup(self, name: Name, scope: Node | None) -> Element | Missing:
+    def lookup(self, name: Name, scope: ClassNode | None) -> NamedElement | Missing:
         """Return the meaning of a name in a class; `scope` is None outside of all classes."""
         meaning = self._first(name.parts[0], None if name.is_global else scope)
         for number, part in enumerate(name.parts[1:], start=1):
@@ -133,33 +133,33 @@ class Scopes:
         requested = {**self._sources.seen}
         meaning = self.lookup(name._replace(is_global=True), None)
         self._sources.seen = requested
-        return isinstance(meaning, Element) and meaning is not ANYTHING
+        return isinstance(meaning, NamedElement) and meaning is not ANYTHING
 
-    def lookup_base(self, name: Name, node: Node) -> Element | Missing:
+    def lookup_base(self, name: Name, node: ClassNode) -> NamedElement | Missing:
         """Return the meaning of a name after `extends` in a class: inherited elements do not count."""
         with self._without_bases(node):
             return self.lookup(name, node)
 
-    def part(self, types: Types, name: str) -> Element | Missing:
+    def part(self, types: Types, name: str) -> NamedElement | Missing:
         """Return the meaning of a name in an element with these possible types."""
         every = [self._member(type_, name) for type_ in types]
-        elements = [member for member in every if isinstance(member, Element)]
+        elements = [member for member in every if isinstance(member, NamedElement)]
         is_certain = all(member.is_certain for member in every if isinstance(member, Missing))
         if not elements:
             return Missing(name, types, is_certain)
         specific = [element for element in elements if element is not ANYTHING]
         united = (type_ for element in elements for type_ in element.types)
         more = () if is_certain else ANYTHING.types
-        return Element(tuple(dict.fromkeys((*united, *more))), specific[0].is_component) if specific else ANYTHING
+        return NamedElement(tuple(dict.fromkeys((*united, *more))), specific[0].is_component) if specific else ANYTHING
 
-    def types_of(self, used: Extends, scope: Node | None) -> Types:
+    def types_of(self, used: Extends, scope: ClassNode | None) -> Types:
         """Return the classes that a name stands for, with the modifiers after the name."""
         meaning = self.lookup(used.type, scope)
         if isinstance(meaning, Missing) or meaning.is_component:
             return ANYTHING.types
         return _modified(meaning.types, [Scoped(used.arguments, scope)] if used.arguments else [])
 
-    def types_in(self, component: Component, scope: Node) -> Types:
+    def types_in(self, component: Component, scope: ClassNode) -> Types:
         """Return the possible types of a component by its declaration in a class."""
         if not component.type.parts[0]:  # without a type: an attribute of a predefined type
             return ANYTHING.types
@@ -168,7 +168,7 @@ class Scopes:
             types += _modified(self.types_of(component.constraint, scope), [Scoped(component.arguments, scope)])
         return types
 
-    def bases(self, node: Node) -> Types:
+    def bases(self, node: ClassNode) -> Types:
         """Return the base classes of a class, or the class that a short definition stands for."""
         if node.bases is not None:
             return node.bases
@@ -181,7 +181,7 @@ class Scopes:
         return types
 
     @contextlib.contextmanager
-    def _without_bases(self, node: Node) -> Iterator[None]:
+    def _without_bases(self, node: ClassNode) -> Iterator[None]:
         """Inside of the `with` block, inherited elements of this class do not count."""
         before = self._resolving
         self._resolving = before | {node}
@@ -205,23 +205,23 @@ class Scopes:
                 waiting += [base.node for base in self.bases(node)]
         return names
 
-    def names_around(self, scope: Node | None) -> dict[str, bool]:
+    def names_around(self, scope: ClassNode | None) -> dict[str, bool]:
         """Return the known simple names that can be used in a class, and whether each names a class."""
         names = dict.fromkeys(self._sources.names_in(()), True)
         while scope is not None:
             for clause in scope.definition.imports:
                 package = None if clause.names else self.lookup(clause.name, None)
                 names |= dict.fromkeys(clause.names, True)
-                names |= self.names_in(package.types) if isinstance(package, Element) else {}
+                names |= self.names_in(package.types) if isinstance(package, NamedElement) else {}
             names = {**names, **self.names_in((Type(scope),))}
             scope = scope.parent
         return names
 
-    def _first(self, name: str, scope: Node | None) -> Element | Missing:
+    def _first(self, name: str, scope: ClassNode | None) -> NamedElement | Missing:
         is_certain = True
         while scope is not None:
             meaning = self._in_scope(scope, name)
-            if isinstance(meaning, Element):
+            if isinstance(meaning, NamedElement):
                 return meaning
             is_certain &= meaning.is_certain
             if not is_certain and not name[:1].isupper():
@@ -232,23 +232,23 @@ class Scopes:
             return ANYTHING
         top = _TYPES.get(name) or self._top(name)
         if top is not None:
-            return Element((Type(top),)) if top is not OPAQUE else ANYTHING
+            return NamedElement((Type(top),)) if top is not OPAQUE else ANYTHING
         if self._sources.has_library(name):  # builds read no libraries
             return ANYTHING
         return Missing(name, (), is_certain)
 
-    def _in_scope(self, scope: Node, name: str) -> Element | Missing:
+    def _in_scope(self, scope: ClassNode, name: str) -> NamedElement | Missing:
         member = self._member(Type(scope), name)
-        if isinstance(member, Element):
+        if isinstance(member, NamedElement):
             return member
         for clause in scope.definition.imports:
             if name in clause.names:
                 imported = self.lookup(clause.names[name], None)
-                return imported if isinstance(imported, Element) else ANYTHING  # the import's own check reports it
+                return imported if isinstance(imported, NamedElement) else ANYTHING  # the import's own check reports it
         for clause in scope.definition.imports:
             if not clause.names:
                 imported = self.lookup(clause.name._replace(parts=(*clause.name.parts, name)), None)
-                if isinstance(imported, Element):
+                if isinstance(imported, NamedElement):
                     return imported
                 if imported.part != name or not imported.types:
                     return ANYTHING
@@ -256,7 +256,7 @@ class Scopes:
 
     # --- elements of a class --------------------------------------------------------------------------------------
 
-    def _member(self, type_: Type, name: str) -> Element | Missing:
+    def _member(self, type_: Type, name: str) -> NamedElement | Missing:
         """Return an element of a class, inherited or not, with its modifiers."""
         if self._depth > _DEEPEST:
             return ANYTHING
@@ -266,13 +266,13 @@ class Scopes:
         finally:
             self._depth -= 1
 
-    def _member_of(self, node: Node, modifiers: tuple[Scoped, ...], name: str) -> Element | Missing:
+    def _member_of(self, node: ClassNode, modifiers: tuple[Scoped, ...], name: str) -> NamedElement | Missing:
         definition = node.definition
         if node is OPAQUE or definition.is_derivative:
             return ANYTHING
         if definition.literals is not None:
             if name in definition.literals or not definition.literals:
-                return Element((Type(node),))
+                return NamedElement((Type(node),))
             return self._member(Type(_TYPES["enumeration"]), name)
         if component := node.components.get(name):
             return self._component(node, modifiers, component)
@@ -289,26 +289,26 @@ class Scopes:
             types += ANYTHING.types
         if child.definition.constraint:
             types += _modified(self.types_of(child.definition.constraint, node), nested)
-        return Element(self._with_inherited(types, node, modifiers, name, child.definition.prefixes))
+        return NamedElement(self._with_inherited(types, node, modifiers, name, child.definition.prefixes))
 
-    def _inherited(self, node: Node, modifiers: tuple[Scoped, ...], name: str) -> Element | Missing:
+    def _inherited(self, node: ClassNode, modifiers: tuple[Scoped, ...], name: str) -> NamedElement | Missing:
         is_certain = True
         for base in self.bases(node):
             if base.node is OPAQUE:
                 is_certain = False
                 continue
             member = self._member(Type(base.node, base.modifiers + modifiers), name)
-            if isinstance(member, Element):
+            if isinstance(member, NamedElement):
                 return member
             is_certain &= member.is_certain
         return Missing(name, (), is_certain)
 
-    def _component(self, node: Node, modifiers: tuple[Scoped, ...], component: Component) -> Element:
+    def _component(self, node: ClassNode, modifiers: tuple[Scoped, ...], component: Component) -> NamedElement:
         name = component.name.parts[0]
         types = self._redeclared(modifiers, name)
         types += _modified(self.types_in(component, node), _nested(modifiers, name))
         types = self._with_inherited(types, node, modifiers, name, component.prefixes)
-        return Element(types, is_component=True)
+        return NamedElement(types, is_component=True)
 
     def _redeclared(self, modifiers: tuple[Scoped, ...], name: str) -> Types:
         """Return the types to which the modifiers of its class redeclare an element."""
@@ -322,21 +322,21 @@ class Scopes:
         return types
 
     def _with_inherited(
-        self, types: Types, node: Node, modifiers: tuple[Scoped, ...], name: str, prefixes: frozenset[str]
+        self, types: Types, node: ClassNode, modifiers: tuple[Scoped, ...], name: str, prefixes: frozenset[str]
     ) -> Types:
         """Return types; for an element that redeclares an inherited element, add the types of the inherited element."""
         before = self._inherited(node, modifiers, name) if "redeclare" in prefixes else None
-        types += before.types if isinstance(before, Element) else ()
+        types += before.types if isinstance(before, NamedElement) else ()
         return tuple(dict.fromkeys(types))
 
-    def _bases(self, node: Node) -> Types:
+    def _bases(self, node: ClassNode) -> Types:
         definition = node.definition
         if definition.alias is not None:
             return self.types_of(definition.alias, node.parent)
         bases: Types = ()
         if definition.is_extension and node.parent is not None:
             before = self._inherited(node.parent, (), node.name[-1])
-            types = before.types if isinstance(before, Element) else ANYTHING.types
+            types = before.types if isinstance(before, NamedElement) else ANYTHING.types
             bases += _modified(types, [Scoped(definition.arguments, node)])
         for base in definition.extends:
             types = self.types_of(base, node)

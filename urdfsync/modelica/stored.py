@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 from urdfsync.dependencies.reads import is_file, read_file
-from urdfsync.modelica.classes import OPAQUE, Node
+from urdfsync.modelica.classes import OPAQUE, ClassNode
 from urdfsync.modelica.files import NOT_CLASSES, PACKAGE_FILE, ClassName, class_of_file, class_parts, place_of, text_of
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.modelica.parser import parse
@@ -44,9 +44,9 @@ class StoredClasses:
         self._below, self._texts, self._others = f"{folder}{os.sep}", texts, others
         self.own: dict[ClassName, str] = {}
         """The files of the robot's package, by the full names of their classes."""
-        self.users: dict[ClassName, Node] = {}
+        self.users: dict[ClassName, ClassNode] = {}
         """The classes of the user's files, by their full names; of several with one name, the first class."""
-        self.all_users: list[Node] = []
+        self.all_users: list[ClassNode] = []
         """The classes of the user's files, in the order of the files."""
         self.unread: list[Path] = []
         """The user's files with syntax errors or in the wrong folder: their classes are unknown."""
@@ -69,22 +69,22 @@ class StoredClasses:
                 continue
             for definition in stored.classes:
                 name = (*around, definition.name.parts[0])
-                self.all_users.append(Node(definition, name, str(file)))
+                self.all_users.append(ClassNode(definition, name, str(file)))
                 self.users.setdefault(name, self.all_users[-1])
 
-    def stored(self, name: ClassName) -> Node | None:
+    def stored(self, name: ClassName) -> ClassNode | None:
         """Return the class with this full name; `OPAQUE` for an unreadable class, None without a file."""
         file = self.seen[name] = self.file(name)
         if file is None:
             return None
         if name in self.users and name not in self.own:  # a new node each time: nodes keep resolved names
-            return Node(self.users[name].definition, name, file)
+            return ClassNode(self.users[name].definition, name, file)
         try:
             text = self._read(self.content(file))
         except OSError:
             return OPAQUE
         definition = next((definition for definition in text.classes if definition.name.parts[0] == name[-1]), None)
-        return OPAQUE if definition is None or text.is_broken else Node(definition, name, file)
+        return OPAQUE if definition is None or text.is_broken else ClassNode(definition, name, file)
 
     def file(self, name: ClassName) -> str | None:
         """Return the file in which a class is stored; None if there is none."""

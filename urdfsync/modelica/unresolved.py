@@ -6,8 +6,8 @@ import enum
 from collections.abc import Callable, Collection, Container, Iterable, Iterator
 from typing import NamedTuple
 
-from urdfsync.modelica.classes import OPAQUE, Node, Types
-from urdfsync.modelica.scopes import ANYTHING, Element, Missing, Scopes
+from urdfsync.modelica.classes import OPAQUE, ClassNode, Types
+from urdfsync.modelica.scopes import ANYTHING, Missing, NamedElement, Scopes
 from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
 from urdfsync.spelling import nearest
 
@@ -74,7 +74,7 @@ class Unresolved(NamedTuple):
 
 
 def unresolved(
-    node: Node,
+    node: ClassNode,
     scopes: Scopes,
     *,
     all_libraries: bool = False,
@@ -90,7 +90,7 @@ def unresolved(
     yield from _Walk(scopes, all_libraries, lost, passed).find(node)
 
 
-def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
+def _is_in_open_package(scope: ClassNode | None, scopes: Scopes) -> bool:
     """Whether a class, or a class around it, is a package that may inherit classes from an unavailable library."""
     while scope is not None:
         if scope.definition.kind == "package" and any(base.node is OPAQUE for base in scopes.bases(scope)):
@@ -107,7 +107,7 @@ class _Walk(NamedTuple):
     lost: Callable[[str], bool] | None
     passed: Container[int]
 
-    def find(self, node: Node) -> Iterator[Unresolved]:
+    def find(self, node: ClassNode) -> Iterator[Unresolved]:
         scopes, definition = self.scopes, node.definition
         for used in filter(None, (definition.alias, definition.constraint)):
             yield from self._used(used, node.parent)
@@ -131,7 +131,7 @@ class _Walk(NamedTuple):
             if child is not None and child.definition is inner:
                 yield from self.find(child)
 
-    def _extends_itself(self, node: Node) -> bool:
+    def _extends_itself(self, node: ClassNode) -> bool:
         waiting, seen = [type_.node for type_ in self.scopes.bases(node)], {OPAQUE}
         while waiting and node not in waiting:
             base = waiting.pop()
@@ -140,23 +140,23 @@ class _Walk(NamedTuple):
                 waiting += [type_.node for type_ in self.scopes.bases(base)]
         return bool(waiting)
 
-    def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
+    def _used(self, used: Extends, scope: ClassNode | None) -> Iterator[Unresolved]:
         """Yield the faults of a used class, and of the modifiers after the class."""
         yield from self._missing(used.type, self.scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
         yield from self._arguments(used.arguments, self.scopes.types_of(used, scope), scope)
 
-    def _uses(self, names: Iterable[Name], scope: Node | None) -> Iterator[Unresolved]:
+    def _uses(self, names: Iterable[Name], scope: ClassNode | None) -> Iterator[Unresolved]:
         for name in names:
             meaning = self.scopes.lookup(name, scope)
             yield from self._missing(name, meaning, scope, UnresolvedKind.ELEMENT)
-            if name.arguments and isinstance(meaning, Element) and not meaning.is_component:
+            if name.arguments and isinstance(meaning, NamedElement) and not meaning.is_component:
                 # operator records and external objects have constructors with other arguments
                 is_plain = all(type_.node.definition.kind in _CALLED for type_ in meaning.types)
                 for argument in name.arguments if is_plain else ():
                     part = self.scopes.part(meaning.types, argument.parts[0])
                     yield from self._missing(argument, part, scope, UnresolvedKind.ELEMENT)
 
-    def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
+    def _component(self, component: Component, node: ClassNode) -> Iterator[Unresolved]:
         yield from self._used(Extends(component.type), node)
         bases = self.scopes.bases(node)
         if "redeclare" in component.prefixes and bases:
@@ -168,18 +168,18 @@ class _Walk(NamedTuple):
         yield from self._uses(component.uses, node)
 
     def _arguments(
-        self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
+        self, arguments: tuple[Modifier, ...], types: Types, scope: ClassNode | None, depth: int = 0
     ) -> Iterator[Unresolved]:
         """Yield the faults of modifiers of an element with these possible types."""
         for modifier in arguments:
-            meaning: Element | Missing = Element(types)
+            meaning: NamedElement | Missing = NamedElement(types)
             for part in modifier.name.parts:
-                if isinstance(meaning, Element):
+                if isinstance(meaning, NamedElement):
                     meaning, name = self.scopes.part(meaning.types, part), Name((part,), modifier.name.line)
                     yield from self._missing(name, meaning, scope, UnresolvedKind.ELEMENT)
             for used in filter(None, (modifier.type, modifier.constraint)):
                 yield from self._used(used, scope)
-            if isinstance(meaning, Element) and meaning is not ANYTHING:
+            if isinstance(meaning, NamedElement) and meaning is not ANYTHING:
                 text, line = str(modifier.name), modifier.name.line
                 if len(modifier.name.parts) > 1:
                     yield Unresolved(UnresolvedKind.DOTTED_MODIFIER, text, text, "", line)
@@ -190,9 +190,9 @@ class _Walk(NamedTuple):
             yield from self._uses(modifier.uses, scope)
 
     def _missing(
-        self, name: Name, meaning: Element | Missing, scope: Node | None, kind: UnresolvedKind
+        self, name: Name, meaning: NamedElement | Missing, scope: ClassNode | None, kind: UnresolvedKind
     ) -> Iterator[Unresolved]:
-        if isinstance(meaning, Element):
+        if isinstance(meaning, NamedElement):
             return
         # models hardly ever inherit classes from unread libraries, only components
         is_class = kind is UnresolvedKind.CLASS and meaning.number == 0 and scope is not None

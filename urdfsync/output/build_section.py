@@ -14,10 +14,10 @@ from urdfsync.engine.result import Checked, DisputedFile, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, settle_hint
 from urdfsync.output.console import Console, StyledLine
-from urdfsync.output.outline import Row, outline
+from urdfsync.output.outline import OutlineRow, outline
 from urdfsync.output.phrases import change_counts, generator_change, reason
 from urdfsync.output.repeated import show_findings
-from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.output.sections import Mark, Section, TextTable
 from urdfsync.output.terminal import change_line, file_line, text
 from urdfsync.spelling import same_count
 
@@ -133,7 +133,7 @@ def _edited_line(target: DisputedFile) -> int:
 
 def change_parts(
     changes: Changes | None, most: int = 12, *, verbose: bool = False
-) -> tuple[list[StyledLine], list[Table]]:
+) -> tuple[list[StyledLine], list[TextTable]]:
     """Return changes of a model: structural changes as lines, other changes as a table that shows `most` rows."""
     if changes is None:
         return [], []
@@ -145,16 +145,18 @@ def change_parts(
     rows = [(title, *row) for title, rows in outline(Changes(others), everything=verbose) for row in rows]
 
     def line(element: str, *row: str) -> StyledLine:
-        return change_line(f"{element}: {Row(*row)}")
+        return change_line(f"{element}: {OutlineRow(*row)}")
 
-    return [*map(change_line, points)], [Table("Changes", ("Element", "Property", "Change", "By"), rows, line, most)]
+    return [*map(change_line, points)], [
+        TextTable("Changes", ("Element", "Property", "Change", "By"), rows, line, most)
+    ]
 
 
-def file_table(result: Result, actions: Sequence[Action], **options: Any) -> Table:
-    """Return a table of the actions, edited files first; `options` are those of `Table`."""
+def file_table(result: Result, actions: Sequence[Action], **options: Any) -> TextTable:
+    """Return a table of the actions, edited files first; `options` are those of `TextTable`."""
     actions = sorted(actions, key=lambda action: (action.reason not in EDITED, action.place.rpartition("/")))
     words = [action.word for action in actions]
     reasons = [reason(action, result.effective_changes) for action in actions]
     rows = list(zip([result.shown(action.place) for action in actions], words, reasons, strict=True))
     options = {"line": file_line, "most": len(rows), **options}
-    return Table("Files", ("File", "", "Why"), rows, **options)
+    return TextTable("Files", ("File", "", "Why"), rows, **options)

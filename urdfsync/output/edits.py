@@ -12,7 +12,7 @@ from urdfsync.modelica.layout import first_fault
 from urdfsync.modelica.parser import parse
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import StyledLine, line
-from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.output.sections import Mark, Section, TextTable
 from urdfsync.spelling import counted
 
 
@@ -20,15 +20,15 @@ def to_section(edited: RobotEdits, *, verbose: bool | None = None, most: int = 2
     """Return the edits of a robot by file; a terminal shows `most` of each file. If `verbose`, also edited lines."""
     if edited.failed:
         return Section(edited.robot, "can't be read", Mark.WRONG, findings=edited.diagnostics)
-    tables = list[Table]()
+    tables = list[TextTable]()
     for file in edited.files:
         place = shown(Path(os.path.normpath(edited.root / file.path)))
         heading = line(("  ", ""), (place, "bold"), (f"  {file.owner}", "dim"))
         rows = [(place, *edit) for edit in _told(file)]
-        tables.append(Table("Edits", ("File", "Element", "Edit"), rows, _edit_line, most, "edit", [heading]))
+        tables.append(TextTable("Edits", ("File", "Element", "Edit"), rows, _edit_line, most, "edit", [heading]))
         if verbose and file.base is not None:
             differences = [(each,) for each in difference_lines(file.base, file.mine, "base", "mine")]
-            tables.append(Table("Lines", ("",), differences, lambda each: each))
+            tables.append(TextTable("Lines", ("",), differences, lambda each: each))
     summary = f"{counted(len(edited.files), 'file')} edited" if edited.files else "nothing is edited"
     return Section(edited.robot, summary, Mark.NONE, tables=tables)
 

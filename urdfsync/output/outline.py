@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from urdfsync.changes import Change, Changes, Effect, is_number
 from urdfsync.domain import ChangeClass, ChangeKind
-from urdfsync.output.sections import Table
+from urdfsync.output.sections import TextTable
 from urdfsync.spelling import same_count
 
 _NAMES = 140
@@ -33,8 +33,8 @@ _CONTEXT = 12
 _HASH = "[0-9a-f]{64}"
 
 
-class Row(NamedTuple):
-    """A change in words, in parts for the columns of a table; empty parts are left out."""
+class OutlineRow(NamedTuple):
+    """A change or an effect in words, in parts for the columns of a table; empty parts are left out."""
 
     label: str
     """The place in the element; empty for the element itself."""
@@ -47,13 +47,13 @@ class Row(NamedTuple):
         return " ".join(filter(None, (self.label, self.value, f"({self.relation})" if self.relation else "")))
 
 
-def outline(changes: Changes, *, everything: bool = False) -> list[tuple[str, tuple[Row, ...]]]:
+def outline(changes: Changes, *, everything: bool = False) -> list[tuple[str, tuple[OutlineRow, ...]]]:
     """Return changed elements with their rows; with `everything`, each change has its own row, with all digits."""
     moved = {} if everything else _moved_names(changes)
-    elements: dict[tuple[Row, ...], list[str]] = defaultdict(list)
+    elements: dict[tuple[OutlineRow, ...], list[str]] = defaultdict(list)
     for element, words in moved.items():
         if words:
-            elements[(Row("", words),)].append(element)
+            elements[(OutlineRow("", words),)].append(element)
     others = [one for one in changes.changes if not (one.kind is ChangeKind.RENAMED and one.element in moved)]
     for element, of_element in Changes(tuple(others)).by_element().items():
         rows = [change_row([change], exact=True) for change in of_element] if everything else _element_rows(of_element)
@@ -96,7 +96,7 @@ def _title(elements: Sequence[str]) -> str:
     return f"{begin}{', '.join(names[:few])}{more}"
 
 
-def _element_rows(changes: Sequence[Change]) -> list[Row]:
+def _element_rows(changes: Sequence[Change]) -> list[OutlineRow]:
     """Return a row for each change or vector, a row for all unmodelled changes, and a row for all rounding errors."""
     counts = {"not modelled": 0, "rounding": 0}
     vectors: dict[object, list[Change]] = defaultdict(list)
@@ -114,11 +114,11 @@ def _element_rows(changes: Sequence[Change]) -> list[Row]:
     rows = [change_row(components) for components in vectors.values()]
     for label, number in counts.items():
         if number:
-            rows.append(Row("", f"{label} {number} change{'s' if number > 1 else ''}"))
+            rows.append(OutlineRow("", f"{label} {number} change{'s' if number > 1 else ''}"))
     return rows
 
 
-def change_row(components: Sequence[Change], *, exact: bool = False) -> Row:
+def change_row(components: Sequence[Change], *, exact: bool = False) -> OutlineRow:
     """Return a change, or the changes of a vector's components, in words.
 
     With `exact`, numbers have all digits, and texts are not cut.
@@ -127,10 +127,10 @@ def change_row(components: Sequence[Change], *, exact: bool = False) -> Row:
     label = " / ".join(first.path[1:])
     relation = "not modelled" if first.change_class is ChangeClass.UNMODELLED else ""
     if first.kind is ChangeKind.RENAMED:
-        return Row(label, f"renamed to {new}")
+        return OutlineRow(label, f"renamed to {new}")
     if first.kind is not ChangeKind.CHANGED:
         details = _details(new if first.kind is ChangeKind.ADDED else old if label else None)
-        return Row(label, f"{first.kind}: {details}" if details else first.kind, relation)
+        return OutlineRow(label, f"{first.kind}: {details}" if details else first.kind, relation)
     if len(components) > 1:
         indices = ", ".join(change.path[-1].rpartition("[")[2][:-1] for change in components)
         label = f"{label.rpartition('[')[0]}[{indices}]"
@@ -144,10 +144,10 @@ def change_row(components: Sequence[Change], *, exact: bool = False) -> Row:
         relation = _pair(*degrees, mark="°")
     else:
         relation = _percent(old, new) or relation
-    return Row(label, f"{_pair(old, new, exact=exact)} {first.unit}".rstrip(), relation)
+    return OutlineRow(label, f"{_pair(old, new, exact=exact)} {first.unit}".rstrip(), relation)
 
 
-def effect_rows(effects: Sequence[Effect]) -> list[Row]:
+def effect_rows(effects: Sequence[Effect]) -> list[OutlineRow]:
     """Return properties of the whole model as rows; properties that differ only by rounding are left out."""
     rows = []
     for effect in effects:
@@ -163,18 +163,18 @@ def effect_rows(effects: Sequence[Effect]) -> list[Row]:
             is_same = math.isclose(old, new, rel_tol=_SAME)
         if not is_same:
             limit = "" if effect.limit is None else f"/{_value(effect.limit)}"
-            rows.append(Row(" ".join(effect.path), f"{value}{limit} {effect.unit}".rstrip(), relation))
+            rows.append(OutlineRow(" ".join(effect.path), f"{value}{limit} {effect.unit}".rstrip(), relation))
     return rows
 
 
-def number_table(effects: Sequence[Effect]) -> Table:
+def number_table(effects: Sequence[Effect]) -> TextTable:
     """Return the numbers of the whole model as a table; `Before` is empty where nothing changed."""
     rows = []
     for effect in (each for each in effects if each.unit and each.new is not None):
         values = effect.old if effect_rows([effect]) else None, effect.new, effect.limit
         cells = ("" if value is None else f"{_value(value)} {effect.unit}" for value in values)
         rows.append((" ".join(effect.path), *cells))
-    return Table("In numbers", ("Property", "Before", "Now", "Limit"), rows)
+    return TextTable("In numbers", ("Property", "Before", "Now", "Limit"), rows)
 
 
 # --- values in few characters -------------------------------------------------------------------------------------

@@ -25,7 +25,7 @@ class Mark(enum.StrEnum):
 _SEVERITIES = {Severity.ERROR: Mark.WRONG, Severity.WARNING: Mark.OPEN, Severity.NOTE: "ℹ️ "}
 
 
-class Table(msgspec.Struct, frozen=True):
+class TextTable(msgspec.Struct, frozen=True):
     """Rows of texts; each format escapes the texts."""
 
     title: str
@@ -49,7 +49,7 @@ class Section(msgspec.Struct, frozen=True):
     mark: Mark
     points: Sequence[StyledLine] = ()
     """Sentences before the tables, the structure first."""
-    tables: Sequence[Table] = ()
+    tables: Sequence[TextTable] = ()
     findings: Sequence[Diagnostic] = ()
     verdict: Diagnostic | None = None
     """The finding about the package as a whole; its `hint` says what to do."""
@@ -64,7 +64,7 @@ class Section(msgspec.Struct, frozen=True):
         return bool(self.points or any(table.rows for table in self.tables) or self.findings or self.verdict)
 
 
-def findings_table(findings: Sequence[Diagnostic]) -> Table:
+def findings_table(findings: Sequence[Diagnostic]) -> TextTable:
     """Return findings as a table, the worst first."""
     order = list(Severity)
     rows = [
@@ -76,4 +76,4 @@ def findings_table(findings: Sequence[Diagnostic]) -> Table:
         )
         for finding in sorted(findings, key=lambda finding: order.index(finding.severity))
     ]
-    return Table("Findings", ("", "Place", "Finding", "Code"), rows)
+    return TextTable("Findings", ("", "Place", "Finding", "Code"), rows)

@@ -8,7 +8,7 @@ from urdfsync.output.build_section import change_parts, mark_of
 from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import line
 from urdfsync.output.phrases import reason
-from urdfsync.output.sections import Section, Table
+from urdfsync.output.sections import Section, TextTable
 from urdfsync.output.terminal import file_line
 
 _COLUMNS = ("File", "", "Why")
@@ -33,9 +33,9 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
     inputs = [(name,) for name in result.stale]
     tables = (
         *changed,
-        Table("Inputs", ("Input",), inputs, lambda name: line((f"  {name}", "")), 5, "input"),
-        Table("Files", _COLUMNS, others, file_line, len(others)),
-        Table("Stale files", _COLUMNS, stale, file_line, 20, "stale file"),
+        TextTable("Inputs", ("Input",), inputs, lambda name: line((f"  {name}", "")), 5, "input"),
+        TextTable("Files", _COLUMNS, others, file_line, len(others)),
+        TextTable("Stale files", _COLUMNS, stale, file_line, 20, "stale file"),
     )
     adopts = f"`urdfsync adopt {result.robot}` takes these files for your edits"
     hints = [settle_hint(result.conflicts) if result.is_built else adopts] if conflicts else []

@@ -24,10 +24,10 @@ from urdfsync.engine.stage import draw_model
 from urdfsync.engine.united import with_meanings
 from urdfsync.files import shown
 from urdfsync.output.outline import number_table, outline
-from urdfsync.output.sections import Section, Table
+from urdfsync.output.sections import Section, TextTable
 from urdfsync.pages.picture import Picture, picture
-from urdfsync.pages.scene import Body, Hinge, Loop, Scene
-from urdfsync.versions.comparison import Comparison, Contents, compare_sources
+from urdfsync.pages.scene import Body, Hinge, LoopConstraint, Scene
+from urdfsync.versions.comparison import Comparison, VersionContents, compare_sources
 from urdfsync.versions.report import to_section
 
 
@@ -35,11 +35,11 @@ class Content(msgspec.Struct, frozen=True):
     """The page of one robot as values."""
 
     robot: RobotConfig
-    version: Contents
+    version: VersionContents
     """The version that is shown."""
     section: Section
     """The changes in words."""
-    numbers: Table
+    numbers: TextTable
     """Mass, reach, loads and other properties of both versions."""
     against: str
     """The older version, in words."""
@@ -68,7 +68,7 @@ def gather(
     against: str | None,
     options: BuildOptions,
     folder: Path,
-    shown_before: Sequence[Contents] = (),
+    shown_before: Sequence[VersionContents] = (),
 ) -> Content:
     """Return the content of a robot's page; `against` is a git revision, else a file relative to `folder`.
 
@@ -107,8 +107,8 @@ def gather(
 
 
 def _with_older(
-    compared: Comparison, inputs: Inputs, now: Version, shown_before: Sequence[Contents]
-) -> tuple[Comparison, Contents | None]:
+    compared: Comparison, inputs: Inputs, now: Version, shown_before: Sequence[VersionContents]
+) -> tuple[Comparison, VersionContents | None]:
     """Return the comparison for the page, and its older version; see `gather`."""
     older = compared.versions[0] if compared.versions else _last_build(inputs)
     other = next((each for each in shown_before if each[0] != now), None)
@@ -127,7 +127,7 @@ def _numbers(domain: Domain, now: Version) -> Sequence[Effect]:
     return (*asked.effects(now, now), *asked.loads(now, now, {})) if asked else ()
 
 
-def _last_build(inputs: Inputs) -> Contents | None:
+def _last_build(inputs: Inputs) -> VersionContents | None:
     """Return the recorded version of the last complete build, with the imports that the user has not changed."""
     last = inputs.last
     if last.version is None:
@@ -171,7 +171,7 @@ def _change_words(changes: Changes) -> dict[str, list[str]]:
 
 def _edited(edits: RobotEdits, scene: Scene) -> dict[str, list[tuple[str, str, str]]]:
     """Return the edits of each element of the picture, in its own files and in the robot model."""
-    parts: Sequence[Body | Hinge | Loop] = (*scene.bodies, *scene.hinges, *scene.loops)
+    parts: Sequence[Body | Hinge | LoopConstraint] = (*scene.bodies, *scene.hinges, *scene.loops)
     elements = {f"component `{part.component}`": part.element for part in parts}
     edited: dict[str, list[tuple[str, str, str]]] = {part.element: [] for part in parts}
     for file in edits.files:

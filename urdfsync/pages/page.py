@@ -27,7 +27,7 @@ from urdfsync.output.phrases import reason
 from urdfsync.output.sections import findings_table
 from urdfsync.pages import threejs
 from urdfsync.pages.content import Content
-from urdfsync.pages.scene import Triangles
+from urdfsync.pages.scene import PageMesh
 from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
 from urdfsync.version import __version__
@@ -133,7 +133,7 @@ def _json(values: Any) -> str:
     return msgspec.json.encode(values).decode().translate(_ESCAPES)
 
 
-def _packed(mesh: Triangles) -> str:
+def _packed(mesh: PageMesh) -> str:
     """Return the content of a mesh; the page's data have the numbers of points and faces."""
     return base64.b64encode(gzip.compress(mesh.content, 6, mtime=0)).decode()
 

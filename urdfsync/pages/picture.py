@@ -17,8 +17,8 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.files import digest, shown
-from urdfsync.pages.scene import Pictures, Scene, Triangles
-from urdfsync.versions.comparison import Contents
+from urdfsync.pages.scene import PageMesh, Pictures, Scene
+from urdfsync.versions.comparison import VersionContents
 
 _MOST, _LEAST = 500_000, 200
 """The greatest number of triangles of a page, and the least share of one mesh. A triangle takes some 13 bytes."""
@@ -34,7 +34,7 @@ class Picture(msgspec.Struct, frozen=True):
     now: Scene
     before: Scene | None
     """None if nothing changed, or there is no older version."""
-    meshes: Mapping[str, Triangles]
+    meshes: Mapping[str, PageMesh]
     """The meshes of both versions by their names, those of visual shapes first."""
     poses: Mapping[str, Mapping[str, float]]
     """Named poses of files beside the source: positions by hinges."""
@@ -51,7 +51,7 @@ class _MeshFile(NamedTuple):
     is_source: bool = False
 
 
-def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> Picture:
+def picture(inputs: Inputs, generation: Generation, older: VersionContents | None) -> Picture:
     """Return the picture of a robot, beside an older version. Raises UrdfsyncError for a domain without pictures."""
     robot, imported = inputs.robot, generation.imported
     pictures = inputs.domain.pictures
@@ -80,18 +80,18 @@ def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> P
         caches.UserCache.default(),
         registry.program(robot.domain),
         _MOST,
-        dict[str, Triangles | str](),
+        dict[str, PageMesh | str](),
     )
     for group in (seen, others):
         read = {name: _read(pictures, cache, files[name], _MOST, code) for name in group}
-        shares = _shares({name: mesh.faces for name, mesh in read.items() if isinstance(mesh, Triangles)}, most)
+        shares = _shares({name: mesh.faces for name, mesh in read.items() if isinstance(mesh, PageMesh)}, most)
         read |= {name: _read(pictures, cache, files[name], share, code) for name, share in shares.items()}
-        most -= sum(mesh.faces for mesh in read.values() if isinstance(mesh, Triangles))
+        most -= sum(mesh.faces for mesh in read.values() if isinstance(mesh, PageMesh))
         meshes |= read
-    if any(isinstance(mesh, Triangles) and mesh.cells for mesh in meshes.values()):
+    if any(isinstance(mesh, PageMesh) and mesh.cells for mesh in meshes.values()):
         cache.trim()
     notes = (f"{files[name].path} can't be shown: {mesh}" for name, mesh in meshes.items() if isinstance(mesh, str))
-    shown_meshes = {name: mesh for name, mesh in meshes.items() if isinstance(mesh, Triangles)}
+    shown_meshes = {name: mesh for name, mesh in meshes.items() if isinstance(mesh, PageMesh)}
     poses, faults = pictures.named_poses(robot.source, generation.now.snapshot)
     return Picture(now, before, shown_meshes, poses, (*now.missing, *faults, *notes, *_coarse(shown_meshes, files)))
 
@@ -121,18 +121,18 @@ def _shares(faces: Mapping[str, int], most: int) -> dict[str, int]:
 
 def _read(
     pictures: Pictures, cache: caches.UserCache, file: _MeshFile, most: int, code: Iterable[object]
-) -> Triangles | str:
+) -> PageMesh | str:
     """Return the triangles of a mesh, or why it can't be shown."""
     key = caches.digest(digest(file.content), file.path, file.key, most, *code)
-    if known := cache.load(key, Triangles):
+    if known := cache.load(key, PageMesh):
         return known
     mesh = pictures.triangles("" if file.is_source else file.path, file.content, file.key, most)
-    if isinstance(mesh, Triangles) and mesh.cells:  # simplifying takes up to 16 s
+    if isinstance(mesh, PageMesh) and mesh.cells:  # simplifying takes up to 16 s
         cache.save(key, mesh)
     return mesh
 
 
-def _coarse(meshes: Mapping[str, Triangles], files: Mapping[str, _MeshFile]) -> Iterable[str]:
+def _coarse(meshes: Mapping[str, PageMesh], files: Mapping[str, _MeshFile]) -> Iterable[str]:
     """Yield one line about all meshes whose simplification is visible, if there are any."""
     coarse = sorted((mesh.faces / mesh.total, name) for name, mesh in meshes.items() if 0 < mesh.cells < _FINE)
     if coarse:

@@ -10,9 +10,9 @@ import msgspec
 
 from urdfsync.domain import Import, Snapshot, Target
 
-Pose: TypeAlias = tuple[float, ...]
+PagePose: TypeAlias = tuple[float, ...]
 """16 numbers of a homogeneous matrix, column after column, as WebGL has them."""
-Facts: TypeAlias = Sequence[tuple[str, str]]
+Properties: TypeAlias = Sequence[tuple[str, str]]
 """Properties of an element in words, for people."""
 
 
@@ -25,7 +25,7 @@ class Shape(msgspec.Struct, frozen=True):
     """`box`, `cylinder`, `capsule`, `sphere`, `ellipsoid` or `mesh`; cylinders and capsules stand along z."""
     size: tuple[float, ...]
     """Edges of a box; half axes of an ellipsoid; radius, and perhaps length without half spheres, of other shapes."""
-    pose: Pose
+    pose: PagePose
     """In the frame of the body."""
     color: tuple[float, ...]
     """Red, green, blue and opacity, from 0 to 1."""
@@ -40,10 +40,10 @@ class Body(msgspec.Struct, frozen=True):
     """The element in the domain's words: `link hand`."""
     component: str
     """The body's name in the diagram."""
-    facts: Facts
+    facts: Properties
     shapes: tuple[Shape, ...] = ()
     mass: float = 0.0
-    center: Pose | None = None
+    center: PagePose | None = None
     """The frame of the body's inertia, in the centre of mass; None for a body without mass."""
     inertia: tuple[float, ...] = ()
     """The moments and products xx, xy, xz, yy, yz and zz in this frame."""
@@ -55,10 +55,10 @@ class Hinge(msgspec.Struct, frozen=True):
     element: str
     """Empty if the connection is only a place in the picture."""
     component: str
-    facts: Facts
+    facts: Properties
     parent: str
     child: str
-    pose: Pose
+    pose: PagePose
     """The pose of the axis's frame in the parent's frame, at position 0."""
     axis: tuple[float, ...]
     motion: str = ""
@@ -81,10 +81,10 @@ class End(msgspec.Struct, frozen=True):
     """A frame on a body."""
 
     body: str
-    pose: Pose
+    pose: PagePose
 
 
-class Loop(msgspec.Struct, frozen=True):
+class LoopConstraint(msgspec.Struct, frozen=True):
     """A connection of two bodies that hinges already connect.
 
     The loop's equations hold position and axes of the second end, resolved in the first end.
@@ -92,7 +92,7 @@ class Loop(msgspec.Struct, frozen=True):
 
     element: str
     component: str
-    facts: Facts
+    facts: Properties
     ends: tuple[End, End]
     translations: tuple[tuple[float, ...], ...]
     """Directions along which both ends have the same position."""
@@ -108,14 +108,14 @@ class Scene(msgspec.Struct, frozen=True):
     hinges: tuple[Hinge, ...]
     missing: tuple[str, ...] = ()
     """Shapes that can't be shown, with reasons, in words."""
-    loops: tuple[Loop, ...] = ()
+    loops: tuple[LoopConstraint, ...] = ()
     height: float | None = None
     """The height of the root above the ground when the robot stands there at its start; None if its base is fixed."""
     noun: str = "robot"
     """The word for the whole scene."""
 
 
-class Triangles(msgspec.Struct, frozen=True):
+class PageMesh(msgspec.Struct, frozen=True):
     """The triangles of a mesh as a page shows them."""
 
     points: int
@@ -147,7 +147,7 @@ class Pictures(Protocol):
         """Return the poses that files beside a source define, as positions of hinges, and faults of the files."""
         ...
 
-    def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
+    def triangles(self, path: str, content: bytes, key: str, most: int) -> PageMesh | str:
         """Return about `most` triangles of a mesh without the model's scale, or a text that says why there are none.
 
         The mesh is the imported file at `path`, or, without a path, the file of the dependency `key`.

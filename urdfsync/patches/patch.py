@@ -20,7 +20,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.patches.edited import EditedValue, Staying, edited_values, other_edits
 from urdfsync.patches.literals import replaced
-from urdfsync.patches.search import Changes, Search
+from urdfsync.patches.search import NewTexts, Search
 from urdfsync.patches.sources import Contents, SourceReader, look
 from urdfsync.patches.unified import path_in, top_of, unified
 
@@ -29,7 +29,7 @@ class RobotPatch(msgspec.Struct, frozen=True):
     """The changes of a robot's source that take over its edits."""
 
     robot: str
-    changes: Changes = {}
+    changes: NewTexts = {}
     staying: tuple[Staying, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
     """Why there are no changes, if `failed`."""
@@ -100,7 +100,7 @@ def _refusals(config: Config, others: Sequence[SourceReader], contents: Contents
 
 def patch_text(config: Config, patches: Sequence[RobotPatch]) -> bytes:
     """Return the changes of all robots as one patch. Raises OSError for a file that can't be read."""
-    changes: Changes = {literal: text for patch in patches for literal, text in patch.changes.items()}
+    changes: NewTexts = {literal: text for patch in patches for literal, text in patch.changes.items()}
     before: Mapping[Path, bytes] = {literal.file: read_unrecorded(literal.file) for literal in changes}
     top, after = top_of(config.root), replaced(before, changes)
     paths = {file: path_in(top, file) or "" for file in after}

@@ -21,7 +21,7 @@ from urdfsync.patches.edited import EditedValue
 from urdfsync.patches.literals import Literal, decoded, find_literals, literals_in, neighbour, replaced
 from urdfsync.patches.sources import Contents, Key, Look
 
-Changes: TypeAlias = dict[Literal, str]
+NewTexts: TypeAlias = dict[Literal, str]
 """The new texts of literals."""
 _TAG = re.compile(r"""<[\w:.-]++(?:[^<>"']++|"[^"]*"|'[^']*')*+>""")
 _ATTRIBUTE = re.compile(r"""\s([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
@@ -46,7 +46,7 @@ class Search:
         self._look, self._contents, self._owners, self._refused = look, contents, owners, refused
         self._values = {value.key: value for value in values}
         self.before = look({})
-        self.changes: Changes = {}
+        self.changes: NewTexts = {}
         self._accepted = list[EditedValue]()
         self.reasons = dict[Key, str]()
         """Why edits are not in the patch."""
@@ -75,11 +75,11 @@ class Search:
             if value not in self._accepted and value.key not in self.reasons and not self._retry([value]):
                 self.reasons.setdefault(value.key, self._why_unknown(value))
 
-    def _accept(self, values: Sequence[EditedValue], changes: Changes) -> None:
+    def _accept(self, values: Sequence[EditedValue], changes: NewTexts) -> None:
         self._accepted += values
         self.changes = self._with(changes)
 
-    def _with(self, changes: Changes) -> Changes:
+    def _with(self, changes: NewTexts) -> NewTexts:
         """Return the accepted changes with further ones; what is inserted at one place follows each other."""
         inserted = {
             literal: f"{self.changes.get(literal, '')}{new}" for literal, new in changes.items() if not literal.text
@@ -114,7 +114,7 @@ class Search:
         numbers = ((key, k, number) for key, value in seen.items() for k, number in enumerate(value or ()))
         return {(key, k): marks[number] for key, k, number in numbers if number in marks}
 
-    def _misfit(self, values: Sequence[EditedValue], changes: Changes) -> str:
+    def _misfit(self, values: Sequence[EditedValue], changes: NewTexts) -> str:
         """Return why changes are not exactly these edits; empty if they are. Accepted changes are made, too."""
         changes = self._with(changes)
         contents = replaced(self._contents, changes)
@@ -173,7 +173,7 @@ class Search:
                 self.reasons[value.key] = misfit
         return False
 
-    def _at_tags(self, value: EditedValue, owner: str) -> Iterator[Changes]:
+    def _at_tags(self, value: EditedValue, owner: str) -> Iterator[NewTexts]:
         """Yield changes of the tags of an element that may be an edit."""
         parts = dict[tuple[str, int], list[str]]()
         for path, line in sorted(self.before.lines.items(), key=lambda item: item[1]):
@@ -204,9 +204,9 @@ class Search:
 
 def _by_literal(
     values: Sequence[EditedValue], origins: Mapping[tuple[Key, int], Literal]
-) -> Iterator[tuple[list[EditedValue], Changes]]:
+) -> Iterator[tuple[list[EditedValue], NewTexts]]:
     """Yield the edits whose literals are known: those with a literal in common together, with its new text."""
-    groups = list[tuple[list[EditedValue], Changes]]()
+    groups = list[tuple[list[EditedValue], NewTexts]]()
     for value in values:
         if not value.old or not all((value.key, k) in origins for k in value.changed):
             continue
@@ -239,7 +239,7 @@ def _indented(text: str, tag: re.Match[str]) -> str:
     return f"{end[0]}{line[len(line.rstrip()) :]}  " if end else ""
 
 
-def _replacing(file: Path, text: str, tag: re.Match[str], value: EditedValue) -> Iterator[Changes]:
+def _replacing(file: Path, text: str, tag: re.Match[str], value: EditedValue) -> Iterator[NewTexts]:
     """Yield the new numbers of each attribute that has the old ones."""
     for attribute in _ATTRIBUTE.finditer(tag[0]):
         group = 2 if attribute[2] is not None else 3

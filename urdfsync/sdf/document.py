@@ -10,12 +10,12 @@ from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
 from urdfsync.engine.ros_packages import Packages
-from urdfsync.translation.files import Files, Place, TranslationError
+from urdfsync.translation.files import Files, SourcePlace, TranslationError
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, pose, roll_pitch_yaw
 from urdfsync.urdf.parse.fields import parse_numbers, quoted
 from urdfsync.urdf.robot import Origin, Vector
 
-Version = tuple[int, ...]
+SdfVersion = tuple[int, ...]
 _OLDEST, _NEWEST = (1, 3), (1, 12)
 """SDF 1.2 has other elements; 1.12 is the newest in libsdformat 15."""
 _INFINITE = {"inf": math.inf, "+inf": math.inf, "-inf": -math.inf}
@@ -26,13 +26,13 @@ _CONFIG = "model.config"
 """The file in the folder of a model that names its SDF files, each with a version."""
 
 
-class Document:
+class SdfDocument:
     """The elements of an SDF and of the files that it includes."""
 
     def __init__(self, source: str, files: Files, packages: Sequence[str] = ()) -> None:
         """`packages` are folders with models and ROS packages."""
         self.source, self.files = source, files
-        self.places: dict[Element, Place] = {}
+        self.places: dict[Element, SourcePlace] = {}
         self.packages: dict[str, str] = {}
         """Folders of the models and ROS packages that the source has asked for."""
         self._packages = Packages(list(map(Path, packages)), Path(source))
@@ -42,7 +42,7 @@ class Document:
         """Return an error about an element."""
         return TranslationError(message, self.places[element], hint)
 
-    def read(self, path: str, place: Place = ("", 0)) -> tuple[Element, Version]:
+    def read(self, path: str, place: SourcePlace = ("", 0)) -> tuple[Element, SdfVersion]:
         """Return the root element of an SDF, and its version. Raises TranslationError."""
         if path not in self._roots:
             # libsdformat's parser accepts such comments, and 20 of Gazebo's own examples have them
@@ -82,10 +82,10 @@ class Document:
         self.files.check_inside(path, place)
         return path if os.path.splitext(path)[1] in (".sdf", ".world", ".urdf", ".xml") else self._chosen(path, place)  # noqa: PTH122
 
-    def _chosen(self, folder: str, place: Place) -> str:
+    def _chosen(self, folder: str, place: SourcePlace) -> str:
         """Return the SDF of the newest known version in the folder of a model."""
         root, places = self.files.parse(os.path.join(folder, _CONFIG), place)  # noqa: PTH118
-        names = dict[Version, str]()
+        names = dict[SdfVersion, str]()
         for sdf in root.iterfind("sdf"):
             words = sdf.get("version", "1.4").split(".")
             version = tuple(int(word) for word in words if word.isdecimal() and len(word) < 10)

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterator
 from xml.etree.ElementTree import Element
 
-from urdfsync.sdf.document import Document, Version
+from urdfsync.sdf.document import SdfDocument, SdfVersion
 from urdfsync.spelling import nearest
 from urdfsync.translation.files import TranslationError
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, inverse
@@ -45,7 +45,7 @@ class Frame:
 class Scope:
     """The elements of a model, or of a world."""
 
-    def __init__(self, element: Element, version: Version, prefix: str = "") -> None:
+    def __init__(self, element: Element, version: SdfVersion, prefix: str = "") -> None:
         self.element, self.version = element, version
         self.prefix = prefix
         """The names of the models around an element, such as `arm::`."""
@@ -78,7 +78,7 @@ class Scope:
 class Frames:
     """Reads the models of an SDF, and resolves their frames."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: SdfDocument) -> None:
         self.document = document
         self.missing: list[TranslationError] = []
         """Faults of includes in a world: scenery may be absent."""
@@ -147,7 +147,7 @@ class Frames:
         outer.models.append(inner)
         self._read(inner, (*around, path) if path else around)
 
-    def _included(self, element: Element, around: tuple[str, ...]) -> tuple[Element, Version, str]:
+    def _included(self, element: Element, around: tuple[str, ...]) -> tuple[Element, SdfVersion, str]:
         """Return the model in the file of an `<include>`, its version and its file. Raises TranslationError."""
         uri = element.findtext("uri", "").strip()
         if not uri:

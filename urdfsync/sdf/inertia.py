@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from xml.etree.ElementTree import Element
 
-from urdfsync.sdf.document import Document
+from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frame, Frames
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, compose, moved, turned_inertia
 from urdfsync.urdf.robot import Inertia
@@ -46,7 +46,7 @@ def automatic_inertia(frames: Frames, link: Frame, inertial: Element) -> tuple[f
     return given, (IDENTITY[0], middle), {name: round(value, _DECIMALS) for name, value in moments.items()}
 
 
-def _shape(document: Document, collision: Element) -> tuple[float, tuple[float, float, float], float]:
+def _shape(document: SdfDocument, collision: Element) -> tuple[float, tuple[float, float, float], float]:
     """Return volume, mean squares of x, y and z about the centre of mass, and the height of this centre."""
     geometry = collision.find("geometry")
     shape = next(iter(geometry if geometry is not None else ()), collision)

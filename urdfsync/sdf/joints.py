@@ -23,7 +23,7 @@ MODEL_AXES = "use_parent_model_frame"
 """The element by which SDF 1.5 and 1.6 give an axis in the frame of the model; older versions always do."""
 
 
-class Axis(NamedTuple):
+class JointAxis(NamedTuple):
     """An axis of a joint, with its numbers as URDF has them."""
 
     element: Element | None
@@ -43,14 +43,14 @@ class Axis(NamedTuple):
     mimic: Mapping[str, Any] | None = None
 
 
-class Joint(NamedTuple):
+class SdfJoint(NamedTuple):
     """A joint between two links."""
 
     frame: Frame
     kind: str
     parent: Frame
     child: Frame
-    axes: tuple[Axis, ...]
+    axes: tuple[JointAxis, ...]
     damping: float = 0.0
     """That of a ball."""
     is_turned: bool = False
@@ -59,12 +59,12 @@ class Joint(NamedTuple):
     @property
     def has_numbers(self) -> bool:
         """Whether an axis has limits or losses, or follows another one."""
-        return bool(self.damping) or any(axis._replace(reference=0.0) != Axis(*axis[:3]) for axis in self.axes)
+        return bool(self.damping) or any(axis._replace(reference=0.0) != JointAxis(*axis[:3]) for axis in self.axes)
 
 
-def read_joints(frames: Frames, parts: Iterable[Frame]) -> list[Joint]:
+def read_joints(frames: Frames, parts: Iterable[Frame]) -> list[SdfJoint]:
     """Return the joints of a model. Raises TranslationError."""
-    joints, document = list[Joint](), frames.document
+    joints, document = list[SdfJoint](), frames.document
     for frame in parts:
         kind, types = frame.element.get("type", ""), (*_AXES, *_OTHERS)
         if kind not in types:
@@ -76,11 +76,11 @@ def read_joints(frames: Frames, parts: Iterable[Frame]) -> list[Joint]:
             raise document.fault(frame.element, f"joint {frame.name!r} joins {parent.name!r} with itself")
         axes = tuple(_axis(frames, frame, tag) for tag in TAGS[: _AXES.get(kind, 0)])
         damping = document.number(frame.element, "axis/dynamics/damping", 0.0) if kind == "ball" else 0.0
-        joints.append(Joint(frame, kind, parent, child, axes, damping))
+        joints.append(SdfJoint(frame, kind, parent, child, axes, damping))
     return joints
 
 
-def _axis(frames: Frames, joint: Frame, tag: str) -> Axis:
+def _axis(frames: Frames, joint: Frame, tag: str) -> JointAxis:
     document, element = frames.document, joint.element.find(tag)
     xyz = None if element is None else element.find("xyz")
     given_in = joint
@@ -91,13 +91,13 @@ def _axis(frames: Frames, joint: Frame, tag: str) -> Axis:
     ):
         given_in = joint.scope.own
     if element is None:
-        return Axis(None, (0.0, 0.0, 1.0), given_in)
+        return JointAxis(None, (0.0, 0.0, 1.0), given_in)
     limit, dynamics = element.find("limit"), element.find("dynamics")
     lower, upper = (document.number(limit, name, end) for name, end in (("lower", -_ENDLESS), ("upper", _ENDLESS)))
     rotor = document.number(joint.element, "drake:rotor_inertia", 0.0) if tag == TAGS[0] else 0.0
     gear = document.number(joint.element, "drake:gear_ratio", 1.0)
     effort, velocity = (document.number(limit, name, -1) for name in ("effort", "velocity"))
-    return Axis(
+    return JointAxis(
         element,
         document.vector(element, "xyz", (0.0, 0.0, 1.0)),
         given_in,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from urdfsync.sdf.frames import Scope
-from urdfsync.sdf.joints import MODEL_AXES, TAGS, Joint
+from urdfsync.sdf.joints import MODEL_AXES, TAGS, SdfJoint
 from urdfsync.sdf.urdf import Urdf
 
 _MODEL = frozenset({"link", "joint", "frame", "model", "include", "pose", "static", "plugin"})
@@ -18,7 +18,7 @@ _DOWN, _FEW = (0.0, 0.0, -9.8), 0.02
 """The usual gravity, in m/s², and the greatest difference from it."""
 
 
-def add_leftovers(urdf: Urdf, model: Scope, joints: Iterable[Joint]) -> None:
+def add_leftovers(urdf: Urdf, model: Scope, joints: Iterable[SdfJoint]) -> None:
     """Add the leftovers of joints, models and world."""
     for joint in joints:
         _add_of_joint(urdf, joint)
@@ -45,7 +45,7 @@ def add_leftovers(urdf: Urdf, model: Scope, joints: Iterable[Joint]) -> None:
             urdf.note(part)
 
 
-def _add_of_joint(urdf: Urdf, joint: Joint) -> None:
+def _add_of_joint(urdf: Urdf, joint: SdfJoint) -> None:
     frame = joint.frame
     if joint.kind in ("screw", "gearbox"):
         urdf.leave_out(f"{joint.kind} joint", frame.name, frame.element)

@@ -6,11 +6,11 @@ import os
 from typing import Any
 from xml.etree.ElementTree import Element
 
-from urdfsync.sdf.document import Document
+from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frame
 from urdfsync.sdf.inertia import automatic_inertia
 from urdfsync.sdf.urdf import Urdf
-from urdfsync.translation.writer import Node
+from urdfsync.translation.writer import UrdfElement
 from urdfsync.urdf.kinematics.poses import IDENTITY
 from urdfsync.urdf.robot import SENSOR_KINDS
 
@@ -44,7 +44,7 @@ def add_link(urdf: Urdf, frame: Frame) -> None:
             urdf.note(part, frame.name)
 
 
-def _add_inertial(urdf: Urdf, link: Node, frame: Frame) -> None:
+def _add_inertial(urdf: Urdf, link: UrdfElement, frame: Frame) -> None:
     """Add mass and inertia: without numbers, 1 kg and 1 kg·m² about each axis."""
     document, element = urdf.document, frame.element.find("inertial")
     inertial = link.add("inertial", document.places[frame.element if element is None else element])
@@ -62,7 +62,7 @@ def _add_inertial(urdf: Urdf, link: Node, frame: Frame) -> None:
         urdf.leave_out("fluid_added_mass", frame.name, added)
 
 
-def _add_shape(urdf: Urdf, link: Node, frame: Frame, element: Element) -> None:
+def _add_shape(urdf: Urdf, link: UrdfElement, frame: Frame, element: Element) -> None:
     """Add a visual or a collision."""
     document, geometry = urdf.document, element.find("geometry")
     shape = link.add(element.tag, document.places[element], name=element.get("name") or None)
@@ -83,7 +83,7 @@ def _add_shape(urdf: Urdf, link: Node, frame: Frame, element: Element) -> None:
             urdf.note(part, element.get("name", ""))
 
 
-def _geometry(document: Document, element: Element) -> tuple[str, dict[str, Any]]:
+def _geometry(document: SdfDocument, element: Element) -> tuple[str, dict[str, Any]]:
     """Return tag and attributes of a shape in URDF. The reader of URDF tells of a shape that it lacks."""
     match element.tag:
         case "box":
@@ -101,7 +101,7 @@ def _geometry(document: Document, element: Element) -> tuple[str, dict[str, Any]
     return "submesh" if element.tag == "mesh" else element.tag, {}
 
 
-def _filename(document: Document, mesh: Element) -> str:
+def _filename(document: SdfDocument, mesh: Element) -> str:
     """Return the name of a mesh; a relative one counts from the folder of the source."""
     uri = mesh.findtext("uri", "").strip()
     folder, source = (os.path.dirname(file) for file in (document.places[mesh][0], document.source))  # noqa: PTH120
@@ -110,7 +110,7 @@ def _filename(document: Document, mesh: Element) -> str:
     return os.path.relpath(os.path.join(folder, uri), source).replace(os.sep, "/")  # noqa: PTH118
 
 
-def _color(document: Document, visual: Element) -> tuple[float, ...]:
+def _color(document: SdfDocument, visual: Element) -> tuple[float, ...]:
     """Return the colour of a visual; empty for none."""
     material = visual.find("material")
     for tag in ("diffuse", "ambient"):

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from urdfsync.sdf.frames import WORLD, Frame, Frames, Scope
-from urdfsync.sdf.joints import Axis, Joint, read_joints
+from urdfsync.sdf.joints import JointAxis, SdfJoint, read_joints
 from urdfsync.sdf.leftovers import add_leftovers
 from urdfsync.sdf.parts import add_link, add_sensor
 from urdfsync.sdf.tree import LOOP_KINDS, find_tree
 from urdfsync.sdf.urdf import Urdf, turn
-from urdfsync.translation.writer import Node, free_name, rounded
+from urdfsync.translation.writer import UrdfElement, free_name, rounded
 from urdfsync.urdf.kinematics.poses import IDENTITY, moved
 from urdfsync.urdf.robot import Vector
 
 
-def translated(frames: Frames, model: Scope) -> Node:
+def translated(frames: Frames, model: Scope) -> UrdfElement:
     """Return the URDF of a model. Raises TranslationError."""
     for part in (part for scope in model.each() for part in scope.parts):
         frames.check(part)
@@ -46,7 +46,7 @@ def translated(frames: Frames, model: Scope) -> Node:
     return urdf.root
 
 
-def _add_joint(urdf: Urdf, joint: Joint) -> None:
+def _add_joint(urdf: Urdf, joint: SdfJoint) -> None:
     """Add a joint of the tree; one with two axes becomes two hinges with a link without mass between them."""
     line, child = urdf.document.places[joint.frame.element], joint.child
     rotation, place = urdf.frames.pose(child, joint.parent)
@@ -73,7 +73,7 @@ def _add_joint(urdf: Urdf, joint: Joint) -> None:
         parent = end
 
 
-def _add_axis(urdf: Urdf, node: Node, joint: Joint, axis: Axis) -> None:
+def _add_axis(urdf: Urdf, node: UrdfElement, joint: SdfJoint, axis: JointAxis) -> None:
     x, y, z = _turned(urdf, axis, joint.child)
     node.add("axis", xyz=rounded((-x, -y, -z) if joint.is_turned else (x, y, z)))
     lower, upper = axis.range if axis.range and node.attributes["type"] != "continuous" else (None, None)
@@ -90,13 +90,13 @@ def _add_axis(urdf: Urdf, node: Node, joint: Joint, axis: Axis) -> None:
         node.add("mimic", **axis.mimic)
 
 
-def _turned(urdf: Urdf, axis: Axis, base: Frame) -> Vector:
+def _turned(urdf: Urdf, axis: JointAxis, base: Frame) -> Vector:
     """Return the direction of an axis in a frame."""
     rotation, _ = urdf.frames.pose(axis.given_in, base)
     return moved((rotation, (0.0, 0.0, 0.0)), axis.vector)
 
 
-def _add_loop(urdf: Urdf, joint: Joint) -> None:
+def _add_loop(urdf: Urdf, joint: SdfJoint) -> None:
     """Add a loop in SDF's own words, which URDF has in `<gazebo>`: with its frame in the child link."""
     frame, kind = joint.frame, "universal" if joint.kind == "revolute2" else joint.kind
     if kind not in LOOP_KINDS:

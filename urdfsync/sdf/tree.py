@@ -10,23 +10,23 @@ from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
 from urdfsync.sdf.frames import Frame
-from urdfsync.sdf.joints import Joint
+from urdfsync.sdf.joints import SdfJoint
 
 LOOP_KINDS = ("revolute", "continuous", "ball", "universal", "fixed")
 """Types of joints that can close a loop."""
 
 
-class Tree(NamedTuple):
+class JointTree(NamedTuple):
     """The tree of a robot: `joints` are in order, parents first."""
 
     root: Frame
-    joints: list[Joint]
-    loops: list[Joint]
+    joints: list[SdfJoint]
+    loops: list[SdfJoint]
     loose: list[Frame]
     """Links that no joint connects with the root."""
 
 
-def find_tree(world: Frame, links: Collection[Frame], joints: Iterable[Joint], canonical: Frame) -> Tree:
+def find_tree(world: Frame, links: Collection[Frame], joints: Iterable[SdfJoint], canonical: Frame) -> JointTree:
     """Return the tree of a model.
 
     Its root is the world if a joint leads there, else the canonical link or the first link without a joint above it.
@@ -40,11 +40,11 @@ def find_tree(world: Frame, links: Collection[Frame], joints: Iterable[Joint], c
             first |= second
             groups |= dict.fromkeys(second, first)
     root = _root(world, groups, {joint.child for joint in joins if joint.frame in chosen}, canonical)
-    at_link = dict[Frame, list[Joint]]()
+    at_link = dict[Frame, list[SdfJoint]]()
     for joint in (joint for joint in joins if joint.frame in chosen):
         at_link.setdefault(joint.parent, []).append(joint)
         at_link.setdefault(joint.child, []).append(joint)
-    ordered, reached, waiting = list[Joint](), {root}, [root]
+    ordered, reached, waiting = list[SdfJoint](), {root}, [root]
     for link in waiting:  # grows
         for joint in at_link.get(link, ()):
             is_turned = joint.child is link
@@ -54,7 +54,7 @@ def find_tree(world: Frame, links: Collection[Frame], joints: Iterable[Joint], c
                 reached.add(other)
                 waiting.append(other)
     loops = [joint for joint in joins if joint.frame not in chosen and joint.parent in reached]
-    return Tree(root, ordered, loops, [link for link in links if link not in reached])
+    return JointTree(root, ordered, loops, [link for link in links if link not in reached])
 
 
 def _root(world: Frame, groups: dict[Frame, set[Frame]], children: Collection[Frame], canonical: Frame) -> Frame:
@@ -64,7 +64,7 @@ def _root(world: Frame, groups: dict[Frame, set[Frame]], children: Collection[Fr
     return canonical if canonical in tops or not tops else tops[0]
 
 
-def _cost_of_cut(joint: Joint) -> int:
+def _cost_of_cut(joint: SdfJoint) -> int:
     """Return how much is lost if a joint closes a loop: nothing for a ball, most for a joint that can't."""
     if joint.kind not in LOOP_KINDS or joint.kind == "fixed":
         return 3

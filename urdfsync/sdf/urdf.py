@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
 from urdfsync.sdf.frames import WORLD, Frame, Frames, Scope
-from urdfsync.sdf.joints import TAGS, Joint
-from urdfsync.sdf.tree import Tree
-from urdfsync.translation.writer import Node, free_name, rounded
+from urdfsync.sdf.joints import TAGS, SdfJoint
+from urdfsync.sdf.tree import JointTree
+from urdfsync.translation.writer import UrdfElement, free_name, rounded
 from urdfsync.urdf.kinematics.poses import IDENTITY, Matrix, Pose, angles, compose
 from urdfsync.urdf.robot import Vector
 
@@ -37,9 +37,9 @@ class Urdf:
     its axis through the origin of its child. Its axes stay parallel to those of SDF.
     """
 
-    def __init__(self, frames: Frames, model: Scope, tree: Tree) -> None:
+    def __init__(self, frames: Frames, model: Scope, tree: JointTree) -> None:
         self.frames, self.document = frames, frames.document
-        self.root = Node("robot", self.document.places[model.element], name=model.own.name, version="1.2")
+        self.root = UrdfElement("robot", self.document.places[model.element], name=model.own.name, version="1.2")
         self.links = {link: link.name for link in model.of_kind("link")} | {frames.world: WORLD}
         """Names of all links."""
         self.taken = {*self.links.values()}
@@ -50,7 +50,7 @@ class Urdf:
         self.offsets = {joint.child: frames.pose(joint.frame, joint.child)[1] for joint in tree.joints}
         """Origin of each link in its frame of SDF."""
 
-    def _names(self, joint: Joint) -> Iterator[str]:
+    def _names(self, joint: SdfJoint) -> Iterator[str]:
         if len(joint.axes) < 2:
             yield joint.frame.name
         else:
@@ -62,7 +62,7 @@ class Urdf:
         dx, dy, dz = self.offsets.get(link, (0.0, 0.0, 0.0))
         return rotation, (x - dx, y - dy, z - dz)
 
-    def add_origin(self, holder: Node, pose: Pose) -> None:
+    def add_origin(self, holder: UrdfElement, pose: Pose) -> None:
         """Add a pose to an element of URDF."""
         rotation, place = pose
         holder.add("origin", xyz=rounded(place), rpy=turn(rotation))
@@ -79,7 +79,7 @@ class Urdf:
             _TAGS.get(element.tag, element.tag), self.document.places[element], name=element.get("name") or name or None
         )
 
-    def copy(self, holder: Node, element: Element, full: Mapping[str, str] | None = None) -> Node:
+    def copy(self, holder: UrdfElement, element: Element, full: Mapping[str, str] | None = None) -> UrdfElement:
         """Add a copy of an element; a text that is a key of `full` is replaced."""
         text = (element.text or "").strip()
         text = (full or {}).get(text, text)

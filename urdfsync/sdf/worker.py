@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import msgspec
 
 from urdfsync.engine.exchange import Answer, Request, serve
-from urdfsync.sdf.document import Document
+from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frames, Scope
 from urdfsync.sdf.joints import FIXED
 from urdfsync.sdf.robot import translated
@@ -22,7 +22,7 @@ def translate(request: Request) -> Answer:
     """Translate a file."""
     folders = (request.folder, os.path.dirname(request.source), *request.package_paths)  # noqa: PTH120
     files = Files(request.contents, folders)
-    document = Document(request.source, files, request.package_paths)
+    document = SdfDocument(request.source, files, request.package_paths)
 
     def translate_model() -> Answer:
         frames = Frames(document)

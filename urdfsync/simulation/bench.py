@@ -20,7 +20,7 @@ class Signal(msgspec.Struct, frozen=True):
     """Pairs of a parameter and a variable; the products are added to the value of `variable`."""
 
 
-class Axis(msgspec.Struct, frozen=True):
+class JointSignals(msgspec.Struct, frozen=True):
     """Quantities of one moving joint in a simulation."""
 
     element: str
@@ -53,7 +53,7 @@ class Bench(msgspec.Struct, frozen=True):
     """The model that needs no input."""
     run: str
     """The model that is driven by inputs; empty if there is none."""
-    layouts: tuple[tuple[Axis, ...], ...]
+    layouts: tuple[tuple[JointSignals, ...], ...]
     """For each approach, the axes under their names in its models."""
     loops: tuple[LoopSignals, ...] = ()
     generic: str = ""

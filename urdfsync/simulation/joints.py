@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from urdfsync.simulation.bench import Axis, Bench, Signal
+from urdfsync.simulation.bench import Bench, JointSignals, Signal
 from urdfsync.simulation.results import JointResult, LoopResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300
@@ -22,7 +22,7 @@ passing the lower limit 0.
 """
 
 
-Layouts: TypeAlias = Sequence[Sequence[Axis]]
+Layouts: TypeAlias = Sequence[Sequence[JointSignals]]
 """See `Bench.layouts`."""
 
 
@@ -81,7 +81,7 @@ def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
                 yield LoopResult(loop.element, place, *sizes)
 
 
-def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:
+def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[JointSignals]]]:
     """Return the components that are robots, with their layouts: no other component has a larger part of a layout.
 
     A robot need not have all positions of its layout, since the user may have replaced a joint by another model. Other
@@ -100,7 +100,7 @@ def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]
     return [(place, layouts[number]) for (place, number), share in sorted(shares.items()) if math.isclose(share, most)]
 
 
-def _signals(axis: Axis) -> Iterator[tuple[str, Signal]]:
+def _signals(axis: JointSignals) -> Iterator[tuple[str, Signal]]:
     signals = {"position": axis.position, "speed": axis.velocity, "effort": axis.effort}
     yield from ((name, signal) for name, signal in (*signals.items(), ("acceleration", axis.acceleration)) if signal)
 

@@ -11,7 +11,7 @@ import msgspec
 
 from urdfsync.diagnostics import ConfigError
 from urdfsync.files import shown
-from urdfsync.modelica.classes import OPAQUE, Node, Type
+from urdfsync.modelica.classes import OPAQUE, ClassNode, Type
 from urdfsync.modelica.files import text_of
 from urdfsync.modelica.lexer import Lexer
 from urdfsync.modelica.scopes import Scopes
@@ -52,7 +52,7 @@ class Driven(msgspec.Struct, frozen=True):
 class Model:
     """A class that can be simulated, with its base classes."""
 
-    def __init__(self, scopes: Scopes, node: Node, content: Callable[[str], bytes]) -> None:
+    def __init__(self, scopes: Scopes, node: ClassNode, content: Callable[[str], bytes]) -> None:
         """`content` reads a Modelica file."""
         self.node, self.name = node, str(node)
         # the parser's text, since components have positions in it
@@ -117,7 +117,7 @@ class Model:
             texts[Path(file)] = text.encode(errors="surrogateescape")
         return Driven(texts, tuple(modifiers))
 
-    def _components(self) -> Iterator[tuple[Node, Component]]:
+    def _components(self) -> Iterator[tuple[ClassNode, Component]]:
         for node in reversed(self._nodes):
             for component in node.components.values():
                 yield node, component
@@ -161,7 +161,7 @@ def _near(scopes: Scopes, package: str, name: str) -> str:
     return ""
 
 
-def _with_bases(scopes: Scopes, node: Node) -> Iterator[Node]:
+def _with_bases(scopes: Scopes, node: ClassNode) -> Iterator[ClassNode]:
     """Yield a class, and then its base classes, each once."""
     waiting, seen = [node], {OPAQUE}
     while waiting:

@@ -46,14 +46,14 @@ _STRAIGHT = 2
 """Up to this number of rows, the spline is a straight line."""
 
 
-class Motion(msgspec.Struct, frozen=True):
+class InputMotion(msgspec.Struct, frozen=True):
     """Times in s, from 0 on, and the value of each input at each time, in the unit of the input."""
 
     times: tuple[float, ...]
     values: tuple[tuple[Input, tuple[float, ...]], ...]
 
 
-def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
+def read_motion(file: Path, inputs: Sequence[Input]) -> InputMotion:
     """Read a CSV file with a first column `time`, and a column for each input. Raises SourceError."""
     if not inputs:
         _refuse(file, "the model has no inputs that a motion could drive", hint="leave `--input` out")
@@ -78,7 +78,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
                 )
     if (start := columns["time"][0]) != 0:
         _refuse(file, f"the time begins at {start:g} s", rows[0][0], "begin the time at 0")
-    return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
+    return InputMotion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
 
 
 def read_rows(file: Path, code: str, most: int, noun: str, missing: str, *, least: int = 1) -> Sequence[Row]:
@@ -112,12 +112,12 @@ def read_rows(file: Path, code: str, most: int, noun: str, missing: str, *, leas
         refuse(error.message, error.line, error.hint)
 
 
-def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
+def at_rest(inputs: Sequence[Input], stop: float) -> InputMotion:
     """Return a motion with all inputs at 0 until `stop`."""
-    return Motion((0.0, stop), tuple((signal, (0.0, 0.0)) for signal in inputs))
+    return InputMotion((0.0, stop), tuple((signal, (0.0, 0.0)) for signal in inputs))
 
 
-def find_overshoots(motion: Motion, file: Path) -> Iterator[Diagnostic]:
+def find_overshoots(motion: InputMotion, file: Path) -> Iterator[Diagnostic]:
     """Yield a warning for each input whose spline leaves the values of its rows by more than rows of a sine would."""
     from scipy.interpolate import CubicSpline  # see `second_derivatives`
 
@@ -140,7 +140,7 @@ def find_overshoots(motion: Motion, file: Path) -> Iterator[Diagnostic]:
             yield Diagnostic(Severity.WARNING, "overshoot", message, shown(file), hint=hint)
 
 
-def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
+def sampled(motion: InputMotion, times: Sequence[float]) -> dict[str, list[float]]:
     """Return the value of each input at other times, as the functions of `in_modelica` compute it."""
     from scipy.interpolate import CubicSpline, make_interp_spline
 
@@ -249,7 +249,7 @@ class ModelicaMotion(msgspec.Struct, frozen=True):
     equations: tuple[str, ...] = ()
     """Equations of a model whose inputs follow the motion."""
 
-    def held(self, motion: Motion, step: float) -> ModelicaMotion:
+    def held(self, motion: InputMotion, step: float) -> ModelicaMotion:
         """Return the motion for an FMU for co-simulation, whose inputs change only at each step."""
         declarations, whens, equations = [], [], []
         for number, (signal, values) in enumerate(motion.values, 1):
@@ -260,7 +260,7 @@ class ModelicaMotion(msgspec.Struct, frozen=True):
         return ModelicaMotion(self.functions, tuple(declarations), (*when, *equations))
 
 
-def in_modelica(motion: Motion) -> ModelicaMotion:
+def in_modelica(motion: InputMotion) -> ModelicaMotion:
     """Return functions of a package, and for each input an equation that calls its function."""
     count, lines, equations = len(motion.times), [_constant("times", motion.times)], []
     halvings = max(1, math.ceil(math.log2(count - 1)))

@@ -34,7 +34,7 @@ class JointName(msgspec.Struct, frozen=True):
         return name if self.robot in ("", "robot") else f"{self.robot}.{name}"
 
 
-class Extent(msgspec.Struct, frozen=True, array_like=True, gc=False):
+class CaseRange(msgspec.Struct, frozen=True, array_like=True, gc=False):
     """The range of a quantity in one case, and its limits."""
 
     least: float
@@ -59,7 +59,7 @@ class Extent(msgspec.Struct, frozen=True, array_like=True, gc=False):
 class JointOutcome(msgspec.Struct, frozen=True, array_like=True):
     """One joint in one case."""
 
-    extents: tuple[Extent | None, ...]
+    extents: tuple[CaseRange | None, ...]
     """One for each of `QUANTITIES`; None if the model lacks the quantity."""
     final: float | None
     """The last position."""
@@ -237,7 +237,7 @@ def outcome_of(layouts: joints.Layouts, run: SimulationResult) -> Outcome:
     for joint, energy in zip(results, energies, strict=True):
         ranges = [getattr(joint, quantity) for quantity in QUANTITIES]
         names.append(JointName(joint.element, joint.robot, tuple(each.unit if each else "" for each in ranges)))
-        extents = (each and Extent(each.least, each.greatest, each.lower, each.upper) for each in ranges)
+        extents = (each and CaseRange(each.least, each.greatest, each.lower, each.upper) for each in ranges)
         final = run.values[joint.position.variable][-1] if joint.position else None
         passed = tuple(dict.fromkeys(limit.quantity for limit in joint.passed))
         outcomes.append(JointOutcome(tuple(extents), final, energy, passed))

@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from urdfsync.diagnostics import ConfigError
-from urdfsync.simulation.outcomes import QUANTITIES, Extent, Study
+from urdfsync.simulation.outcomes import QUANTITIES, CaseRange, Study
 from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
 _ROWS = ("position", "speed", "effort")
@@ -94,7 +94,7 @@ def draw_study(study: Study, kind: str) -> bytes:
         return saved(figure, kind)
 
 
-def _draw_sizes(panel: Any, extents: Sequence[Extent], unit: str) -> None:
+def _draw_sizes(panel: Any, extents: Sequence[CaseRange], unit: str) -> None:
     """Draw how many cases have each greatest absolute value, and the limit if it is near."""
     panel.set_visible(bool(extents))  # a joint that follows another has no effort
     sizes = [extent.size for extent in extents]

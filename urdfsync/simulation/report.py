@@ -22,7 +22,7 @@ _NOTHING = 5e-7
 """Smaller numbers are rounding errors and shown as 0."""
 
 
-class Simulation(SimulateResult, frozen=True):
+class SimulationDisplay(SimulateResult, frozen=True):
     """A simulation with a display for notebooks."""
 
     def _repr_html_(self) -> str:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from urdfsync.domain import Target
 from urdfsync.simulation.bench import Bench
-from urdfsync.table.model import Options, Table
+from urdfsync.table.model import Table, TableOptions
 
 
-def bench(snapshot: Table, target: Target, options: Options) -> Bench | None:  # noqa: ARG001 - see `Benches`
+def bench(snapshot: Table, target: Target, options: TableOptions) -> Bench | None:  # noqa: ARG001 - see `Benches`
     """Return the model of the whole system; None if the options choose no such model."""
     return Bench(target.name, "", ()) if "system" in options.files else None

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Mapping, Sequence
-from types import ModuleType
 from typing import Any
 
 import msgspec
@@ -17,33 +15,23 @@ from urdfsync.domain import (
     ElementKey,
     Features,
     Import,
+    LazyModule,
     Order,
     Reading,
     Role,
     Target,
 )
 from urdfsync.modelica.literals import capitalize_first
-from urdfsync.table.model import FROM, TO, Options, Table, Value, shown_unit
+from urdfsync.table.model import FROM, TO, CellValue, Table, TableOptions, shown_unit
 from urdfsync.table.names import column_name, component_name
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
 
 
-class _Module:
-    """A module that few commands need. The first use loads it."""
-
-    def __init__(self, name: str) -> None:
-        self._name = f"urdfsync.table.{name}"
-
-    def __get__(self, domain: TableDomain, owner: type[TableDomain]) -> ModuleType:
-        """Return the module."""
-        return importlib.import_module(self._name)
-
-
 class _Columns:
     """The columns of a table, which templates need not use; see `Parts`."""
 
-    def without_each(self, snapshot: Table, options: Options) -> Mapping[str, Table]:
+    def without_each(self, snapshot: Table, options: TableOptions) -> Mapping[str, Table]:
         """Return the columns with filled cells; the columns that name elements are used anyway."""
         found, naming = dict[str, Table](), (options.kind, FROM, TO)
         for noun, (types, rows) in _SHEETS.items():
@@ -68,10 +56,12 @@ class TableDomain(Domain):
     name = "table"
     warnings = ("not-modelled",)
     model = Table
-    options = Options
+    options = TableOptions
     companions = (CompanionKind("connections", ".connections.csv"),)
     parts = _Columns()
-    advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
+    advice = LazyModule("urdfsync.table.starter")
+    simulation = LazyModule("urdfsync.table.benches")
+    pictures = LazyModule("urdfsync.table.scene")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:
         """Return templates for a table. The user edits these templates."""
@@ -80,11 +70,11 @@ class TableDomain(Domain):
 
         return templates(snapshot, templates_folder(self))
 
-    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
+    def uses(self, options: TableOptions) -> Sequence[tuple[str, str]]:
         """Return the libraries in the configuration."""
         return tuple(options.uses.items())
 
-    def read(self, content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
+    def read(self, content: bytes, file: str, options: TableOptions, *companions: Companion) -> Reading:
         """Read a source, and the connections in a CSV such as `rooms.connections.csv` beside `rooms.csv`."""
         from urdfsync.table.reading import read
 
@@ -99,7 +89,7 @@ class TableDomain(Domain):
         snapshot: Table,
         imports: Mapping[str, Import],  # noqa: ARG002 - a table refers to no files
         target: Target,
-        options: Options,
+        options: TableOptions,
     ) -> Iterator[Artifact | Order]:
         """Yield the files that the options choose. Templates decide on the content."""
         parent = target.package.rpartition(".")[0]
@@ -169,7 +159,7 @@ _SHEETS = {"column": ("columns", "elements"), "connection column": ("connection_
 _FOLDERS = (("Records", Role.RECORD, "record"), ("Models", Role.MODEL, "model"))
 
 
-def _without(cells: Mapping[str, Value], column: str) -> dict[str, Value]:
+def _without(cells: Mapping[str, CellValue], column: str) -> dict[str, CellValue]:
     return {name: cell for name, cell in cells.items() if name != column}
 
 
@@ -177,7 +167,7 @@ def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
     return Artifact(f"{folder}package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
 
 
-def _element(key: str, row: Mapping[str, Value], units: Mapping[str, str], options: Options) -> dict[str, Any]:
+def _element(key: str, row: Mapping[str, CellValue], units: Mapping[str, str], options: TableOptions) -> dict[str, Any]:
     """Return an element for templates; its row has no empty cells."""
     component = component_name(key)
     names = {"name": key, "class": capitalize_first(component), "component": component}

@@ -7,11 +7,11 @@ from typing import Literal, NamedTuple, TypeAlias
 
 import msgspec
 
-Value: TypeAlias = float | int | bool | str
+CellValue: TypeAlias = float | int | bool | str
 """A filled cell: a number in SI units, a truth value or a text."""
 TYPES = "text", "integer", "boolean"
 """The types of columns without a unit."""
-File: TypeAlias = Literal["record", "model", "system"]
+TableFile: TypeAlias = Literal["record", "model", "system"]
 
 FROM, TO = "from", "to"
 """The columns of a connection with the keys of its two elements."""
@@ -38,7 +38,7 @@ def shown_unit(kind: str) -> str:
     return "" if kind in ("1", *TYPES) else kind
 
 
-class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class TableOptions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The options of one table."""
 
     key: str = ""
@@ -47,7 +47,7 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The column that chooses the template of an element's model, `model/KIND.mo.jinja`; empty for `model.mo.jinja`."""
     connections: str = ""
     """The CSV with the connections; empty if the source has the connections, or no connections exist."""
-    files: tuple[File, ...] = ("record", "model")
+    files: tuple[TableFile, ...] = ("record", "model")
     """The files to generate: a record and a model for each element, and one model of the whole system."""
     classes: tuple[str, ...] = ()
     """More classes of the package, such as a connector, from `CLASS.mo.jinja`."""
@@ -62,9 +62,9 @@ class Table(msgspec.Struct, frozen=True):
 
     columns: dict[str, str]
     """The columns of elements: the SI unit of numbers in Modelica's spelling, or `text`, `integer`, `boolean`."""
-    elements: dict[str, dict[str, Value]]
+    elements: dict[str, dict[str, CellValue]]
     """The filled cells of each element, by key and column."""
     connection_columns: dict[str, str] = {}
     """The columns of connections, with units or types."""
-    connections: dict[str, dict[str, Value]] = {}
+    connections: dict[str, dict[str, CellValue]] = {}
     """The filled cells of each connection, by `FROM TO`; equal pairs get a number."""

@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Companion, Reading
 from urdfsync.spelling import counted, name_and_unit, nearest
 from urdfsync.table import formats
-from urdfsync.table.model import FROM, NOTHING, TO, TYPES, Options, Sheet, Table, Value
+from urdfsync.table.model import FROM, NOTHING, TO, TYPES, CellValue, Sheet, Table, TableOptions
 from urdfsync.table.names import find_clashes
 from urdfsync.table.units import Unit, find_unit, is_same_kind
 
@@ -33,9 +33,9 @@ class _Column(NamedTuple):
     type: Unit | str
 
 
-def read(content: bytes, file: str, options: Options, *companions: Companion) -> Reading:
+def read(content: bytes, file: str, options: TableOptions, *companions: Companion) -> Reading:
     """Read a source; see `Domain.read`."""
-    reader = _Reader(options)
+    reader = _TableReader(options)
     try:
         elements, connections = formats.read_sheets(content, file, *companions)
         table = reader.read(elements, connections)
@@ -46,10 +46,10 @@ def read(content: bytes, file: str, options: Options, *companions: Companion) ->
     return Reading(None if is_wrong else table, tuple(reader.findings), reader.lines, files, tuple(reader.of_options))
 
 
-class _Reader:
+class _TableReader:
     """Reads one source, and collects its findings."""
 
-    def __init__(self, options: Options) -> None:
+    def __init__(self, options: TableOptions) -> None:
         self.findings: list[Diagnostic] = []
         self.of_options: list[tuple[str, Diagnostic]] = []
         self.lines: dict[str, int] = {}
@@ -139,8 +139,8 @@ class _Reader:
             self._error(sheet, "no-unit", f"column `{name}` has numbers but no unit", 1, hint)
         return "text"
 
-    def _rows(self, sheet: Sheet, columns: Sequence[_Column], key: str) -> dict[str, dict[str, Value]]:
-        rows = dict[str, dict[str, Value]]()
+    def _rows(self, sheet: Sheet, columns: Sequence[_Column], key: str) -> dict[str, dict[str, CellValue]]:
+        rows = dict[str, dict[str, CellValue]]()
         for line, row in self._values(sheet, columns):
             name = str(row.pop(key, None) or "")
             kind = row.get(self._options.kind) if self._options.kind else None
@@ -158,8 +158,8 @@ class _Reader:
 
     def _connections(
         self, sheet: Sheet, columns: Sequence[_Column], elements: Mapping[str, object]
-    ) -> dict[str, dict[str, Value]]:
-        rows, numbers = dict[str, dict[str, Value]](), dict[str, int]()
+    ) -> dict[str, dict[str, CellValue]]:
+        rows, numbers = dict[str, dict[str, CellValue]](), dict[str, int]()
         first_lines = dict[object, int]()
         for line, row in self._values(sheet, columns):
             ends = [str(row.get(end) or "") for end in (FROM, TO)]
@@ -183,7 +183,7 @@ class _Reader:
             rows[key], self.lines[f"connection {key}"] = row, line
         return rows
 
-    def _values(self, sheet: Sheet, columns: Sequence[_Column]) -> Iterator[tuple[int, dict[str, Value]]]:
+    def _values(self, sheet: Sheet, columns: Sequence[_Column]) -> Iterator[tuple[int, dict[str, CellValue]]]:
         """Yield the rows with their values; report the first fault of each cell."""
         for line, cells in sheet.rows:
             if len(cells) != len(columns):
@@ -192,7 +192,7 @@ class _Reader:
                     sheet, "ragged-row", message, line, "fill each cell, or quote a text that has the separator"
                 )
                 continue
-            row = dict[str, Value]()
+            row = dict[str, CellValue]()
             for column, cell in zip(columns, cells, strict=True):
                 try:
                     if (value := read_value(cell, column.type)) is not None:
@@ -214,7 +214,7 @@ def _is_number(cell: object) -> bool:
     return isinstance(cell, int | float) and not isinstance(cell, bool) and math.isfinite(cell)
 
 
-def read_value(cell: object, kind: Unit | str) -> Value | None:
+def read_value(cell: object, kind: Unit | str) -> CellValue | None:
     """Return the value of a cell in SI; None for an empty cell. Raises ValueError."""
     text = cell.strip() if isinstance(cell, str) else cell
     if text is None or text == "":

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.domain import Import, Target
-from urdfsync.pages.scene import Body, Hinge, Pose, Scene, Shape, Triangles
-from urdfsync.table.model import FROM, TO, Options, Table, shown_unit
+from urdfsync.pages.scene import Body, Hinge, PageMesh, PagePose, Scene, Shape
+from urdfsync.table.model import FROM, TO, Table, TableOptions, shown_unit
 from urdfsync.table.names import component_name
 
 _MOST = 500
@@ -26,7 +26,7 @@ def scene(
     table: Table,
     imports: Mapping[str, Import],  # noqa: ARG001 - a table refers to no files
     target: Target,
-    options: Options,
+    options: TableOptions,
 ) -> tuple[Scene, Mapping[str, str]]:
     """Return the picture of a table, which has no meshes."""
     places, root = _places(table), f"table {target.name}"
@@ -61,7 +61,7 @@ def named_poses(source: Path, table: Table) -> tuple[Mapping[str, Mapping[str, f
     return {}, ()
 
 
-def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:  # noqa: ARG001 - see `Pictures`
+def triangles(path: str, content: bytes, key: str, most: int) -> PageMesh | str:  # noqa: ARG001 - see `Pictures`
     """Return the reason why no mesh can be shown."""
     return "a table has no meshes"
 
@@ -94,6 +94,6 @@ def _places(table: Table) -> dict[str, tuple[float, float]]:
     return {key: places[key] for key in sorted(places)[:_MOST]}
 
 
-def _pose(x: float = 0.0, y: float = 0.0, angle: float = 0.0) -> Pose:
+def _pose(x: float = 0.0, y: float = 0.0, angle: float = 0.0) -> PagePose:
     cos, sin = math.cos(angle), math.sin(angle)
     return (cos, sin, 0.0, 0.0, -sin, cos, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x, y, _BOX[2] / 2, 1.0)

@@ -17,14 +17,14 @@ from urdfsync.urdf.parse.xml import ParseError, parse
 
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 
-Place = tuple[str, int]
+SourcePlace = tuple[str, int]
 """A file, and a line in it."""
 
 
 class TranslationError(Exception):
     """A fault for which there is no robot."""
 
-    def __init__(self, message: str, place: Place = ("", 0), hint: str = "", code: str = "") -> None:
+    def __init__(self, message: str, place: SourcePlace = ("", 0), hint: str = "", code: str = "") -> None:
         super().__init__(message)
         self._problem = Problem(code, message, *place, hint)
 
@@ -41,7 +41,7 @@ class Files:
         self._contents, self._folders = contents, [os.path.realpath(folder) for folder in folders]
         self.hashes: dict[str, str | None] = {}
 
-    def read(self, path: str, place: Place = ("", 0)) -> bytes:
+    def read(self, path: str, place: SourcePlace = ("", 0)) -> bytes:
         """Return the content of a file that is named at `place`. Raises TranslationError."""
         self.hashes[path] = None
         try:
@@ -54,8 +54,8 @@ class Files:
         return content
 
     def parse(
-        self, path: str, place: Place = ("", 0), *, has_any_comments: bool = False
-    ) -> tuple[Element, dict[Element, Place]]:
+        self, path: str, place: SourcePlace = ("", 0), *, has_any_comments: bool = False
+    ) -> tuple[Element, dict[Element, SourcePlace]]:
         """Return the root element of an XML file, and the place of each element. Raises TranslationError.
 
         With `has_any_comments`, comments may contain `--`, and may stand above the XML declaration.
@@ -77,7 +77,7 @@ class Files:
             self.hashes[path] = None
         return is_there
 
-    def check_inside(self, path: str, place: Place) -> None:
+    def check_inside(self, path: str, place: SourcePlace) -> None:
         """Refuse a file outside of the folders. Raises TranslationError."""
         real = Path(os.path.realpath(path))
         if not any(real.is_relative_to(folder) for folder in self._folders):

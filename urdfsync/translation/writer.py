@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from typing import Any
 
-from urdfsync.translation.files import Place
+from urdfsync.translation.files import SourcePlace
 
 _BLANKS = {ord(blank): f"&#{ord(blank)};" for blank in "\n\r\t"}
 """Characters that XML would read as a space in an attribute."""
@@ -14,20 +14,20 @@ _DECIMALS = 15
 """Decimals of computed numbers: later digits are rounding errors."""
 
 
-class Node:
+class UrdfElement:
     """An element of the URDF."""
 
-    def __init__(self, tag: str, line: int | Place, /, text: str = "", **attributes: Any) -> None:
+    def __init__(self, tag: str, line: int | SourcePlace, /, text: str = "", **attributes: Any) -> None:
         """`line` is a number of a place, or the place itself, or 0 for that of the element around this one."""
         self.tag, self.line, self.text, self.attributes = tag, line, text, attributes
-        self.children: list[Node] = []
+        self.children: list[UrdfElement] = []
 
-    def add(self, tag: str, line: int | Place = 0, /, text: str = "", **attributes: Any) -> Node:
+    def add(self, tag: str, line: int | SourcePlace = 0, /, text: str = "", **attributes: Any) -> UrdfElement:
         """Add an element, and return it. Numbers are written with all their digits; None is left out."""
-        self.children.append(child := Node(tag, line, text, **attributes))
+        self.children.append(child := UrdfElement(tag, line, text, **attributes))
         return child
 
-    def lines(self, line: int | Place = 1, depth: int = 0) -> Iterator[tuple[str, int | Place]]:
+    def lines(self, line: int | SourcePlace = 1, depth: int = 0) -> Iterator[tuple[str, int | SourcePlace]]:
         """Yield the lines of the text, each with its place, or the number of its place."""
         line, indent = self.line or line, "  " * depth
         written = {name: _text(value) for name, value in self.attributes.items() if value is not None}
@@ -41,7 +41,7 @@ class Node:
         yield f"{indent}</{self.tag}>", line
 
 
-def write(robot: Node, numbered: Sequence[Place] = ()) -> tuple[str, tuple[tuple[int, str, int], ...]]:
+def write(robot: UrdfElement, numbered: Sequence[SourcePlace] = ()) -> tuple[str, tuple[tuple[int, str, int], ...]]:
     """Return the text of a URDF, and each of its lines that begins another place in the files of the source.
 
     `numbered` has the places of the numbers 1, 2, …; any other number stands for the first place.

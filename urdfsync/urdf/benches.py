@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from urdfsync.checks.experiment import Experiment, Numbers, Sample
 from urdfsync.domain import Target
-from urdfsync.simulation.bench import Axis, Bench, LoopSignals, Signal
+from urdfsync.simulation.bench import Bench, JointSignals, LoopSignals, Signal
 from urdfsync.urdf.artifacts import has_bench
 from urdfsync.urdf.artifacts import models as package_models
 from urdfsync.urdf.assembly import Assembly
@@ -63,7 +63,7 @@ def _loops(tree: KinematicTree) -> Iterator[LoopSignals]:
         yield LoopSignals(f"loop {loop.name}", f"{name}.gap", force, torque)
 
 
-def _axes(assembly: Assembly) -> Iterator[Axis]:
+def _axes(assembly: Assembly) -> Iterator[JointSignals]:
     """Yield the axes of a package's robot: joints with one degree of freedom, from the root outwards."""
     tree, drives, dependent = assembly.tree, assembly.connectors.drives, assembly.closed.dependent
     for joint in tree.joints:
@@ -78,7 +78,7 @@ def _axes(assembly: Assembly) -> Iterator[Axis]:
                 for moved, factor in ((at, "reduction"), (other.other, "otherReduction"))
                 if other.motor and moved == joint.name
             )
-            yield Axis(
+            yield JointSignals(
                 f"joint {joint.name}",
                 Signal(f"{name}.{position}", units[0], range_),
                 Signal(f"{name}.{velocity}", units[1], (f"{limits}.velocity",)),
@@ -88,14 +88,14 @@ def _axes(assembly: Assembly) -> Iterator[Axis]:
             )
 
 
-def _generic_axes(tree: KinematicTree) -> Iterator[Axis]:
+def _generic_axes(tree: KinematicTree) -> Iterator[JointSignals]:
     """Yield the axes of the generic robot. Turning and sliding axes are numbered separately."""
     for motion in MOTIONS:
         for number, joint in enumerate(tree.axes(motion), 1):
             position, speed, acceleration = _GENERIC_VARIABLES[motion]
             units, limits = _UNITS[motion], f"data.{tree.joint(joint.name).component}.limits"
             range_ = (f"{limits}.lower", f"{limits}.upper") if JOINT_KINDS[joint.type].has_limits else ()
-            yield Axis(
+            yield JointSignals(
                 f"joint {joint.name}",
                 Signal(f"{position}[{number}]", units[0], range_),
                 Signal(f"{speed}[{number}]", units[1], (f"{limits}.velocity",)),

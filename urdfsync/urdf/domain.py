@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import get_args
 
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -17,6 +15,7 @@ from urdfsync.domain import (
     Dependency,
     Domain,
     Import,
+    LazyModule,
     Lookup,
     Order,
     Reading,
@@ -48,17 +47,6 @@ WARNINGS = frozenset(
 )
 
 
-class _Module:
-    """A module that few builds need. The first use loads it."""
-
-    def __init__(self, name: str) -> None:
-        self._name = f"urdfsync.urdf.{name}"
-
-    def __get__(self, domain: UrdfDomain, owner: type[UrdfDomain]) -> ModuleType:
-        """Return the module."""
-        return importlib.import_module(self._name)
-
-
 class UrdfDomain(Domain):
     """Turns URDF files into Modelica packages of multibody models."""
 
@@ -68,10 +56,15 @@ class UrdfDomain(Domain):
     options = Options
     permissive_options = Options(allow=get_args(LeftOut))
     cured = ("loop-singular",)
-    advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
-    judgements, identification = _Module("plausibility.judgements"), _Module("physics.regressor")
-    formats = _Module("diff.common_frames")
-    imports, simulation, pictures = _Module("meshes.lookup"), _Module("benches"), _Module("scene")
+    advice = LazyModule("urdfsync.urdf.advice")
+    effects = LazyModule("urdfsync.urdf.diff.effects")
+    checks = LazyModule("urdfsync.urdf.benches")
+    judgements = LazyModule("urdfsync.urdf.plausibility.judgements")
+    identification = LazyModule("urdfsync.urdf.physics.regressor")
+    formats = LazyModule("urdfsync.urdf.diff.common_frames")
+    imports = LazyModule("urdfsync.urdf.meshes.lookup")
+    simulation = LazyModule("urdfsync.urdf.benches")
+    pictures = LazyModule("urdfsync.urdf.scene")
     companions = (
         CompanionKind("closed_loops", ".yaml", CLOSED_LOOP),
         CompanionKind("catalogue", needed_by="motors"),

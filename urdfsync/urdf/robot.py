@@ -19,7 +19,7 @@ from msgspec.structs import replace
 Vector: TypeAlias = tuple[float, float, float]
 
 
-class Unit(NamedTuple):
+class UnitName(NamedTuple):
     """Annotates a number with its unit, in the words of a report."""
 
     name: str
@@ -28,14 +28,14 @@ class Unit(NamedTuple):
 
 
 _NAME = operator.attrgetter("name")
-_LENGTH, _ANGLE, _INERTIA = Unit("m"), Unit("rad"), Unit("kg·m²")
-POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad", "N·s/m")
-_SPEED, _ACCELERATION, _STIFFNESS = Unit("rad/s", "m/s"), Unit("rad/s²", "m/s²"), Unit("N·m/rad", "N/m")
+_LENGTH, _ANGLE, _INERTIA = UnitName("m"), UnitName("rad"), UnitName("kg·m²")
+POSITION, _LOAD, _LOSS = UnitName("rad", "m"), UnitName("N·m", "N"), UnitName("N·m·s/rad", "N·s/m")
+_SPEED, _ACCELERATION, _STIFFNESS = UnitName("rad/s", "m/s"), UnitName("rad/s²", "m/s²"), UnitName("N·m/rad", "N/m")
 
 
-def unit_of(struct: type[msgspec.Struct], field: str) -> Unit:
+def unit_of(struct: type[msgspec.Struct], field: str) -> UnitName:
     """Return the unit of a number."""
-    unit: Unit
+    unit: UnitName
     (unit,) = struct.__annotations__[field].__metadata__
     return unit
 
@@ -225,7 +225,7 @@ class Inertia(msgspec.Struct, frozen=True, gc=False):
 class Inertial(msgspec.Struct, frozen=True, gc=False):
     """Mass and inertia; `origin` places the inertial frame at the centre of mass."""
 
-    mass: Annotated[float, Unit("kg")] = 0.0
+    mass: Annotated[float, UnitName("kg")] = 0.0
     origin: Origin = Origin()
     inertia: Inertia = Inertia()
 
@@ -234,9 +234,9 @@ class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaul
     """Contact properties of a link's collisions with the ground; None stands for the ground's value."""
 
     mu: float | None = None
-    kp: Annotated[float | None, Unit("N/m")] = None
+    kp: Annotated[float | None, UnitName("N/m")] = None
     """Stiffness of a contact point."""
-    kd: Annotated[float | None, Unit("N·s/m")] = None
+    kd: Annotated[float | None, UnitName("N·s/m")] = None
     """Damping of a contact point, added to the damping of the ground."""
     min_depth: Annotated[float | None, _LENGTH] = None
     """Up to this depth in the ground, a contact point has no force."""
@@ -262,7 +262,7 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
     acceleration: Annotated[float | None, _ACCELERATION] = None
     deceleration: Annotated[float | None, _ACCELERATION] = None
     """None stands for the value of `acceleration`."""
-    jerk: Annotated[float | None, Unit("rad/s³", "m/s³")] = None
+    jerk: Annotated[float | None, UnitName("rad/s³", "m/s³")] = None
 
 
 class Dynamics(msgspec.Struct, frozen=True, gc=False):
@@ -270,7 +270,7 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
 
     damping: Annotated[float, _LOSS] = 0.0
     friction: Annotated[float, _LOAD] = 0.0
-    armature: Annotated[float | None, Unit("kg·m²", "kg")] = None
+    armature: Annotated[float | None, UnitName("kg·m²", "kg")] = None
     """Inertia that the drive adds at the joint, as in MuJoCo's `armature`."""
     spring_stiffness: Annotated[float | None, _STIFFNESS] = None
     """A spring pulls with `spring_stiffness` · (`spring_reference` - position), as in SDFormat."""
@@ -288,7 +288,7 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
     Position of the motor = `reduction` · (position of the joint - `offset`) + `joint_reduction` · position of `joint`.
     """
 
-    reduction: Annotated[float, Unit("", "rad/m")] = 1.0
+    reduction: Annotated[float, UnitName("", "rad/m")] = 1.0
     offset: Annotated[float, POSITION] = 0.0
     rotor_inertia: Annotated[float | None, _INERTIA] = None
     """Inertia of the motor, on the motor's side of the gear."""
@@ -343,7 +343,7 @@ class SafetyController(msgspec.Struct, frozen=True, gc=False):
     """Soft limits and gains of a safety controller."""
 
     k_velocity: Annotated[float, _LOSS] = 0.0
-    k_position: Annotated[float, Unit("1/s")] = 0.0
+    k_position: Annotated[float, UnitName("1/s")] = 0.0
     soft_lower_limit: Annotated[float, POSITION] = 0.0
     soft_upper_limit: Annotated[float, POSITION] = 0.0
 
@@ -477,7 +477,7 @@ class Sensor(msgspec.Struct, frozen=True, gc=False):
     at: str
     origin: Origin = Origin()
     """Pose of the sensor in its link; for a force-torque sensor, only the axes count."""
-    update_rate: Annotated[float, Unit("Hz")] = 0.0
+    update_rate: Annotated[float, UnitName("Hz")] = 0.0
     camera: Camera | None = None
     lidar: Lidar | None = None
     in_parent: bool = False

@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.domain import Import, Target
 from urdfsync.pages import scene as scenes
-from urdfsync.pages.scene import Body, End, Hinge, Pose, Scene, Shape
+from urdfsync.pages.scene import Body, End, Hinge, PagePose, Scene, Shape
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics import poses
 from urdfsync.urdf.kinematics.loops import ClosedLoops, Closure
@@ -20,7 +20,7 @@ from urdfsync.urdf.meshes.convert import triangles as triangles
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.named_poses import named_poses as named_poses
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, UnitName
 
 _NO_FACTS = {"bounds": (), "hull": ()}
 """Stands for the missing facts of a mesh that is too large for the package. The picture needs no facts."""
@@ -53,10 +53,10 @@ def _mesh_name(key: str, file: Import, imports: Mapping[str, Import]) -> str:
     return f"{file.source_hash}{key.removeprefix(whole)}{' part' if is_split else ''}"
 
 
-def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.Loop:
+def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.LoopConstraint:
     ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
     parent, child = (End(f"link {link}", _matrix(poses.pose(origin))) for link, origin in ends)
-    return scenes.Loop(
+    return scenes.LoopConstraint(
         element=f"loop {loop.name}",
         component=tree.loop(loop.name).component,
         facts=tuple(_facts(loop)),
@@ -133,7 +133,7 @@ def _hinge(closed: ClosedLoops, joint: Joint, start: float) -> Hinge:
     )
 
 
-def _matrix(pose: poses.Pose) -> Pose:
+def _matrix(pose: poses.Pose) -> PagePose:
     """Return a pose as a homogeneous matrix, column after column."""
     rotation, translation = pose
     columns = [(*(row[column] for row in rotation), 0.0) for column in range(3)]
@@ -152,7 +152,7 @@ def _facts(values: msgspec.Struct, joint: Joint | None = None, label: str = "") 
             continue
         if is_end and joint and not JOINT_KINDS[joint.type].has_limits:
             continue
-        units = [each for each in getattr(field.type, "__metadata__", ()) if isinstance(each, Unit)]
+        units = [each for each in getattr(field.type, "__metadata__", ()) if isinstance(each, UnitName)]
         slides = joint is not None and MOTION_KINDS.get(joint.type) == "translational"
         unit = "".join(each.sliding if slides and each.sliding else each.name for each in units)
         if isinstance(value, tuple):

@@ -50,7 +50,7 @@ _DOMAIN = "urdf"
 """The domain of sources that no configuration names."""
 
 
-Contents: TypeAlias = tuple[Version, Mapping[str, bytes]]
+VersionContents: TypeAlias = tuple[Version, Mapping[str, bytes]]
 """A version, and the contents of its imported files by path."""
 
 
@@ -71,7 +71,7 @@ class Comparison(msgspec.Struct, frozen=True):
     """Properties of the whole model that changed."""
     is_pair: bool = False
     """Whether two sources stand side by side: only their motion is compared, and no file."""
-    versions: tuple[Contents, ...] = ()
+    versions: tuple[VersionContents, ...] = ()
     """The older and the new version; empty for the last build, or after an error."""
 
     @property

@@ -12,8 +12,8 @@ from urdfsync.engine.renames import describe_doubt
 from urdfsync.output.build_section import EDITED, build_section, change_parts, file_table
 from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import StyledLine, line
-from urdfsync.output.outline import Row, effect_rows
-from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.output.outline import OutlineRow, effect_rows
+from urdfsync.output.sections import Mark, Section, TextTable
 from urdfsync.output.terminal import file_line
 from urdfsync.spelling import counted
 from urdfsync.versions.comparison import Comparison
@@ -31,7 +31,9 @@ def to_section(compared: Comparison, *, verbose: bool | None = None) -> Section:
     points, tables = change_parts(result.changes, _CHANGES, verbose=bool(verbose))
     effects = [tuple(row) for row in effect_rows(compared.effects)]
     tables.append(
-        Table("Effects", ("Property", "Change", "By"), effects, _effect_line, _EFFECTS, "effect", _heading("Effects"))
+        TextTable(
+            "Effects", ("Property", "Change", "By"), effects, _effect_line, _EFFECTS, "effect", _heading("Effects")
+        )
     )
     actions = [action for action in result.actions.decided if action.reason not in _SILENT and not compared.in_step]
     words = f"Next build: {result.summary}"
@@ -58,7 +60,7 @@ def _heading(words: str) -> list[StyledLine]:
 
 
 def _effect_line(*row: str) -> StyledLine:
-    return line((f"  {Row(*row)}", ""))
+    return line((f"  {OutlineRow(*row)}", ""))
 
 
 def _file_line(path: str, word: str, why: str) -> StyledLine:

@@ -23,7 +23,7 @@ from urdfsync.diagnostics import OutputError, UrdfsyncError, internal_error
 from urdfsync.engine.options import no_progress
 from urdfsync.pages.content import gather
 from urdfsync.pages.page import page
-from urdfsync.versions.comparison import Contents
+from urdfsync.versions.comparison import VersionContents
 from urdfsync.watch import events
 from urdfsync.watch.daemon import WatchOptions
 
@@ -44,7 +44,7 @@ class _Robot(msgspec.Struct):
     """Why the source can't be built."""
     page: bytes = b""
     page_build: int = -1
-    shown: tuple[Contents, ...] = ()
+    shown: tuple[VersionContents, ...] = ()
     """The version that the page shows, then the version before."""
 
 

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from support.robots import assembly, random_robot
 
 from urdfsync.urdf.connectors import Connectors
-from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout
+from urdfsync.urdf.diagram.layout import Diagram, LinePath, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Loop, Robot, Sensor, SensorKind, Transmission
 
@@ -92,7 +92,7 @@ def touching(placements: dict[str, Placement]) -> list[tuple[str, str]]:
     return found
 
 
-def segments(points: Path) -> list[Segment]:
+def segments(points: LinePath) -> list[Segment]:
     return [(min(pair), max(pair)) for pair in itertools.pairwise(points)]
 
 

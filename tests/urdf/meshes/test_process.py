@@ -18,12 +18,12 @@ from support.urdfs import link, robot
 
 from urdfsync import cli
 from urdfsync.urdf.meshes import process
-from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request
+from urdfsync.urdf.meshes.process import MeshError, MeshProcess, MeshRequest
 
 Capture = pytest.CaptureFixture[str]
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="elsewhere not all limits hold")]
-REQUEST = Request(".dae")
+REQUEST = MeshRequest(".dae")
 SOUND = dae().encode()
 ENDLESS = gltf([{"mesh": 0}] * 200_000, [*range(200_000)]).encode()
 
@@ -77,7 +77,7 @@ def test_the_process_is_kept_until_a_mesh_breaks_a_limit(reader: MeshProcess, mo
     assert (reader.read(REQUEST, SOUND), _pid()) == ([(stl, facts)], first)
     monkeypatch.setattr(process, "CPU_SECONDS", 0.3)
     with pytest.raises(MeshError, match=LIMITS):
-        reader.read(Request(".gltf"), ENDLESS)
+        reader.read(MeshRequest(".gltf"), ENDLESS)
     assert not psutil.pid_exists(first)
     monkeypatch.undo()
     assert reader.read(REQUEST, SOUND) == [(stl, facts)]
@@ -113,7 +113,7 @@ def test_an_interruption_is_heard_while_a_mesh_is_read(reader: MeshProcess) -> N
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
     try:
         with pytest.raises(KeyboardInterrupt):
-            reader.read(Request(".gltf"), ENDLESS)
+            reader.read(MeshRequest(".gltf"), ENDLESS)
     finally:
         signal.signal(signal.SIGALRM, before)
     assert not psutil.pid_exists(first)
@@ -122,8 +122,8 @@ def test_an_interruption_is_heard_while_a_mesh_is_read(reader: MeshProcess) -> N
 
 def test_the_process_ends_with_whoever_started_it(tmp_path: Path) -> None:
     program = (
-        "import os, psutil; from urdfsync.urdf.meshes.process import MeshProcess, Request; reader = MeshProcess();"
-        f"reader.read(Request('.dae'), {SOUND!r}); print(psutil.Process().children()[0].pid, flush=True);"
+        "import os, psutil; from urdfsync.urdf.meshes.process import MeshProcess, MeshRequest; reader = MeshProcess();"
+        f"reader.read(MeshRequest('.dae'), {SOUND!r}); print(psutil.Process().children()[0].pid, flush=True);"
         "os.kill(os.getpid(), 9)"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from support.meshes import stl
 
-from urdfsync.pages.scene import Triangles
+from urdfsync.pages.scene import PageMesh
 from urdfsync.urdf.meshes.convert import triangles
 
 KEY = "a.stl scale 1.0 1.0 1.0"
@@ -18,10 +18,10 @@ def ball(subdivisions: int) -> bytes:
     return content
 
 
-def read(path: str, content: bytes, key: str = KEY, most: int = 60_000) -> tuple[Triangles, trimesh.Trimesh]:
+def read(path: str, content: bytes, key: str = KEY, most: int = 60_000) -> tuple[PageMesh, trimesh.Trimesh]:
     """Return a mesh as it is for the page, and as the page reads it."""
     mesh = triangles(path, content, key, most)
-    assert isinstance(mesh, Triangles), mesh
+    assert isinstance(mesh, PageMesh), mesh
     points = np.frombuffer(mesh.content, "<f4", 3 * mesh.points).reshape(-1, 3)
     faces = np.frombuffer(mesh.content, "<u4", offset=12 * mesh.points).reshape(-1, 3)
     assert len(faces) == mesh.faces

@@ -20,7 +20,7 @@ from urdfsync.config.trust import find_untrusted_compiler
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 
 COMPILERS: Mapping[str, Compiler] = {
-    name: cast(Compiler, import_module(f"{__name__}.{name}")) for name in get_args(settings.Compiler)
+    name: cast(Compiler, import_module(f"{__name__}.{name}")) for name in get_args(settings.CompilerName)
 }
 """The compilers by the value of `--tool`, the default first."""
 BOTH = "both"

@@ -134,7 +134,7 @@ class CompilerError(UrdfsyncError):
 
 
 class Compiler(Protocol):
-    """A module of this package that drives one compiler. `config.settings.Compiler` lists the module's name."""
+    """A module of this package that drives one compiler. `config.settings.CompilerName` lists the module's name."""
 
     TITLE: str
     """The name of the compiler in messages."""

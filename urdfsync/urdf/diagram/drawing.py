@@ -11,7 +11,7 @@ import math
 import re
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterator, Mapping
-from pathlib import Path as FilePath
+from pathlib import Path
 from typing import Literal, NamedTuple, TypeAlias
 
 import jinja2
@@ -20,16 +20,16 @@ from urdfsync.domain import Target
 from urdfsync.modelica.tree import KnownStatements, SyntaxTree, is_same
 from urdfsync.modelica.values import literals
 from urdfsync.urdf.assembly import Assembly
-from urdfsync.urdf.diagram.layout import Diagram, Path, Point, layout
+from urdfsync.urdf.diagram.layout import Diagram, LinePath, Point, layout
 from urdfsync.urdf.diagram.text import ModelText, find, find_in, read_model, type_of
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, JointType, Robot
 
-Kind: TypeAlias = Literal[
+ComponentKind: TypeAlias = Literal[
     "link", "fixed", "rotational", "translational", "free", "ball", "coupling", "sensor", "loop", "own", "changed"
 ]
-_Entry: TypeAlias = tuple[Kind, str, float, int, float]
+_Entry: TypeAlias = tuple[ComponentKind, str, float, int, float]
 """Entry of the legend: kind of icon, text, place (x, y), and width."""
 
 # Pixels of one unit of the diagram: at 100 %, the smallest text is 10 pixels high. So the picture grows with the robot.
@@ -41,7 +41,7 @@ _FONT, _SMALLEST = 3.6, 2.5
 _ADVANCE = 0.56  # Mean width of a character, by font size.
 _BEND = 2.0  # Radius of the bends of flange lines: they show that a line joins another line and does not cross it.
 
-_LEGENDS: Mapping[Kind, str] = {
+_LEGENDS: Mapping[ComponentKind, str] = {
     "link": "link, mass",
     "fixed": "fixed joint",
     "rotational": "rotational joint",
@@ -55,13 +55,13 @@ _LEGENDS: Mapping[Kind, str] = {
     "changed": "differs from the source",
 }
 _MASS = "inertial", "mass"
-_OTHERS: Mapping[JointType, Kind] = {"fixed": "fixed", "ball": "ball"}
+_OTHERS: Mapping[JointType, ComponentKind] = {"fixed": "fixed", "ball": "ball"}
 
 
 class _Part(NamedTuple):
     """A component with an icon."""
 
-    kind: Kind
+    kind: ComponentKind
     text: str = ""
     """Text in the icon: mass, ratio, or the class of a user's component."""
     is_driven: bool = False
@@ -91,11 +91,13 @@ def draw(robot: Robot, target: Target, options: Options, differing: Mapping[str,
     elif path in differing:
         notes.append(f"{path} can't be read: this is the diagram of the source")
     parts = {name: part for name, part in parts.items() if name in diagram.placements}
-    kinds: set[Kind] = {part.kind for part in parts.values()} | ({"changed"} if changed & parts.keys() else set())
+    kinds: set[ComponentKind] = {part.kind for part in parts.values()} | (
+        {"changed"} if changed & parts.keys() else set()
+    )
     x1, y1, x2, y2 = diagram.extent
     legend, bottom = _legend(kinds, (x1, -y1 + _FOOTER), x2 + _MARGIN)
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(FilePath(__file__).parent),
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         keep_trailing_newline=True,
@@ -163,7 +165,7 @@ def _parts(
         yield tree.link(link.name).component, _Part("link", mass and f"{mass} kg")
     types = {joint.name: joint.type for joint in tree.joints}
     for joint in tree.joints:
-        kind: Kind = MOTION_KINDS.get(joint.type) or _OTHERS.get(joint.type, "free")
+        kind: ComponentKind = MOTION_KINDS.get(joint.type) or _OTHERS.get(joint.type, "free")
         yield tree.joint(joint.name).component, _Part(kind, is_driven=joint.name in names.drives)
     for joint, mimic in tree.followers():
         ratio = f"× {number(tree.joint(joint.name), mimic.multiplier, 'mimic', 'multiplier')}"
@@ -202,7 +204,7 @@ def _lines(diagram: Diagram) -> Mapping[str, list[str]]:
     return styles
 
 
-def _curved(points: Path, radius: float) -> str:
+def _curved(points: LinePath, radius: float) -> str:
     """Return path data of a polyline. Each bend is rounded, up to the middle of its shorter side."""
     data = [f"M{points[0][0]} {-points[0][1]}"]
     for before, (x, y), after in zip(points, points[1:], points[2:], strict=False):
@@ -218,7 +220,7 @@ def _curved(points: Path, radius: float) -> str:
 def _junctions(diagram: Diagram) -> list[tuple[str, Point]]:
     """Return the points where three or more segments of a net meet. A net has lines of one kind with one common end."""
     uses = Counter(end for ends in diagram.lines for end in ends)
-    nets = defaultdict[tuple[str, str], list[Path]](list)
+    nets = defaultdict[tuple[str, str], list[LinePath]](list)
     for ends, (kind, points) in diagram.lines.items():
         nets[kind, max(ends, key=uses.__getitem__)].append(points)
     junctions: list[tuple[str, Point]] = []
@@ -238,7 +240,7 @@ def _junctions(diagram: Diagram) -> list[tuple[str, Point]]:
     return sorted(junctions)
 
 
-def _legend(kinds: Collection[Kind], start: Point, right: float) -> tuple[list[_Entry], int]:
+def _legend(kinds: Collection[ComponentKind], start: Point, right: float) -> tuple[list[_Entry], int]:
     """Return the entries of the legend, in as many rows as needed, and the lower end of the legend."""
     entries: list[_Entry] = []
     x, y = float(start[0]), start[1]

@@ -42,7 +42,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 Point: TypeAlias = tuple[int, int]
-Path: TypeAlias = tuple[Point, ...]
+LinePath: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
 _Cell: TypeAlias = tuple[int, int]
 _End: TypeAlias = tuple[str, str]
@@ -119,7 +119,7 @@ class Diagram(NamedTuple):
 
     extent: tuple[int, int, int, int]
     placements: dict[str, Placement]
-    lines: Mapping[tuple[str, str], tuple[LineKind | str, Path]]
+    lines: Mapping[tuple[str, str], tuple[LineKind | str, LinePath]]
 
 
 class _Grid(NamedTuple):
@@ -362,9 +362,9 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
 
 def _lines(
     tree: KinematicTree, names: Connectors, grid: _Grid, placements: Mapping[str, Placement]
-) -> dict[tuple[str, str], tuple[LineKind, Path]]:
+) -> dict[tuple[str, str], tuple[LineKind, LinePath]]:
     """Return the lines: of frames link by link, then of flanges, then of couplings."""
-    lines: dict[tuple[str, str], tuple[LineKind, Path]] = {}
+    lines: dict[tuple[str, str], tuple[LineKind, LinePath]] = {}
     children = tree.children()
     motions = {joint.name: MOTION_KINDS[joint.type] for joint in tree.joints if joint.type in MOTION_KINDS}
     carried = defaultdict[str, list[str]](list)
@@ -467,7 +467,7 @@ def _count(tracks: Mapping[str | _End, int]) -> int:
     return 1 + max(tracks.values(), default=-1)
 
 
-def as_path(points: Iterable[Point]) -> Path:
+def as_path(points: Iterable[Point]) -> LinePath:
     """Return the polyline without repeated points, and without points inside a straight line."""
     corners: list[Point] = []
     for point in points:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.tree import KnownStatements, Leaf, Node, Statement, SyntaxTree, UnreadableError, read_tree
 from urdfsync.modelica.values import literals
-from urdfsync.urdf.diagram.layout import PORTS, Diagram, Path, Placement, as_path
+from urdfsync.urdf.diagram.layout import PORTS, Diagram, LinePath, Placement, as_path
 
 _KINDS: Mapping[tuple[int, ...], str] = {(95, 95, 95): "frame", (0, 0, 0): "rotational", (0, 127, 0): "translational"}
 """The kinds of lines by their colours in the templates and in the Modelica Standard Library."""
@@ -152,7 +152,7 @@ def _ends(connection: Node) -> tuple[str, str]:
     return str(one), str(other)
 
 
-def _line(node: Node, ends: tuple[str, str], places: Mapping[str, Placement]) -> tuple[str, Path] | None:
+def _line(node: Node, ends: tuple[str, str], places: Mapping[str, Placement]) -> tuple[str, LinePath] | None:
     """Return the line of a connection with its kind or colour: without a Line, a short way; None without places."""
     numbers, color = (_numbers(node, "Line", name) for name in ("points", "color"))
     points = list(zip(numbers[::2], numbers[1::2], strict=False))

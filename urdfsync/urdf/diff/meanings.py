@@ -23,7 +23,7 @@ from urdfsync.urdf.model.joint import joint_model
 from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.catalogue import NUMBERS
-from urdfsync.urdf.robot import MOTION_KINDS, Collision, Joint, Link, Mesh, Unit, Visual, effective, structure
+from urdfsync.urdf.robot import MOTION_KINDS, Collision, Joint, Link, Mesh, UnitName, Visual, effective, structure
 
 _Fields: TypeAlias = Sequence[str | int]
 
@@ -34,7 +34,7 @@ _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
 
-class _Side(NamedTuple):
+class _RobotVersion(NamedTuple):
     """One version of the robot, with names of the new version."""
 
     links: Mapping[str, Link]
@@ -45,7 +45,7 @@ class _Side(NamedTuple):
 def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options) -> Iterator[Change]:
     """Yield the changes of a robot, except consequences of other changes."""
     sides = [
-        _Side({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
+        _RobotVersion({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
         for robot, imports in ((renamed(old.snapshot, renames), old.imports), (new.snapshot, new.imports))
     ]
     for difference in find_differences(old, new, *comparable(old.snapshot, new.snapshot, renames)):
@@ -53,7 +53,7 @@ def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opti
             yield change
 
 
-def _describe(difference: Difference, old: _Side, new: _Side, options: Options) -> Change | None:
+def _describe(difference: Difference, old: _RobotVersion, new: _RobotVersion, options: Options) -> Change | None:
     match difference.path:
         case ("imports", str(key)):
             return _of_import(difference, key, old, new, options)
@@ -125,7 +125,7 @@ def _path(words: _Fields) -> tuple[str, ...]:
 
 
 @functools.cache
-def _unit_of(field: str) -> Unit | None:
+def _unit_of(field: str) -> UnitName | None:
     """Return the unit of a field. Fields of one name have the same unit in all structs."""
     structs = (one for one in vars(robot).values() if isinstance(one, type) and issubclass(one, msgspec.Struct))
     # the types of all structs would take 4 of 220 ms of a build
@@ -161,7 +161,12 @@ def _joint_unit(name: str, joints: Mapping[str, Joint], fields: _Fields) -> str:
 
 
 def _reach(
-    before: Link | Joint, after: Link | Joint, difference: Difference, old: _Side, new: _Side, options: Options
+    before: Link | Joint,
+    after: Link | Joint,
+    difference: Difference,
+    old: _RobotVersion,
+    new: _RobotVersion,
+    options: Options,
 ) -> ChangeClass:
     """Return the class of a change inside of a link or joint, by exchanging only the changed value."""
     fields = list(difference.path[2:])
@@ -213,7 +218,9 @@ def _mesh_keys(link: Link) -> set[str]:
     return {lookup.key(shape.geometry) for shape in shapes if isinstance(shape.geometry, Mesh)}
 
 
-def _of_import(difference: Difference, key: str, old: _Side, new: _Side, options: Options) -> Change | None:
+def _of_import(
+    difference: Difference, key: str, old: _RobotVersion, new: _RobotVersion, options: Options
+) -> Change | None:
     """Return the change of a mesh's content; None if no link has the mesh in both versions.
 
     A change of a mesh's further files counts as a change of its first file.

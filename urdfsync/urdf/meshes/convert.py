@@ -7,9 +7,9 @@ from pathlib import Path
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
-from urdfsync.pages.scene import Triangles
+from urdfsync.pages.scene import PageMesh
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request
+from urdfsync.urdf.meshes.process import MeshError, MeshProcess, MeshRequest
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 
@@ -36,7 +36,7 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
             raise MeshError(f"the format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - reported like findings of the process
         colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts), "")
         is_obj = suffix == ".obj" and lookup.as_is(mesh)
-        request = Request(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj)
+        request = MeshRequest(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj)
         (whole, facts), *parts = _process.read(request, content, others)
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
@@ -47,7 +47,7 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
     return Conversion(content if lookup.as_is(mesh) and not is_split else whole, facts, more)
 
 
-def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
+def triangles(path: str, content: bytes, key: str, most: int) -> PageMesh | str:
     """Return about `most` triangles of a mesh without its scale, or the reason why the mesh can't be read.
 
     The mesh is the imported file at `path`, to which the scale in `key` is applied. Without a path, `content` is the
@@ -56,10 +56,10 @@ def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str
     mesh = lookup.mesh(key)
     scale = [1 / factor if path and factor else 1.0 for factor in mesh.scale]
     try:
-        request = Request(
+        request = MeshRequest(
             lookup.suffix(path or mesh.filename), (scale[0], scale[1], scale[2]), with_hull=False, most=most
         )
         ((packed, facts),) = _process.read(request, content)
     except MeshError as error:
         return str(error)
-    return Triangles(content=packed, **facts)
+    return PageMesh(content=packed, **facts)

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from urdfsync.urdf.meshes.process import COARSER, Facts, MeshError
+from urdfsync.urdf.meshes.process import COARSER, MeshError, MeshFacts
 from urdfsync.urdf.robot import Vector
 
 Array: TypeAlias = npt.NDArray[np.float64]
@@ -69,7 +69,7 @@ def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles
     return Triangles(*append_faces([part.points for part in parts], [part.faces for part in parts]))
 
 
-def import_form(mesh: Triangles, scale: Vector, with_hull: bool) -> tuple[Triangles, Facts]:
+def import_form(mesh: Triangles, scale: Vector, with_hull: bool) -> tuple[Triangles, MeshFacts]:
     """Return a mesh in metres, with the facts of its shape: `bounds`, `volume`, and on request `hull`.
 
     See `volume` and `support_points`. Raises MeshError for numbers too large for STL.

@@ -32,7 +32,7 @@ _LONGEST = 300
 _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
 
-Facts: TypeAlias = dict[str, Any]
+MeshFacts: TypeAlias = dict[str, Any]
 """Facts of a shape by name: see `convert`."""
 
 
@@ -48,7 +48,7 @@ class MeshError(Exception):
         self.hint = hint
 
 
-class Request(msgspec.Struct, frozen=True):
+class MeshRequest(msgspec.Struct, frozen=True):
     """A line to the process; the bytes of a mesh and of other files follow."""
 
     suffix: str
@@ -68,11 +68,11 @@ class Request(msgspec.Struct, frozen=True):
     """Limit of the CPU time, in s."""
 
 
-class Answer(msgspec.Struct, frozen=True):
+class MeshAnswer(msgspec.Struct, frozen=True):
     """A line from the process; the bytes of each file follow."""
 
     sizes: tuple[int, ...] = ()
-    facts: tuple[Facts, ...] = ()
+    facts: tuple[MeshFacts, ...] = ()
     problem: str = ""
     """The reason why the file can't be used; empty for a usable file."""
     hint: str = ""
@@ -97,8 +97,8 @@ class MeshProcess:
         self._lock = threading.Lock()  # the workers of a Dask cluster are threads
 
     def read(
-        self, request: Request, content: bytes, others: Mapping[str, bytes] | None = None
-    ) -> list[tuple[bytes, Facts]]:
+        self, request: MeshRequest, content: bytes, others: Mapping[str, bytes] | None = None
+    ) -> list[tuple[bytes, MeshFacts]]:
         """Return the imported files of a mesh, with their facts.
 
         Raises MeshError, or OSError if the process can't start.
@@ -128,7 +128,7 @@ class MeshProcess:
             raise MeshError(text, answer.hint)
         return list(zip(files, answer.facts, strict=True))
 
-    def _failure(self, process: subprocess.Popen[bytes], request: Request) -> MeshError:
+    def _failure(self, process: subprocess.Popen[bytes], request: MeshRequest) -> MeshError:
         """End the process; return the limit that it passed."""
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(1)  # it may end a moment after its pipes
@@ -161,14 +161,16 @@ class MeshProcess:
         )
 
 
-def _ask(process: subprocess.Popen[bytes], request: Request, contents: Sequence[bytes]) -> tuple[Answer, list[bytes]]:
+def _ask(
+    process: subprocess.Popen[bytes], request: MeshRequest, contents: Sequence[bytes]
+) -> tuple[MeshAnswer, list[bytes]]:
     """Send a mesh to the process, and return its answer. Raises OSError or ValueError for a missing or wrong answer."""
     stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
     stdin.write(msgspec.json.encode(request) + b"\n")
     for content in contents:
         stdin.write(content)
     stdin.flush()
-    answer = msgspec.json.decode(stdout.readline(_MAX_LINE), type=Answer)
+    answer = msgspec.json.decode(stdout.readline(_MAX_LINE), type=MeshAnswer)
     files = [stdout.read(min(size, _MAX_FILE)) for size in answer.sizes]
     if tuple(map(len, files)) != answer.sizes:
         raise ValueError("the answer ends early, or is too large")

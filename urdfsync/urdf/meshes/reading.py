@@ -34,7 +34,7 @@ _FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]],
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
 
 
-class _Files(dict[str, bytes]):
+class _OtherFiles(dict[str, bytes]):
     """The other files that trimesh may read: only files whose changes the daemon watches."""
 
     def __missing__(self, name: str) -> bytes:
@@ -129,7 +129,7 @@ def _parts(
     scene = trimesh.load_scene(
         io.BytesIO(content),
         file_type=suffix[1:],
-        resolver=_Files(files),
+        resolver=_OtherFiles(files),
         process=False,
         skip_materials=not colors,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from urdfsync.urdf.meshes.geometry import Triangles
-from urdfsync.urdf.meshes.process import Facts
+from urdfsync.urdf.meshes.process import MeshFacts
 
 _FINE = 1 << 20
 """Cells along the longest edge of an unsimplified mesh: too fine to see."""
@@ -13,7 +13,7 @@ _COARSE = 512
 """Number of cells along the longest edge at the first attempt to simplify."""
 
 
-def packed(mesh: Triangles, most: int) -> tuple[bytes, Facts]:
+def packed(mesh: Triangles, most: int) -> tuple[bytes, MeshFacts]:
     """Return about `most` triangles with shared corners, as `scene.Triangles` needs them."""
     cells = _FINE if len(mesh.faces) <= most else _COARSE
     while True:

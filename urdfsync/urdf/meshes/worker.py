@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.processes import limits, reserve_stdout
 from urdfsync.urdf.meshes.lookup import COLORLESS, COLORS, TEXTURED
-from urdfsync.urdf.meshes.process import COARSER, FOR_PICTURE, MEMORY, Answer, MeshError, Request, is_binary_stl
+from urdfsync.urdf.meshes.process import COARSER, FOR_PICTURE, MEMORY, MeshAnswer, MeshError, MeshRequest, is_binary_stl
 
 if sys.platform != "win32":
     import resource
@@ -28,7 +28,7 @@ def main() -> None:
     sys.modules.update(dict.fromkeys(_UNUSED))  # type: ignore[arg-type] # None lets an import fail
     requests, answers = sys.stdin.buffer, reserve_stdout()
     while line := requests.readline():
-        request = msgspec.json.decode(line, type=Request)
+        request = msgspec.json.decode(line, type=MeshRequest)
         content = requests.read(request.size)
         answer, files = _answer(request, content, {name: requests.read(size) for name, size in request.others.items()})
         answers.write(msgspec.json.encode(answer) + b"\n")
@@ -38,7 +38,7 @@ def main() -> None:
     os._exit(0)  # unloading libraries takes a tenth of a second
 
 
-def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tuple[Answer, list[bytes]]:
+def _answer(request: MeshRequest, content: bytes, others: Mapping[str, bytes]) -> tuple[MeshAnswer, list[bytes]]:
     # these imports come after `main` has blocked unused packages, and before limits are set
     from urdfsync.urdf.meshes import geometry, simplify
 
@@ -73,11 +73,12 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
                 is_textured = any(other and not name.lower().endswith(".mtl") for name, other in others.items())
                 all_facts[0] |= {request.colors: [*parts], TEXTURED: is_textured, COLORLESS: missing}
     except MeshError as error:
-        return Answer(problem=str(error), hint=error.hint), []
+        return MeshAnswer(problem=str(error), hint=error.hint), []
     except MemoryError:
         size = MEMORY * (FOR_PICTURE if request.most else 1) // 1_000_000
-        return Answer(problem=f"reading the file takes more than {size} MB of memory", hint=COARSER, is_last=True), []
-    return Answer(tuple(map(len, files)), tuple(all_facts), is_last=_allocated() > _GROWN), files
+        problem = f"reading the file takes more than {size} MB of memory"
+        return MeshAnswer(problem=problem, hint=COARSER, is_last=True), []
+    return MeshAnswer(tuple(map(len, files)), tuple(all_facts), is_last=_allocated() > _GROWN), files
 
 
 def _allocated() -> int:

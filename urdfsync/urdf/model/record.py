@@ -115,10 +115,12 @@ def _structure(tree: KinematicTree, drawn: Sequence[_Drawn]) -> dict[str, Any]:
 def _generic_tables(tree: KinematicTree, drawn: Sequence[_Drawn]) -> dict[str, Any]:
     """Return the tables of the generic robot; those that repeat numbers of links and joints name these."""
     whole, links = tables(tree), [tree.link(link.name).component for link in tree.links]
-    joints = [_Named(tree.joint(joint.name).component, joint) for joint in tree.joints]
+    joints = [_RecordJoint(tree.joint(joint.name).component, joint) for joint in tree.joints]
     moving = [named for named in joints if named.joint.type in MOTION_KINDS]
     turning, sliding = ([each for each in moving if MOTION_KINDS[each.joint.type] == motion] for motion in MOTIONS)
-    followers = [_Named(tree.joint(one.name).component, one) for one in tree.leaders_first() if one.mimic is not None]
+    followers = [
+        _RecordJoint(tree.joint(one.name).component, one) for one in tree.leaders_first() if one.mimic is not None
+    ]
     has_accelerations = any(limits_acceleration(joint) for joint in tree.joints)
     found: dict[str, Any] = {
         "movingJoints": len(moving),
@@ -158,14 +160,14 @@ def _generic_tables(tree: KinematicTree, drawn: Sequence[_Drawn]) -> dict[str, A
     return {name: value for name, value in found.items() if value}
 
 
-class _Named(NamedTuple):
+class _RecordJoint(NamedTuple):
     """A joint, and the component with its numbers."""
 
     name: str
     joint: Joint
 
 
-def _limits(joints: Sequence[_Named], has_accelerations: bool) -> dict[str, Any]:
+def _limits(joints: Sequence[_RecordJoint], has_accelerations: bool) -> dict[str, Any]:
     if not joints:
         return {}
     ends = {"lower": f"-{INFINITY}", "upper": INFINITY}
@@ -177,7 +179,7 @@ def _limits(joints: Sequence[_Named], has_accelerations: bool) -> dict[str, Any]
     return found | {name: _column(joints, f"limits.{name}", 8) for name in others}
 
 
-def _losses(joints: Sequence[_Named]) -> dict[str, Any]:
+def _losses(joints: Sequence[_RecordJoint]) -> dict[str, Any]:
     """Return the columns of the losses of joints: those of the laws, and those that a source gives."""
     columns = (name for name in Dynamics.__struct_fields__ if name != "armature")  # `_inertias` has the armatures
     given = [name for name in columns if any(getattr(one.joint.dynamics, name, None) is not None for one in joints)]
@@ -185,7 +187,7 @@ def _losses(joints: Sequence[_Named]) -> dict[str, Any]:
     return {name: _column(joints, f"dynamics.{name}", 8) for name in names}
 
 
-def _inertias(joints: Sequence[_Named]) -> Expression | None:
+def _inertias(joints: Sequence[_RecordJoint]) -> Expression | None:
     """Return what the drives add to the inertias of joints; None if none adds anything."""
     if all(reflected_inertia(one.joint) is None for one in joints):
         return None
@@ -219,7 +221,7 @@ def _visuals(drawn: Sequence[_Drawn]) -> dict[str, Any]:
     }
 
 
-def _column(joints: Iterable[_Named], path: str, indent: int = 6) -> Expression | None:
+def _column(joints: Iterable[_RecordJoint], path: str, indent: int = 6) -> Expression | None:
     """Return one number of each joint, as an array of expressions."""
     return _array((f"{one.name}.{path}" for one in joints), indent)
 

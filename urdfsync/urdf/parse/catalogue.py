@@ -15,13 +15,13 @@ from urdfsync.domain import Companion
 from urdfsync.spelling import name_and_unit, nearest
 from urdfsync.urdf.options import MotorNumber, Options
 from urdfsync.urdf.parse.fields import Reader
-from urdfsync.urdf.robot import MOTION_KINDS, Dynamics, Joint, Limit, Motor, Transmission, Unit, unit_of
+from urdfsync.urdf.robot import MOTION_KINDS, Dynamics, Joint, Limit, Motor, Transmission, UnitName, unit_of
 from urdfsync.urdf.validate import diagnostic
 
 _EMPTY = {"limit": Limit(), "dynamics": Dynamics(), "transmission": Transmission()}
 
 
-def _units(unit: Unit) -> tuple[str, str]:
+def _units(unit: UnitName) -> tuple[str, str]:
     """Return the units of a turning and of a sliding joint, as tables write units."""
     turning, sliding = (
         name.replace("·", ".").replace("²", "2") or "1" for name in (unit.name, unit.sliding or unit.name)
@@ -40,7 +40,7 @@ NUMBERS: Mapping[tuple[str | int, ...], str] = {(field, number): number for numb
 """Numbers of a row by their paths in a joint."""
 
 
-class Row(NamedTuple):
+class CatalogueRow(NamedTuple):
     """A row of the catalogue for one joint, as written."""
 
     motor: str
@@ -52,7 +52,7 @@ class Row(NamedTuple):
     line: int
 
 
-def read_rows(catalogue: Companion, options: Options) -> Mapping[str, Row]:
+def read_rows(catalogue: Companion, options: Options) -> Mapping[str, CatalogueRow]:
     """Return the row of each joint in `motors`. The check of options reports missing rows.
 
     Raises SourceError for any other fault of the table.
@@ -70,7 +70,7 @@ def read_rows(catalogue: Companion, options: Options) -> Mapping[str, Row]:
             near = nearest(missing[0], names)
             hint = f"did you mean `{near}`?" if near else "correct `motor_columns`"
             raise SourceError.of("no-column", f"there is no column `{missing[0]}`", file, 1, hint=hint)
-    lines, found = dict[str, tuple[int, list[str]]](), dict[str, Row]()
+    lines, found = dict[str, tuple[int, list[str]]](), dict[str, CatalogueRow]()
     for line, cells in sheet.rows:
         texts = ["" if cell is None else str(cell).strip() for cell in cells]
         if texts[0] in lines and texts[0] in options.motors.values():
@@ -92,7 +92,7 @@ def read_rows(catalogue: Companion, options: Options) -> Mapping[str, Row]:
                     raise SourceError.of("bad-row", message, file, 1, hint=hint)
         unused = [column for column, unit in header if column in filled and unit not in ("", "text")]
         if name in lines:
-            found[joint] = Row(_printable(name), own, unused, file, line)
+            found[joint] = CatalogueRow(_printable(name), own, unused, file, line)
     return found
 
 
@@ -100,7 +100,7 @@ def _printable(text: str) -> str:
     return "".join(filter(str.isprintable, text))
 
 
-def with_rows(reader: Reader, joints: Sequence[Joint], rows: Mapping[str, Row]) -> list[Joint]:
+def with_rows(reader: Reader, joints: Sequence[Joint], rows: Mapping[str, CatalogueRow]) -> list[Joint]:
     """Return the joints with the numbers of their rows.
 
     A row of a joint without an axis is ignored: the check of options reports this row. Only the first fault becomes a
@@ -129,7 +129,7 @@ def with_rows(reader: Reader, joints: Sequence[Joint], rows: Mapping[str, Row]) 
     return found
 
 
-def find_gaps(joints: Sequence[Joint], rows: Mapping[str, Row]) -> Iterator[Diagnostic]:
+def find_gaps(joints: Sequence[Joint], rows: Mapping[str, CatalogueRow]) -> Iterator[Diagnostic]:
     """Yield a note on the columns that no joint takes, and one for each cell that is filled only in other rows.
 
     The cell of an effort or a velocity counts, if a row of another such joint has one.
@@ -149,7 +149,7 @@ def find_gaps(joints: Sequence[Joint], rows: Mapping[str, Row]) -> Iterator[Diag
                 yield Diagnostic(Severity.NOTE, "empty-cell", message, row.file, row.line, hint="fill the cell")
 
 
-def _with_row(joint: Joint, row: Row) -> Joint:
+def _with_row(joint: Joint, row: CatalogueRow) -> Joint:
     """Return a joint with the numbers of its row. Raises SourceError."""
     if not row.cells:
         hint = "fill cells of the row, or name columns in `motor_columns`"

@@ -72,14 +72,14 @@ _SERVOS: Mapping[Command, tuple[Sequence[str], Sequence[str]]] = {
 _STATES = ("position", "velocity", "acceleration", "effort")
 """State interfaces that the model of a joint has."""
 _KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
-"""Words for the fields of `Drive` that may contradict each other."""
+"""Words for the fields of `DriveStatement` that may contradict each other."""
 _SAME = 1e-6
 """The greatest rounding error of a position, in rad or m."""
 _WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
 """Elements that name the joints of wheels in plugins for differential and skid-steer drives."""
 
 
-class Drive(NamedTuple):
+class DriveStatement(NamedTuple):
     """A statement about the drive of one joint."""
 
     path: str
@@ -100,13 +100,13 @@ class Drive(NamedTuple):
     """Whether the transmission couples joints by a law that urdfsync does not model."""
 
 
-def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
+def read_drives(reader: Reader, element: Element, path: str) -> Iterator[DriveStatement]:
     """Yield a drive for each joint of a `<ros2_control>`, a `<transmission>` or a `<gazebo>`."""
     if element.tag == "gazebo":
         yield from _read_mimic_plugins(reader, element, path)
         for wheel in element.iterfind("plugin/*"):
             if _WHEELS.fullmatch(wheel.tag) and (name := (wheel.text or "").strip()):
-                yield Drive(reader.place(wheel, f"{path} / joint {name}"), name, None, None, "velocity")
+                yield DriveStatement(reader.place(wheel, f"{path} / joint {name}"), name, None, None, "velocity")
         return
     transmissions = [element]
     if element.tag == "ros2_control":
@@ -122,7 +122,9 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
             place = reader.place(joint, f"{path} / joint {name}")
             commands = _read_interfaces(reader, transmission, joint, place)
             gear = gears[number] if gears else None
-            drive = Drive(place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None))
+            drive = DriveStatement(
+                place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None)
+            )
             is_measured = commands == {None}
             # the passive_joints of the PR2's gripper have no motor
             is_driven = not is_measured and not joint.tag.startswith("passive")
@@ -183,7 +185,7 @@ def _read_coupled_gears(
     return gears if holders[0] is joints[0] else gears[::-1]
 
 
-def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive:
+def _read_control(reader: Reader, joint: Element, path: str, name: str) -> DriveStatement:
     """Return the drive of a joint of `<ros2_control>`; without a command, the element only measures the joint."""
     # gazebo_ros2_control has `velocity_pid` for a velocity with its own controller
     interfaces = {part.get("name", "").removesuffix("_pid"): part for part in joint.findall("command_interface")}
@@ -199,7 +201,7 @@ def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive
     start = _read_start(reader, states, path, name)
     servo = _read_servo(reader, interfaces[command], command, path, name) if command else None
     is_measured = bool(states) and not interfaces
-    return Drive(path, name, joint, None, command, mimic, start, servo, bool(interfaces), is_measured)
+    return DriveStatement(path, name, joint, None, command, mimic, start, servo, bool(interfaces), is_measured)
 
 
 def _read_servo(reader: Reader, interface: Element, command: Command, path: str, name: str) -> Servo | None:
@@ -243,7 +245,7 @@ def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str)
     return starts.get("position")
 
 
-def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
+def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator[DriveStatement]:
     """Yield the coupling of each plugin that has a `<mimicJoint>`."""
     for plugin in element.iterfind("plugin"):
         parts = {part.tag: part for part in plugin}
@@ -252,7 +254,7 @@ def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator
             place = reader.place(plugin, f"{path} / joint {name}")
             reader.used.add(parts["mimicJoint"])
             mimic = _read_mimic(reader, parts, "joint" if "joint" in parts else "jointName", place)
-            yield Drive(place, name, plugin, mimic=mimic, is_driven=False)
+            yield DriveStatement(place, name, plugin, mimic=mimic, is_driven=False)
 
 
 def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path: str) -> Mimic | None:
@@ -321,25 +323,27 @@ def _read_reduction(reader: Reader, element: Element, places: Iterable[str], pat
     return reduction or None
 
 
-def configured_drives(options: Options) -> Iterator[Drive]:
+def configured_drives(options: Options) -> Iterator[DriveStatement]:
     """Yield the commands and start positions of the configuration. Neither makes a joint driven."""
     for name in dict.fromkeys((*options.commands, *options.start)):
-        yield Drive("", name, command=options.commands.get(name), start=options.start.get(name), is_driven=False)
+        yield DriveStatement(
+            "", name, command=options.commands.get(name), start=options.start.get(name), is_driven=False
+        )
 
 
-def read_motors(reader: Reader, closures: Closures) -> Iterator[Drive]:
+def read_motors(reader: Reader, closures: Closures) -> Iterator[DriveStatement]:
     """Yield the drives of the joints that have a motor in a YAML."""
     for name, line in closures.motors:
         reader.put(f"motor {name}", line, closures.file)
-        yield Drive(f"motor {name}", name)
+        yield DriveStatement(f"motor {name}", name)
 
 
-def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
+def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[DriveStatement]) -> list[Joint]:
     """Return the joints with their drives; of contradictory drives the first counts.
 
     A drive of a joint without an axis is not modelled.
     """
-    by_joint = defaultdict[str, list[Drive]](list)
+    by_joint = defaultdict[str, list[DriveStatement]](list)
     for drive in drives:
         by_joint[drive.joint].append(drive)
     driven = [
@@ -366,7 +370,7 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
     return driven
 
 
-def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
+def _with_drives(reader: Reader, joint: Joint, drives: list[DriveStatement]) -> Joint:
     is_driven = any(drive.is_driven for drive in drives)
     if joint.type not in MOTION_KINDS:
         if is_driven and joint.type == "ball":
@@ -375,7 +379,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
         return msgspec.structs.replace(joint, actuated=is_driven or None)
     reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
 
-    def first(field: str) -> Drive | None:
+    def first(field: str) -> DriveStatement | None:
         """Return the first drive that states a field; report later drives that contradict the first."""
         stated = [drive for drive in drives if getattr(drive, field) is not None]
         for other in stated[1:] if stated and stated[0].path else ():
@@ -388,7 +392,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
 
     place = f"joint {joint.name} / mimic"
     if joint.mimic:
-        drives.insert(0, Drive(place, joint.name, mimic=joint.mimic, is_driven=False))
+        drives.insert(0, DriveStatement(place, joint.name, mimic=joint.mimic, is_driven=False))
     mimic = first("mimic")
     if mimic and not joint.mimic:
         reader.lines[place] = reader.lines[mimic.path]  # later findings about the coupling need the line

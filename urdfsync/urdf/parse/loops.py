@@ -59,7 +59,7 @@ _DETACHABLE = ("parent_link", "child_link")
 _DIGITS = 12
 
 
-class _Named(msgspec.Struct):
+class _NameAttribute(msgspec.Struct):
     name: str
 
 
@@ -262,7 +262,7 @@ def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop |
             reader.add(element, "missing-element", f"{path} has no <{body}>")
             return None
         place = _vector(reader, element, f"{point}@value", path) or (0.0, 0.0, 0.0)
-        frames.append(LoopFrame(reader.read(part, path, _Named, path).name, place))
+        frames.append(LoopFrame(reader.read(part, path, _NameAttribute, path).name, place))
     return _between(name, "ball", frames, (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
 

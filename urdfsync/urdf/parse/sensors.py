@@ -40,7 +40,7 @@ _LARGEST_INTEGER = 2**31 - 1  # of Modelica
 _PARTS = ("camera", "ray", "lidar")
 """Elements of a sensor that may contain these fields."""
 
-_Numbers = TypeVar("_Numbers", Camera, Lidar)
+_SensorNumbers = TypeVar("_SensorNumbers", Camera, Lidar)
 
 
 class _SensorElement(NamedTuple):
@@ -148,8 +148,8 @@ def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
 
 
 def _read_fields(
-    reader: Reader, element: Element, path: str, struct: type[_Numbers], places: Mapping[str, Sequence[str]]
-) -> _Numbers:
+    reader: Reader, element: Element, path: str, struct: type[_SensorNumbers], places: Mapping[str, Sequence[str]]
+) -> _SensorNumbers:
     """Return the numbers of a camera or laser scanner; missing numbers are 0."""
     part = next((child for child in element if child.tag in _PARTS), element)
     reader.used.add(part)

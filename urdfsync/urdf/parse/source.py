@@ -19,10 +19,10 @@ from urdfsync.domain import Companion
 from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.catalogue import Row, find_gaps, read_rows, with_rows
+from urdfsync.urdf.parse.catalogue import CatalogueRow, find_gaps, read_rows, with_rows
 from urdfsync.urdf.parse.chains import find_axes, find_balls_in_loops, split
 from urdfsync.urdf.parse.closures import Closures, read_closures
-from urdfsync.urdf.parse.drives import Drive, configured_drives, read_drives, read_motors, with_drives
+from urdfsync.urdf.parse.drives import DriveStatement, configured_drives, read_drives, read_motors, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, read_springs, warn_of_left_out
@@ -70,7 +70,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, *compani
 
     Reports all faults of the model, but only the first fault of a companion or of the XML.
     """
-    closures, rows = Closures(), dict[str, Row]()
+    closures, rows = Closures(), dict[str, CatalogueRow]()
     try:
         for companion in companions:
             if companion.option == "catalogue":
@@ -110,7 +110,7 @@ def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
         yield validate.diagnostic("not-modelled", f"not modelled: {', '.join(kinds)}", lines[0][0], details=details)
 
 
-def _is_urdf(reader: Reader, document: xml.Document) -> bool:
+def _is_urdf(reader: Reader, document: xml.XmlDocument) -> bool:
     """Return whether the file is an expanded URDF; if not, add one error."""
     root = document.root
     if root.tag != "robot":
@@ -154,7 +154,7 @@ def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
 
 
 def _read(
-    reader: Reader, document: xml.Document, options: Options, closures: Closures, rows: Mapping[str, Row]
+    reader: Reader, document: xml.XmlDocument, options: Options, closures: Closures, rows: Mapping[str, CatalogueRow]
 ) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
@@ -219,7 +219,7 @@ class _Parts(NamedTuple):
 
     links: list[Link]
     joints: list[Joint]
-    drives: list[Drive]
+    drives: list[DriveStatement]
     materials: dict[str, Material]
     """Materials of the robot by path."""
     complete: bool
@@ -227,7 +227,7 @@ class _Parts(NamedTuple):
 
 
 def _read_parts(
-    reader: Reader, root: Element, contacts: Mapping[str, Contact], closures: Closures, rows: Mapping[str, Row]
+    reader: Reader, root: Element, contacts: Mapping[str, Contact], closures: Closures, rows: Mapping[str, CatalogueRow]
 ) -> _Parts:
     """Read each element of the robot."""
 
@@ -269,7 +269,7 @@ def _with_materials(
     return resolve_materials(reader, by_path, materials, defined)
 
 
-def _find_idle_drives(drives: Iterable[Drive], joints: Collection[str]) -> Iterator[validate.Finding]:
+def _find_idle_drives(drives: Iterable[DriveStatement], joints: Collection[str]) -> Iterator[validate.Finding]:
     """Yield a finding for each drive of a joint that does not exist."""
     for drive in drives:
         if drive.joint not in joints:
@@ -288,7 +288,9 @@ def _extensions(reader: Reader) -> dict[str, dict[str, tuple[str, ...]]]:
     return extensions
 
 
-def _without_balls_in_loops(reader: Reader, robot: Robot, drives: Sequence[Drive], rows: Mapping[str, Row]) -> Robot:
+def _without_balls_in_loops(
+    reader: Reader, robot: Robot, drives: Sequence[DriveStatement], rows: Mapping[str, CatalogueRow]
+) -> Robot:
     """Return the robot with three hinges instead of each ball in a loop; the hinges may have drives."""
     held = find_balls_in_loops(robot.joints, robot.loops)
     if not held:

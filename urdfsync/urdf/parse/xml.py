@@ -53,7 +53,7 @@ class ParseError(Exception):
         self.diagnostic = diagnostic(code, message, line, hint, column)
 
 
-class Document(NamedTuple):
+class XmlDocument(NamedTuple):
     """An XML file; `text` has unified line ends, and no XML declaration."""
 
     text: str
@@ -63,7 +63,7 @@ class Document(NamedTuple):
     warnings: list[Diagnostic]
 
 
-def parse(content: bytes) -> Document:
+def parse(content: bytes) -> XmlDocument:
     """Parse an XML file. Raises ParseError."""
     text, warnings = _decode(content)
     builder, parser = TreeBuilder(), expat.ParserCreate("utf-8")
@@ -109,7 +109,7 @@ def parse(content: bytes) -> Document:
             problem = f"<{above[-1].tag}> of line {lines[above[-1]]} is not closed"
         message, hint = f"this is not well-formed XML: {problem}", _HINTS.get(problem, "")
         raise ParseError("xml-syntax", message, error.lineno, error.offset + 1, hint)
-    return Document(text, builder.close(), lines, warnings)
+    return XmlDocument(text, builder.close(), lines, warnings)
 
 
 def canonical(element: Element) -> str:

@@ -27,7 +27,7 @@ _UPRIGHT, _TILTED = 1e-3, 0.15
 """Sines of a cylinder's tilt: between these two, the contact moves from its end to its rim."""
 
 
-class Point(NamedTuple):
+class ContactPoint(NamedTuple):
     """A point of a link that may touch the ground."""
 
     place: Array
@@ -86,7 +86,7 @@ def stand(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> 
     return Stand(tree, imports, weight, lowest, depth) if math.isfinite(lowest) and math.isfinite(depth) else None
 
 
-def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float, root: Array) -> Iterator[Point]:
+def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float, root: Array) -> Iterator[ContactPoint]:
     poses = link_poses(tree, start_positions(tree))
     for link in tree.links:
         contact = link.contact or Contact()
@@ -96,7 +96,7 @@ def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float, r
             axes, place = (root @ part for part in map(np.array, compose(poses[link.name], pose(origin))))
             for offset, share in _lowest(axes, shape):
                 raised = place + offset + [0, 0, contact.min_depth or 0.0]
-                yield Point(raised, share, stiffness, damping, contact)
+                yield ContactPoint(raised, share, stiffness, damping, contact)
 
 
 def _lowest(axes: Array, shape: Any) -> Iterable[tuple[Array, float]]:

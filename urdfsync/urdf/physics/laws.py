@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from urdfsync.checks.experiment import Aspect, Compared, Probe, Quantity, Trial
 from urdfsync.urdf.physics import probe
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.second.reading import MOVES, TURNS, Element, SecondReading
+from urdfsync.urdf.second.reading import MOVES, TURNS, SecondElement, SecondReading
 
 _STEP, _STOP = 0.02, 1.0  # s
 _STROKE = 0.2  # Motion of an axis, in rad or m.
@@ -37,7 +37,7 @@ def laws_trial(subject: Subject, reading: SecondReading) -> Trial | None:
     `reading` has the laws of the source; the subject has simpler laws.
     """
     tree, target, driven = subject.tree, subject.target, subject.closed.driven
-    chosen = dict[tuple[object, ...], tuple[Element, str]]()
+    chosen = dict[tuple[object, ...], tuple[SecondElement, str]]()
     for joint in (joint for joint in reading.joints.values() if joint.type in MOVES):
         parts = frozenset(path.partition(".")[0] for path in joint.values)
         is_limited = joint.is_saturated and joint.command != "effort" and "servo" not in parts
@@ -70,12 +70,12 @@ def laws_trial(subject: Subject, reading: SecondReading) -> Trial | None:
     return Trial("laws of joints", Probe(source, "Probe_.Probe", _STOP, _STEP, values), tuple(compared), expected)
 
 
-def _limits(joint: Element) -> tuple[float, float]:
+def _limits(joint: SecondElement) -> tuple[float, float]:
     """Return the limits of effort and speed; a large number stands for no limit."""
     return min(joint.number("limits.effort"), _ENDLESS), min(joint.number("limits.velocity"), _ENDLESS)
 
 
-def _declarations(k: int, model: str, joint: Element, laws: str) -> Iterator[str]:
+def _declarations(k: int, model: str, joint: SecondElement, laws: str) -> Iterator[str]:
     """Yield a joint, its body and its drive.
 
     An effort drives a joint with stiction, which can't follow a prescribed motion. The body is light, so that its
@@ -109,7 +109,7 @@ def _declarations(k: int, model: str, joint: Element, laws: str) -> Iterator[str
         yield f"{kind}Stroke stroke{k}(size = {stroke!r}, start = joint{k}.{q}_start)"
 
 
-def _errors(k: int, joint: Element, laws: str) -> Iterator[str]:
+def _errors(k: int, joint: SecondElement, laws: str) -> Iterator[str]:
     """Yield the differences of a joint's efforts from the equations of its laws, as expressions."""
     is_turning = joint.type in TURNS
     (q, w, t), axis = (("phi", "w", "tau"), "revolute") if is_turning else (("s", "v", "f"), "prismatic")

@@ -27,9 +27,9 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.robot import Mimic, Vector
-from urdfsync.urdf.second.companions import Row
+from urdfsync.urdf.second.companions import CatalogueNumbers
 from urdfsync.urdf.second.gears import Gear, read_gears
-from urdfsync.urdf.second.reading import Element, origin
+from urdfsync.urdf.second.reading import SecondElement, origin
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class PinocchioRobot(NamedTuple):
 
 
 def read(
-    content: bytes, file: str, loose: Collection[str] = (), rows: Mapping[str, Row] | None = None
+    content: bytes, file: str, loose: Collection[str] = (), rows: Mapping[str, CatalogueNumbers] | None = None
 ) -> PinocchioRobot:
     """Read a URDF with Pinocchio; its gears have the numbers of `rows` of the catalogue.
 
@@ -261,7 +261,7 @@ class Reference:
             return np.zeros(len(efforts))  # no simulation accepts infinite numbers
         return np.asarray(np.linalg.lstsq(mass, efforts)[0])
 
-    def measured(self, state: Configuration, sensor: Element, above: str) -> Mapping[str, Array]:
+    def measured(self, state: Configuration, sensor: SecondElement, above: str) -> Mapping[str, Array]:
         """Return what a sensor shows, by the library's names; `above` is the link above the sensor's joint, if any."""
         match sensor.type:
             case "imu" | "accelerometer" | "gyroscope":
@@ -272,7 +272,7 @@ class Reference:
                 return {"f": force, "t": torque}
         return {}
 
-    def acceleration(self, state: Configuration, sensor: Element) -> tuple[Array, Array]:
+    def acceleration(self, state: Configuration, sensor: SecondElement) -> tuple[Array, Array]:
         """Return a sensor's acceleration minus gravity, and its angular velocity, in the sensor's axes."""
         pin, model = self.pin, self.model
         link = model.frames[model.getFrameId(sensor.parent, pin.BODY)]
@@ -286,7 +286,7 @@ class Reference:
         gain = pin.getFrameClassicalAcceleration(model, data, frame, pin.LOCAL).linear - gravity
         return gain, pin.getFrameVelocity(model, data, frame, pin.LOCAL).angular
 
-    def wrench(self, state: Configuration, sensor: Element, parent: str) -> tuple[Array, Array]:
+    def wrench(self, state: Configuration, sensor: SecondElement, parent: str) -> tuple[Array, Array]:
         """Return force and torque in a sensor's joint, in the sensor's axes; `parent` is the link above the joint."""
         pin, model = self.pin, self.model
         data, joint = model.createData(), model.getJointId(sensor.parent)

@@ -15,7 +15,7 @@ import numpy as np
 
 from urdfsync.checks.experiment import Sample
 from urdfsync.diagnostics import SourceError
-from urdfsync.identification.results import JOINT_NUMBERS, Axis, Body, Loss
+from urdfsync.identification.results import JOINT_NUMBERS, Axis, Loss, MovingLink
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
 from urdfsync.urdf.parse import xml
@@ -37,7 +37,9 @@ _UNREAD = ("visual", "collision", "contact", "transmission", "name", "calibratio
 """Values of records that have no part in the efforts of joints, or that a catalogue may have."""
 
 
-def read_regressor(sample: Sample, edits: Mapping[tuple[str, str], Mapping[str, tuple[float, ...]]]) -> Regressor:
+def read_regressor(
+    sample: Sample, edits: Mapping[tuple[str, str], Mapping[str, tuple[float, ...]]]
+) -> PinocchioRegressor:
     """Return the model of a source, with the user's edits of records: numbers by path, by kind and name of the element.
 
     Raises SourceError for a source that Pinocchio can't read, or whose motion the joints' positions do not determine.
@@ -56,7 +58,7 @@ def read_regressor(sample: Sample, edits: Mapping[tuple[str, str], Mapping[str, 
         message = f"joint {free[0]} moves in several directions: no log of positions determines the efforts"
         raise SourceError.of("identify", message, sample.file)
     gears = read_gears(xml.parse(content).root, stated.rows)
-    return Regressor(assembly, read(content, sample.file, (), stated.rows), gears)
+    return PinocchioRegressor(assembly, read(content, sample.file, (), stated.rows), gears)
 
 
 def _edited(content: bytes, edits: Mapping[tuple[str, str], Mapping[str, tuple[float, ...]]]) -> bytes:
@@ -79,7 +81,7 @@ def _edited(content: bytes, edits: Mapping[tuple[str, str], Mapping[str, tuple[f
     return tostring(root)
 
 
-class Regressor:
+class PinocchioRegressor:
     """The efforts of a robot's axes, and their derivatives by all parameters."""
 
     def __init__(self, assembly: Assembly, robot: Any, gears: Mapping[str, Gear]) -> None:
@@ -89,7 +91,7 @@ class Regressor:
         self.axes = tuple(_axes(assembly, joints, gears))
         model, pin = self.reference.model, self.reference.pin
         self._rows = {name: row for name, row in self.reference.coordinates().items() if row >= 6}
-        bodies, self._columns = list[Body](), list[tuple[int, Array]]()
+        bodies, self._columns = list[MovingLink](), list[tuple[int, Array]]()
         for link in tree.links:
             frame = model.frames[model.getFrameId(link.name, pin.BODY)]
             if frame.parentJoint < 2 or link.inertial is None:  # the base rests, and a frame has no body
@@ -97,7 +99,7 @@ class Regressor:
             inertial = link.inertial
             numbers = inertial.mass, *inertial.origin.xyz, *(getattr(inertial.inertia, name) for name in _TENSOR)
             rotation = np.array(pin.rpy.rpyToMatrix(*inertial.origin.rpy))
-            bodies.append(Body(link.name, np.array(numbers), rotation, frame.placement.translation.any() == 0))
+            bodies.append(MovingLink(link.name, np.array(numbers), rotation, frame.placement.translation.any() == 0))
             self._columns.append((frame.parentJoint - 1, _moved(pin, frame.placement)))
         self.bodies = tuple(bodies)
         self.losses: tuple[Loss, ...] = tuple(

@@ -11,7 +11,7 @@ from typing import TypeAlias
 from urdfsync.urdf.drives import wanted_joints
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot, effective
-from urdfsync.urdf.second.reading import Element
+from urdfsync.urdf.second.reading import SecondElement
 
 Attributes: TypeAlias = Mapping[str, str]
 """Attributes of an element by their names, as words; an empty word stands for a missing attribute."""
@@ -41,7 +41,7 @@ def first_attributes(robot: Robot, options: Options) -> Iterator[tuple[tuple[str
         yield ("sensor", sensor.name), {"at": sensor.at, "kind": sensor.kind, "axes": axes}
 
 
-def second_attributes(kind: str, element: Element) -> Attributes:
+def second_attributes(kind: str, element: SecondElement) -> Attributes:
     """Return the attributes of an element of the second reading."""
     match kind:
         case "joint":

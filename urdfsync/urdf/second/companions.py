@@ -22,7 +22,7 @@ PATHS = {
 """Numbers of a row, and their paths in records."""
 
 
-class Place(NamedTuple):
+class CompanionLine(NamedTuple):
     """A line of a companion."""
 
     file: str
@@ -30,22 +30,22 @@ class Place(NamedTuple):
     """Has the name of the line in elements of lxml."""
 
 
-class Row(NamedTuple):
+class CatalogueNumbers(NamedTuple):
     """The numbers of a joint in the catalogue, in SI."""
 
     numbers: Mapping[str, float]
-    place: Place
+    place: CompanionLine
 
 
 class Companions(NamedTuple):
     """The statements of the companions of a URDF."""
 
-    loops: Sequence[tuple[str, str, str, str, Place]] = ()
+    loops: Sequence[tuple[str, str, str, str, CompanionLine]] = ()
     """Name, kind and links of each loop."""
-    motors: Sequence[tuple[str, Place]] = ()
+    motors: Sequence[tuple[str, CompanionLine]] = ()
     axes: Mapping[str, str] = {}
     """Axes of joints, such as `xyz`; a joint without axes is fixed."""
-    rows: Mapping[str, Row] = {}
+    rows: Mapping[str, CatalogueNumbers] = {}
 
 
 def read_companions(companions: Iterable[Companion], options: Options) -> Companions:
@@ -60,7 +60,9 @@ def read_companions(companions: Iterable[Companion], options: Options) -> Compan
     return stated
 
 
-def _read_yaml(companion: Companion) -> tuple[list[tuple[str, str, str, str, Place]], list[tuple[str, Place]], Any]:
+def _read_yaml(
+    companion: Companion,
+) -> tuple[list[tuple[str, str, str, str, CompanionLine]], list[tuple[str, CompanionLine]], Any]:
     """Return the loops, the motors and the joints of several axes in a YAML."""
     import yaml  # a late import saves most robots 20 ms
 
@@ -70,10 +72,10 @@ def _read_yaml(companion: Companion) -> tuple[list[tuple[str, str, str, str, Pla
     keys = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
     lists = {key: nodes[key].value if key in nodes and nodes[key].id == "sequence" else () for key in keys}
 
-    def place(node: Any) -> Place:
-        return Place(companion.file, node.start_mark.line + 1)
+    def place(node: Any) -> CompanionLine:
+        return CompanionLine(companion.file, node.start_mark.line + 1)
 
-    loops, axes = list[tuple[str, str, str, str, Place]](), dict[str, str]()
+    loops, axes = list[tuple[str, str, str, str, CompanionLine]](), dict[str, str]()
     for pair, kind in zip(lists["closed_loop"], lists["type"], strict=True):
         ends, word = [end.value for end in pair.value], {"3d": "ball", "6d": "fixed"}[kind.value.lower()]
         loops.append(("_".join(ends), word, ends[0], ends[1], place(pair)))
@@ -83,7 +85,7 @@ def _read_yaml(companion: Companion) -> tuple[list[tuple[str, str, str, str, Pla
     return loops, [(joint.value, place(joint)) for joint in lists["name_mot"]], axes
 
 
-def _read_rows(companion: Companion, options: Options) -> dict[str, Row]:
+def _read_rows(companion: Companion, options: Options) -> dict[str, CatalogueNumbers]:
     """Return the row of each joint that `motors` names.
 
     The first filled column of each number counts; of columns with the same name, the last filled one.
@@ -92,7 +94,7 @@ def _read_rows(companion: Companion, options: Options) -> dict[str, Row]:
 
     sheet, _ = read_sheets(companion.content, companion.file)
     texts = ((line, ["" if cell is None else str(cell).strip() for cell in cells]) for line, cells in sheet.rows)
-    lines, rows = {cells[0]: (line, cells) for line, cells in texts}, dict[str, Row]()
+    lines, rows = {cells[0]: (line, cells) for line, cells in texts}, dict[str, CatalogueNumbers]()
     for joint, motor in options.motors.items():
         (line, cells), filled, numbers = lines[motor], dict[str, tuple[str, str]](), dict[str, float]()
         for title, text in zip(map(str.strip, sheet.header), cells, strict=False):
@@ -103,7 +105,7 @@ def _read_rows(companion: Companion, options: Options) -> dict[str, Row]:
             named = options.motor_columns.get(number, number)
             for name in [name for name in ([named] if isinstance(named, str) else named) if name in filled][:1]:
                 numbers[number] = _in_si(*filled[name])
-        rows[joint] = Row(numbers, Place(companion.file, line))
+        rows[joint] = CatalogueNumbers(numbers, CompanionLine(companion.file, line))
     return rows
 
 

@@ -27,7 +27,7 @@ from urdfsync.urdf.second.reading import (
     MOVES,
     TENSOR,
     ZERO,
-    Element,
+    SecondElement,
     SecondReading,
     Stated,
     origin,
@@ -245,7 +245,7 @@ class _Comparison:
 
     # Values that follow from others
 
-    def _joint(self, component: str) -> Element | None:
+    def _joint(self, component: str) -> SecondElement | None:
         names = (name for (kind, name), other in self.components.items() if (kind, other) == ("joint", component))
         return next((self.reading.joints[name] for name in names), None)
 
@@ -257,7 +257,7 @@ class _Comparison:
             if (joint := self._joint(value.path)) and isinstance(numbers := literals(value.text), tuple):
                 begin[joint.name] = next(iter(numbers), 0.0)
 
-        def limits(joint: Element) -> tuple[float, float]:
+        def limits(joint: SecondElement) -> tuple[float, float]:
             lower, upper = joint.number("limits.lower"), joint.number("limits.upper")
             for other in joints.values():
                 if other.leader == joint.name and abs(factor := other.number("mimic.multiplier")) > math.ulp(1):
@@ -363,7 +363,7 @@ def _bounds(corners: Value) -> tuple[float, ...]:
     return tuple(map(float, (*points.min(axis=0), *points.max(axis=0))))
 
 
-def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
+def _equations(loop: SecondElement, given: Mapping[str, Any]) -> dict[str, Stated]:
     """Return the expected equations of a loop: the given equations, if they are possible for the kind of the loop."""
     keys = ("translations", "rotations", "childRotations")
     numbers = [given.get(key) for key in keys]

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from urdfsync.urdf.second.companions import Row
+from urdfsync.urdf.second.companions import CatalogueNumbers
 from urdfsync.urdf.second.plain import decimal
 
 
@@ -23,7 +23,7 @@ class Gear(NamedTuple):
     joint_reduction: float = 0.0
 
 
-def read_gears(root: Any, rows: Mapping[str, Row]) -> dict[str, Gear]:
+def read_gears(root: Any, rows: Mapping[str, CatalogueNumbers]) -> dict[str, Gear]:
     """Return the gears of a URDF by joint, with the numbers of `rows` of the catalogue.
 
     Endings of names identify tags and attributes.

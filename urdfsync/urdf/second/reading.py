@@ -81,7 +81,7 @@ class Stated(NamedTuple):
     """The companion that states the value; empty for the source itself."""
 
 
-class Element(msgspec.Struct):
+class SecondElement(msgspec.Struct):
     """A link, joint, loop or sensor with its values; `type` is also the kind of a loop or sensor."""
 
     name: str
@@ -131,10 +131,10 @@ class SecondReading(msgspec.Struct):
     """A whole robot."""
 
     name: str
-    links: dict[str, Element] = {}
-    joints: dict[str, Element] = {}
-    loops: dict[str, Element] = {}
-    sensors: dict[str, Element] = {}
+    links: dict[str, SecondElement] = {}
+    joints: dict[str, SecondElement] = {}
+    loops: dict[str, SecondElement] = {}
+    sensors: dict[str, SecondElement] = {}
     unread: str = ""
     """The reason why yourdfpy could not read the source; empty if it could."""
     contradictions: tuple[str, ...] = ()
@@ -197,7 +197,7 @@ def pose(xyz: Any, rpy: Any) -> Any:
     return matrix
 
 
-def origin(element: Element, path: str = "origin") -> Any:
+def origin(element: SecondElement, path: str = "origin") -> Any:
     """Return the 4×4 matrix of one of the origins of an element."""
     return pose(element.values[f"{path}.xyz"].value, element.values[f"{path}.rpy"].value)
 
@@ -260,7 +260,7 @@ def _text(element: Any, path: str) -> str:
     return (element.findtext(path) or "").strip()
 
 
-def _put_origin(element: Element, around: Any, version: tuple[int, ...] = (1, 0), path: str = "origin") -> None:
+def _put_origin(element: SecondElement, around: Any, version: tuple[int, ...] = (1, 0), path: str = "origin") -> None:
     place = around.find("origin")
     rpy, quaternion = _at(around, "origin@rpy", 3, ZERO), _at(around, "origin@quat_xyzw", 4)
     if version >= (1, 1) and quaternion:
@@ -274,14 +274,14 @@ def _put_origin(element: Element, around: Any, version: tuple[int, ...] = (1, 0)
 # Links
 
 
-def _links(root: Any, version: tuple[int, ...]) -> Iterator[Element]:
+def _links(root: Any, version: tuple[int, ...]) -> Iterator[SecondElement]:
     colors = dict[str, tuple[float, ...]]()
     for material in (*root.iterchildren("material"), *root.findall("link/visual/material")):
         if rgba := _at(material, "color@rgba", 4):
             colors.setdefault(material.get("name", ""), rgba)
     blocks = [("gazebo", block.get("reference"), block) for block in root.iterchildren("gazebo")]
     for element in root.iterchildren("link"):
-        link = Element(element.get("name", ""), element.sourceline)
+        link = SecondElement(element.get("name", ""), element.sourceline)
         link.put("name", link.name, element)
         inertial = element.find("inertial")
         if inertial is None:
@@ -305,7 +305,7 @@ def _links(root: Any, version: tuple[int, ...]) -> Iterator[Element]:
 
 
 def _put_shape(
-    link: Element, path: str, shape: Any, geometry: Any, version: tuple[int, ...], colors: Mapping[str, Any]
+    link: SecondElement, path: str, shape: Any, geometry: Any, version: tuple[int, ...], colors: Mapping[str, Any]
 ) -> None:
     _put_origin(link, shape, version, f"{path}.origin")
     link.put(f"{path}.shape", geometry.tag, geometry)
@@ -328,12 +328,12 @@ def _put_shape(
 
 def _joints(
     root: Any, gears: Mapping[str, Gear], found: Sequence[dict[str, Any]], options: Options, version: tuple[int, ...]
-) -> Iterator[Element]:
-    drives, joints = defaultdict[str, list[dict[str, Any]]](list), list[Element]()
+) -> Iterator[SecondElement]:
+    drives, joints = defaultdict[str, list[dict[str, Any]]](list), list[SecondElement]()
     for drive in found:
         drives[drive["joint"]].append(drive)
     for element in root.iterchildren("joint"):
-        joint = Element(element.get("name"), element.sourceline, element.get("type"))
+        joint = SecondElement(element.get("name"), element.sourceline, element.get("type"))
         joint.parent, joint.child = (element.find(tag).get("link") for tag in ("parent", "child"))
         joint.is_named = any(drive.get("is_driven") for drive in drives[joint.name])
         joint.is_measured = any(drive.get("is_measured") for drive in drives[joint.name])
@@ -373,7 +373,7 @@ def _joints(
         yield joint
 
 
-def _put_axis(joint: Element, element: Any, version: tuple[int, ...]) -> None:
+def _put_axis(joint: SecondElement, element: Any, version: tuple[int, ...]) -> None:
     """State limits, inertia, calibration and safety controller of a joint that turns or slides."""
     limit = element.find("limit")
     joint.has_limit, at = limit is not None, element if limit is None else limit
@@ -398,7 +398,7 @@ def _put_axis(joint: Element, element: Any, version: tuple[int, ...]) -> None:
 
 
 def _put_drive(
-    joint: Element, element: Any, drives: Sequence[Mapping[str, Any]], gear: Gear | None, options: Options
+    joint: SecondElement, element: Any, drives: Sequence[Mapping[str, Any]], gear: Gear | None, options: Options
 ) -> None:
     """State gear, coupling, command and start of a joint. The first statement of each counts."""
     first = dict[str, Any]()
@@ -497,7 +497,7 @@ def _transmission(element: Any) -> Iterator[dict[str, Any]]:
 # Sensors
 
 
-def _sensors(root: Any, reading: SecondReading) -> Iterator[Element]:
+def _sensors(root: Any, reading: SecondReading) -> Iterator[SecondElement]:
     """Yield the sensors of existing links and joints.
 
     If several sensors have the same name on the same link or joint, only the first counts.
@@ -510,7 +510,7 @@ def _sensors(root: Any, reading: SecondReading) -> Iterator[Element]:
             placed.setdefault((name, at), (element, kind))
     counts = Counter(name for name, _ in placed)
     for (name, at), (element, kind) in placed.items():
-        sensor = Element(name if counts[name] == 1 else f"{at}/{name}", element.sourceline, kind, at)
+        sensor = SecondElement(name if counts[name] == 1 else f"{at}/{name}", element.sourceline, kind, at)
         sensor.put("name", sensor.name, element)
         sensor.put("updateRate", _at(element, "update_rate @update_rate", 1, 0.0), element)
         frame, direction = (_text(element, f"force_torque/{tag}") for tag in ("frame", "measure_direction"))
@@ -552,7 +552,7 @@ def _find_sensors(root: Any) -> Iterator[tuple[Any, str, str, str]]:
 # Loops
 
 
-def _loops(root: Any, reading: SecondReading, options: Options, stated: Companions) -> Iterator[Element]:
+def _loops(root: Any, reading: SecondReading, options: Options, stated: Companions) -> Iterator[SecondElement]:
     """Yield the loops of the configuration, then other loops of the source."""
     ends, known = {name: joint.child for name, joint in reading.joints.items()}, set[Any]()
     for option in options.loops:
@@ -570,9 +570,9 @@ def _loops(root: Any, reading: SecondReading, options: Options, stated: Companio
             yield _loop(name, kind, element, places, axis, second)
 
 
-def _loop(name: str, kind: str, element: Any, places: Sequence[Any], axis: Any, second: Any) -> Element:
+def _loop(name: str, kind: str, element: Any, places: Sequence[Any], axis: Any, second: Any) -> SecondElement:
     """Return a loop between two frames; `places` has link, position and angles of each frame."""
-    loop = Element(name, getattr(element, "sourceline", 0), kind, places[0][0], places[1][0])
+    loop = SecondElement(name, getattr(element, "sourceline", 0), kind, places[0][0], places[1][0])
     loop.file = getattr(element, "file", "")
     loop.put("name", name, element)
     for path, (_, xyz, rpy) in zip(("origin", "childOrigin"), places, strict=True):

@@ -9,14 +9,14 @@ import itertools
 from collections.abc import Iterable, Mapping, Sequence
 
 from urdfsync.urdf.second.plain import SHAPES
-from urdfsync.urdf.second.reading import MOVES, TURNS, Element
+from urdfsync.urdf.second.reading import MOVES, TURNS, SecondElement
 
 DRAWN = {shape.capitalize(): 1 for shape in SHAPES} | {"Capsule": 3}
 """Records of shapes, and how many shapes of the Modelica Standard Library draw each."""
 
 
 def expected_tables(
-    elements: Sequence[tuple[Element, str]], shapes: Iterable[tuple[str, int]]
+    elements: Sequence[tuple[SecondElement, str]], shapes: Iterable[tuple[str, int]]
 ) -> Mapping[str, Sequence[int]]:
     """Return the numbers of each table; `elements` have their components.
 
