@@ -129,6 +129,8 @@ def _find_changes(
     try:
         news = changes.compare(last.version, generation.now, domain, robot.options, matching)
     except NO_MODEL:
+        if last.package is not None:  # the recorded model is valid, so the fault is not a stranger's
+            raise
         return None
     if news.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
         return None  # git may have merged two models into an invalid model

@@ -217,6 +217,16 @@ def test_a_mesh_that_can_no_longer_touch_the_ground_is_structural_for_mobile_rob
     assert [change[2] for change in mesh_change(old, lower, FLOATING)] == [PARAMETER]
 
 
+@pytest.mark.parametrize("options", [FIXED, FLOATING])
+def test_a_mesh_that_begins_or_ceases_to_collide_is_a_change_of_its_link_alone(options: Options) -> None:
+    found = import_("a")
+    seen = msgspec.structs.replace(found, facts={"bounds": found.facts["bounds"]})  # nothing asked for the hull
+    without, with_it = version(put("link base / collision 2", None), seen), version(found=found)
+    for old, new, kind in ((without, with_it, ADDED), (with_it, without, REMOVED)):
+        (change,) = compare(old, new, DOMAIN, options).changes
+        assert (str(change), change.kind, change.change_class) == ("link base / collision 2", kind, STRUCTURAL)
+
+
 @pytest.mark.parametrize(("meshes", "options", "reach"), [
     ({MESH: import_("a")}, FIXED, STRUCTURAL),
     ({}, FIXED, UNMODELLED),

@@ -46,11 +46,29 @@ def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opti
     """Yield the changes of a robot, except consequences of other changes."""
     sides = [
         _RobotVersion({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
-        for robot, imports in ((renamed(old.snapshot, renames), old.imports), (new.snapshot, new.imports))
+        for robot, imports in (
+            (renamed(old.snapshot, renames), _with_facts_of(old.imports, new.imports)),
+            (new.snapshot, _with_facts_of(new.imports, old.imports)),
+        )
     ]
     for difference in find_differences(old, new, *comparable(old.snapshot, new.snapshot, renames)):
         if change := _describe(difference, sides[0], sides[1], options):
             yield change
+
+
+def _with_facts_of(
+    imports: Mapping[str, Import] | None, others: Mapping[str, Import] | None
+) -> Mapping[str, Import] | None:
+    """Return imports with further facts of another version's, since values of both versions are mixed here.
+
+    A version whose shapes do not collide, for example, has no hulls.
+    """
+    if imports is None or others is None:
+        return imports
+    return {
+        key: msgspec.structs.replace(file, facts={**others[key].facts, **file.facts}) if key in others else file
+        for key, file in imports.items()
+    }
 
 
 def _describe(difference: Difference, old: _RobotVersion, new: _RobotVersion, options: Options) -> Change | None:
