@@ -58,9 +58,13 @@ def render(version: Version, options: Options) -> Mapping[str, File]:
 
 
 def referenced(version: Version, options: Options) -> Version:
-    """The version with the imports that a build would have."""
-    keys = {dependency.key for dependency in DOMAIN.dependencies(version.snapshot, LOOKUP, options, {})}
-    return msgspec.structs.replace(version, imports={k: i for k, i in (version.imports or {}).items() if k in keys})
+    """The version with the imports that a build would have: of each mesh only the facts that its shapes ask for."""
+    found, imports = version.imports or {}, dict[str, Import]()
+    for dependency in DOMAIN.dependencies(version.snapshot, LOOKUP, options, {}):
+        if file := found.get(dependency.key):
+            facts = {name: value for name, value in file.facts.items() if name in dependency.facts}
+            imports[dependency.key] = msgspec.structs.replace(file, facts=facts)
+    return msgspec.structs.replace(version, imports=imports)
 
 
 def differing(before: Mapping[str, File], after: Mapping[str, File]) -> Set[str]:
@@ -111,7 +115,9 @@ def everything_found(snapshot: Snapshot, options: Options) -> Mapping[str, Impor
     """Every mesh of a model as if it were there."""
     facts = {"bounds": [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]], "hull": [[0.0, 0.0, 0.0]]}
     found = DOMAIN.dependencies(snapshot, LOOKUP, options, {})
-    return {dependency.key: Import(dependency.target, "", "", facts) for dependency in found}
+    return {
+        one.key: Import(one.target, "", "", {name: facts[name] for name in facts if name in one.facts}) for one in found
+    }
 
 
 def versions(history: Path, options: Options, meshes: bool) -> Iterator[Version]:

@@ -182,3 +182,10 @@ def test_each_mesh_is_a_dependency_once_with_its_first_line() -> None:
     ]
     assert [d.target for d in found] == [target(base), target(scaled), target(wheel)]
     assert found[0].candidates == candidates("base.dae", LOOKUP)
+
+
+def test_a_floating_robot_without_collisions_in_its_models_stands_on_the_points_of_shown_meshes_that_collide() -> None:
+    shared, seen = Mesh("shared.stl"), Mesh("seen.stl")
+    robot = _robot((shared, shared), (seen, Mesh("hidden.stl")))
+    found = dependencies(robot.links, ("visual",), LOOKUP, {}, touches=True)
+    assert {one.uri: "hull" in one.facts for one in found} == {"shared.stl": True, "seen.stl": False}

@@ -18,7 +18,7 @@ from urllib.parse import unquote
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Dependency, Import, Lookup
-from urdfsync.urdf.robot import Collision, Link, Mesh, Robot, Vector, Visual
+from urdfsync.urdf.robot import Collision, Geometry, Link, Mesh, Robot, Vector, Visual
 
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL, VOLUME = "bounds", "hull", "volume"
@@ -144,10 +144,12 @@ def dependencies(
     """Return the mesh files of links in the order of keys.
 
     Each pair of URI and scale comes once. `kinds` are the shapes that count: `visual`, `collision`. If the robot
-    `touches` the ground, collisions need outermost points. `lines` has the source's line of each element by path. A
-    dependency has the line of a shape, such as `link wheel / visual 2 / geometry`, else of its link.
+    `touches` the ground, its standing height needs the outermost points of collisions, whatever `kinds` says. `lines`
+    has the source's line of each element by path. A dependency has the line of a shape, such as `link wheel / visual 2
+    / geometry`, else of its link.
     """
-    shapes_of = defaultdict[Mesh, list[tuple[str, int, bool]]](list)
+    shapes_of = defaultdict[Mesh, list[tuple[int, bool]]](list)
+    touching = {collision.geometry for link in links for collision in link.collisions} if touches else set[Geometry]()
     for link in links:
         for kind in kinds:
             shapes: Sequence[Visual | Collision] = link.visuals if kind == "visual" else link.collisions
@@ -155,7 +157,7 @@ def dependencies(
                 if isinstance(mesh := shape.geometry, Mesh):
                     place = f"link {link.name} / {kind} {number} / geometry"
                     line = lines.get(place, lines.get(f"link {link.name}", 0))
-                    shapes_of[mesh].append((kind, line, isinstance(shape, Visual) and _has_colors(mesh, shape)))
+                    shapes_of[mesh].append((line, isinstance(shape, Visual) and _has_colors(mesh, shape)))
     return tuple(
         Dependency(
             key(mesh),
@@ -163,17 +165,16 @@ def dependencies(
             candidates(mesh.filename, lookup),
             target(mesh),
             "mesh",
-            min((line for _, line, _ in shapes if line), default=0),
-            facts=_facts(shapes, touches),
+            min((line for line, _ in shapes if line), default=0),
+            facts=_facts([is_colored for _, is_colored in shapes], mesh in touching),
         )
         for mesh, shapes in sorted(shapes_of.items(), key=lambda item: key(item[0]))
     )
 
 
-def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
-    """Return the names of the facts of a mesh; each shape has its kind, its line, and whether it shows colours."""
-    hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in shapes) else ()
-    colored = [is_colored for _, _, is_colored in shapes]
+def _facts(colored: Sequence[bool], touches: bool) -> tuple[str, ...]:
+    """Return the names of the facts of a mesh; for each shape, `colored` says whether it shows the mesh's colours."""
+    hull = (HULL,) if touches else ()
     colors = (PARTS if all(colored) else COLORS, TEXTURED, COLORLESS) if any(colored) else ()
     return (BOUNDS, VOLUME, *hull, *colors)
 
