@@ -47,8 +47,8 @@ def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opti
     sides = [
         _RobotVersion({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
         for robot, imports in (
-            (renamed(old.snapshot, renames), _with_facts_of(old.imports, new.imports)),
-            (new.snapshot, _with_facts_of(new.imports, old.imports)),
+            (renamed(old.snapshot, renames), _with_hulls_of(old.imports, new.imports)),
+            (new.snapshot, _with_hulls_of(new.imports, old.imports)),
         )
     ]
     for difference in find_differences(old, new, *comparable(old.snapshot, new.snapshot, renames)):
@@ -56,19 +56,21 @@ def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opti
             yield change
 
 
-def _with_facts_of(
+def _with_hulls_of(
     imports: Mapping[str, Import] | None, others: Mapping[str, Import] | None
 ) -> Mapping[str, Import] | None:
-    """Return imports with further facts of another version's, since values of both versions are mixed here.
+    """Return imports, with hulls of another version's where they have none: there the mesh does not collide.
 
-    A version whose shapes do not collide, for example, has no hulls.
+    Values of both versions are mixed here, so a shape that collides may meet such a mesh.
     """
     if imports is None or others is None:
         return imports
-    return {
-        key: msgspec.structs.replace(file, facts={**others[key].facts, **file.facts}) if key in others else file
-        for key, file in imports.items()
-    }
+    complete = dict(imports)
+    for key, file in imports.items():
+        if lookup.HULL not in file.facts and key in others and lookup.HULL in others[key].facts:
+            facts = {**file.facts, lookup.HULL: others[key].facts[lookup.HULL]}
+            complete[key] = msgspec.structs.replace(file, facts=facts)
+    return complete
 
 
 def _describe(difference: Difference, old: _RobotVersion, new: _RobotVersion, options: Options) -> Change | None:
