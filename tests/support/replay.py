@@ -43,11 +43,15 @@ Stamps = Mapping[str, tuple[int, int]]
 
 @functools.cache
 def histories() -> Mapping[str, Sequence[bytes]]:
-    """The versions of each file in the corpus, by a short name of its history."""
+    """The versions of each file in the corpus, by a short name of its history.
+
+    One history has an MJCF in between, whose meshes it lacks.
+    """
     folders = sorted((corpus.FOLDER / "histories").glob("*/"))
+    versions = {folder: [file.read_bytes() for file in sorted(folder.glob("*.urdf"))] for folder in folders}
     return {
-        folder.name.removesuffix(".urdf"): [file.read_bytes() for file in sorted(folder.glob("*.urdf"))]
-        for folder in folders
+        folder.name.removesuffix(".urdf"): [content for content in contents if b"<mujoco" not in content[:1000]]
+        for folder, contents in versions.items()
     }
 
 
