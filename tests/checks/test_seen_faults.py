@@ -14,7 +14,7 @@ from support.cases import sampled
 from support.loops import UNIVERSAL, to_options, to_urdf
 from support.modelica import URDFSYNC
 from support.packages import generate
-from support.urdfs import dynamics, every_loss, joint, limit, link, links, mimic, robot
+from support.urdfs import dynamics, every_number, joint, limit, link, links, mimic, robot
 
 from urdfsync.checks.experiment import Aspect, Deviation, Quantity
 from urdfsync.domain import Target
@@ -50,7 +50,7 @@ SPEED_UP = limit(0.2, 2, 3, 90).replace("/>", ' drake:acceleration="5"/>')
 SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, every_loss(0.5, 0.4, **PULLED)]),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, every_number(0.5, 0.4, **PULLED)]),
     joint(
         "elbow",
         "continuous",

@@ -14,7 +14,7 @@ import numpy as np
 
 from support.modelica import URDFSYNC, Array, Run, Task, bench
 from support.packages import Package, generate
-from support.urdfs import dynamics, every_loss, joint, link, links, mimic, robot
+from support.urdfs import dynamics, every_number, joint, link, links, mimic, robot
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -36,7 +36,7 @@ GRIPPER = robot(
         "plate",
         "arm",
         axis="0.6 0 0.8",
-        inside=[every_loss(0.4, 0.2, armature=0.6, spring_stiffness=7.5)],
+        inside=[every_number(0.4, 0.2, armature=0.6, spring_stiffness=7.5)],
     ),
     joint(
         "rail",
@@ -44,7 +44,7 @@ GRIPPER = robot(
         "arm",
         "slide",
         axis="0 1 0",
-        inside=[every_loss(3.0, 0.5, armature=1.1, spring_stiffness=40, spring_reference=0.2)],
+        inside=[every_number(3.0, 0.5, armature=1.1, spring_stiffness=40, spring_reference=0.2)],
     ),
     joint("mount", "fixed", "slide", "sensor"),
     joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
@@ -169,11 +169,11 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
         v[:3], v[3:6] = axes.T @ velocity, axes.T @ turning
         free = np.hstack([np.eye(model.nv, 6), free])
 
-    inverse, (stiffness, relaxed) = np.linalg.pinv(reference.projection), reference.springs
+    inverse = np.linalg.pinv(reference.projection)
 
     def acceleration(p: Array, q: Array, v: Array) -> Array:
-        pulled = stiffness * (at_rest(robot, p, speeds).positions - relaxed)
-        load = pin.rnea(model, model.createData(), q, v, np.zeros(model.nv)) + reference.losses(v) + pulled
+        taken = reference.losses(v) + reference.mechanisms(at_rest(robot, p, speeds).positions)
+        load = pin.rnea(model, model.createData(), q, v, np.zeros(model.nv)) + taken
         return np.asarray(free @ np.linalg.solve(free.T @ mass_matrix(reference, q) @ free, -free.T @ load))
 
     def moved(way: Array) -> tuple[Array, Array]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from urdfsync.domain import Version
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.robot import LOSSES, Robot
+from urdfsync.urdf.robot import Dynamics, Robot
 
 
 def robot(*elements: str, name: str = "own", version: str = "1.0") -> str:
@@ -63,10 +63,11 @@ def dynamics(damping: float, friction: float, **more: float) -> str:
     return f"<dynamics {words}/>"
 
 
-def every_loss(damping: float, friction: float, **more: float) -> str:
-    """All losses that a joint can have, each with a number of its own."""
-    others = {name: 0.125 * (k + 1) for k, name in enumerate(LOSSES[2:])}
-    return dynamics(damping, friction, **others, **more)
+def every_number(damping: float, friction: float, **more: float) -> str:
+    """The dynamics with these numbers, and with one for each further field: so tests see a new attribute at once."""
+    chosen = ("damping", "friction", "armature", "spring_stiffness", "spring_reference")
+    further = [name for name in Dynamics.__struct_fields__ if name not in chosen]
+    return dynamics(damping, friction, **{name: 0.125 * (k + 1) for k, name in enumerate(further)}, **more)
 
 
 def mimic(leader: str, multiplier: float | None = None, offset: float | None = None) -> str:

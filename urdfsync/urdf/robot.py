@@ -25,11 +25,13 @@ class UnitName(NamedTuple):
     name: str
     sliding: str | None = None
     """The unit for a sliding joint, if `name` is the unit for a turning joint. Other joints have no unit."""
+    is_signed: bool = False
+    """Whether such a number of a joint may be negative."""
 
 
 _NAME = operator.attrgetter("name")
 _LENGTH, _ANGLE, _INERTIA = UnitName("m"), UnitName("rad"), UnitName("kg·m²")
-POSITION, _LOAD, _LOSS = UnitName("rad", "m"), UnitName("N·m", "N"), UnitName("N·m·s/rad", "N·s/m")
+POSITION, _LOAD, _LOSS = UnitName("rad", "m", is_signed=True), UnitName("N·m", "N"), UnitName("N·m·s/rad", "N·s/m")
 _SPEED, _ACCELERATION, _STIFFNESS = UnitName("rad/s", "m/s"), UnitName("rad/s²", "m/s²"), UnitName("N·m/rad", "N/m")
 
 
@@ -280,6 +282,11 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
 
 LOSSES: tuple[str, ...] = ("damping", "friction")
 """The numbers of `Dynamics` that act against the motion. A further one is None by default, which records leave out."""
+MECHANISMS: Mapping[str, str] = {"spring": "spring_stiffness"}
+"""Parts that push or pull a joint, by their names in templates; each with the number of `Dynamics` that states it.
+
+A mechanism stores energy, and may carry a weight.
+"""
 
 
 class Transmission(msgspec.Struct, frozen=True, gc=False):

@@ -17,7 +17,6 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine import file_kinds
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
-    POSITION,
     SHAPES,
     Box,
     Capsule,
@@ -45,7 +44,7 @@ _COMPARED = 500
 _ENDLESS = 1000
 _MAGNITUDES = {
     **{
-        block: [name for name in struct.__struct_fields__ if unit_of(struct, name) != POSITION]
+        block: [name for name in struct.__struct_fields__ if not unit_of(struct, name).is_signed]
         for block, struct in (("limit", Limit), ("dynamics", Dynamics))
     },
     "transmission": ["rotor_inertia"],

@@ -18,7 +18,7 @@ from support.cases import sampled
 from support.loops import HINGE, UNIVERSAL, WELD, to_options, to_urdf
 from support.numbers import BOT, compare, differences, of_package
 from support.packages import Package, generate, generate_robot, proposed_base, read
-from support.urdfs import every_loss, joint, limit, link, mimic
+from support.urdfs import every_number, joint, limit, link, mimic
 from support.urdfs import robot as urdf
 
 from urdfsync import config
@@ -108,8 +108,8 @@ SAFE = '<safety_controller k_velocity="5" k_position="6" soft_lower_limit="-0.5"
 URDF = urdf(
     *(link("base", 3.0), link("arm", 2.0).replace("</link>", f"{SHAPES}</link>"), link("hand", 0.7), link("tip", 0.1)),
     joint("shoulder", "revolute", "base", "arm", axis="0 1 0",
-          inside=[every_loss(0.5, 0.2, armature=0.01, spring_stiffness=7.5, spring_reference=0.3), limit(-1, 2, 3, 40),
-                  SAFE, '<calibration rising="0.3"/>']),
+          inside=[every_number(0.5, 0.2, armature=0.01, spring_stiffness=7.5, spring_reference=0.3),
+                  limit(-1, 2, 3, 40), SAFE, '<calibration rising="0.3"/>']),
     joint("slide", "prismatic", "arm", "hand", axis="1 2 2", inside=[limit(0, 0.5, 0.6, 70)]),
     joint("twist", "revolute", "hand", "tip", axis="0 0 1", inside=[limit(-2, 3), mimic("shoulder", 0.5, 0.1)]),
     *(CONTROL, GEAR, GROUND, IMU, WRENCH, PULL),

@@ -6,7 +6,7 @@ from typing import Any
 
 from urdfsync.urdf.drives import by_effort, friction_law, has_motor, is_chosen, sharing_joint
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, limits_acceleration, reflected_inertia
+from urdfsync.urdf.robot import MECHANISMS, MOTION_KINDS, Joint, limits_acceleration, reflected_inertia
 
 
 def joint_title(joint: Joint) -> str:
@@ -30,7 +30,7 @@ def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, An
         "dynamics": joint.dynamics is not None,
         "accelerations": limits_acceleration(joint),
         "inertia": inertia is not None,
-        "spring": joint.dynamics is not None and joint.dynamics.spring_stiffness is not None,
+        **{part: getattr(joint.dynamics, number, None) is not None for part, number in MECHANISMS.items()},
         "motor": with_motor,
         "sharing": sharing,
         "friction": friction_law(joint, options),

@@ -14,7 +14,8 @@ from collections.abc import Iterator
 from urdfsync.checks.experiment import Aspect, Compared, Probe, Quantity, Trial
 from urdfsync.urdf.physics import probe
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.second.reading import MOVES, TURNS, SecondElement, SecondReading
+from urdfsync.urdf.robot import MECHANISMS
+from urdfsync.urdf.second.reading import MOVES, OF_DYNAMICS, TURNS, SecondElement, SecondReading
 
 _STEP, _STOP = 0.02, 1.0  # s
 _STROKE = 0.2  # Motion of an axis, in rad or m.
@@ -86,7 +87,9 @@ def _declarations(k: int, model: str, joint: SecondElement, laws: str) -> Iterat
     kind, q = ("Rotational", "phi") if is_turning else ("Translational", "s")
     light = 1e-4 * _DEFAULTS[is_turning]["stiffness"] if "spring" in laws else 1e-6
     own = ["checkLimits = false", f"fixedStart = {str(is_pushed).lower()}"]
-    changed = ["springStiffness = 0"] * ("dynamics.springStiffness" in joint.values)  # it stores energy, too
+    # mechanisms store energy, too
+    storing = (number for number, attribute in OF_DYNAMICS.items() if attribute in MECHANISMS.values())
+    changed = [f"{number} = 0" for number in storing if f"dynamics.{number}" in joint.values]
     if joint.friction in ("stiction", "lugre"):
         dry = joint.number("dynamics.friction")
         changed.append(f"breakaway = {_BREAKAWAY * dry!r}")

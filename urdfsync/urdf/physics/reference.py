@@ -29,7 +29,7 @@ from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.robot import Mimic, Vector
 from urdfsync.urdf.second.companions import CatalogueNumbers
 from urdfsync.urdf.second.gears import Gear, read_gears
-from urdfsync.urdf.second.reading import SecondElement, origin
+from urdfsync.urdf.second.reading import OF_DYNAMICS, SecondElement, origin
 
 Array = NDArray[np.float64]
 
@@ -50,8 +50,8 @@ class PinocchioRobot(NamedTuple):
     """Mimic relations by names of followers."""
     rotors: Array
     """The part of the rotors in the mass matrix: Pinocchio's `armature` can't couple two joints."""
-    springs: Array
-    """Stiffness and reference of the spring at each coordinate of the velocity: Pinocchio has no springs."""
+    numbers: Mapping[str, Array]
+    """The attributes of <dynamics> that Pinocchio leaves out, at each coordinate of the velocity."""
 
 
 def read(
@@ -98,20 +98,19 @@ def read(
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
     model = _with_balls(pin, model, balls) if balls else model
     gears, rotors = read_gears(root, rows or {}), np.zeros((model.nv, model.nv))
-    springs = np.zeros((2, model.nv))
+    numbers = {attribute: np.zeros(model.nv) for attribute in OF_DYNAMICS.values()} | {"armature": model.armature}
     for joint in root.findall("joint"):
         name = joint.get("name", "")
         if model.existJointName(name) and (coordinates := model.joints[model.getJointId(name)]).nv == 1:
             gear, stated = gears.get(name, Gear()), joint.find("dynamics")
-            attributes = ("armature", "spring_stiffness", "spring_reference")
-            for numbers, attribute in zip((model.armature, *springs), attributes, strict=True):
-                numbers[coordinates.idx_v] = 0.0 if stated is None else float(stated.get(attribute, "0"))
+            for attribute, values in numbers.items():
+                values[coordinates.idx_v] = 0.0 if stated is None else float(stated.get(attribute, "0"))
             ways = np.zeros(model.nv)
             ways[coordinates.idx_v] = gear.reduction
             if gear.joint:
                 ways[model.joints[model.getJointId(gear.joint)].idx_v] = gear.joint_reduction
             rotors += (gear.rotor or 0.0) * np.outer(ways, ways)
-    return PinocchioRobot(model, followers, rotors, springs)
+    return PinocchioRobot(model, followers, rotors, numbers)
 
 
 def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
@@ -164,7 +163,7 @@ class Reference:
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
         """The names of the independent joints. Ball joints come last, and turn about `motion.TURN_AXIS`."""
-        self.rotors, self.springs = robot.rotors, robot.springs
+        self.rotors, self.numbers = robot.rotors, robot.numbers
         balls = [joint for joint in self.model.joints if joint.shortname() == "JointModelSpherical"]
         self._balls, self._scalars = [joint.idx_v + k for joint in balls for k in range(3)], len(axes) - len(balls)
         self.projection, self._offset = self._mimic(robot, self.axes)
@@ -250,10 +249,13 @@ class Reference:
         return np.asarray(self.pin.crba(self.model, self.model.createData(), q)) + self.rotors
 
     def load(self, data: Any, state: Configuration, a: Array) -> Array:
-        """Return the efforts of all coordinates, with losses and springs, for a state with accelerations `a`."""
-        stiffness, reference = self.springs
-        own = self.losses(state.v) + stiffness * (state.positions - reference)
+        """Return the efforts of all coordinates, with losses and mechanisms, for a state with accelerations `a`."""
+        own = self.losses(state.v) + self.mechanisms(state.positions)
         return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.rotors @ a + own)
+
+    def mechanisms(self, positions: Array) -> Array:
+        """Return the efforts that mechanisms take at all coordinates."""
+        return self.numbers["spring_stiffness"] * (positions - self.numbers["spring_reference"])
 
     @staticmethod
     def _solved(mass: Array, efforts: Array) -> Array:

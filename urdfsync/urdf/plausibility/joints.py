@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from urdfsync.urdf.kinematics.poses import Pose, dot, link_poses, moved, own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.shapes import LIGHT, LinkShape
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Cylinder, Joint, Origin, Sphere, Vector
+from urdfsync.urdf.robot import JOINT_KINDS, MECHANISMS, MOTION_KINDS, Cylinder, Joint, Origin, Sphere, Vector
 from urdfsync.urdf.validate import Finding
 
 _LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
@@ -150,8 +150,8 @@ def _check_loads(tree: KinematicTree, bodies: Mapping[str, LinkShape], poses: Ma
         x, y, z = moments[joint.parent]
         moments[joint.parent] = x + moment[0], y + moment[1], z + moment[2]
         effort = joint.limit.effort if joint.limit and not joint.mimic else None
-        has_spring = joint.dynamics is not None and joint.dynamics.spring_stiffness
-        if not effort or has_spring or not (joint.actuated or not are_told):  # a spring may carry the weight
+        may_carry = any(getattr(joint.dynamics, number, None) for number in MECHANISMS.values())
+        if not effort or may_carry or not (joint.actuated or not are_told):
             continue
         turns = MOTION_KINDS.get(joint.type) == "rotational"
         least = _least_load(joint, mass, moment, poses[joint.child], starts[joint.name])

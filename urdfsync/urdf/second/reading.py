@@ -38,7 +38,7 @@ _LOSSES = {
     "ball": ("damping",),
 }
 """Paths of damping and friction in the records, by type of joint."""
-_OF_DYNAMICS = {"armature": "armature", "springStiffness": "spring_stiffness", "springReference": "spring_reference"}
+OF_DYNAMICS = {"armature": "armature", "springStiffness": "spring_stiffness", "springReference": "spring_reference"}
 """Numbers of the records of axes that records leave out if the source does, with their attributes in `<dynamics>`."""
 _SERVOS = {
     "position": "positionGain; velocityGain minPosition maxPosition minEffort maxEffort",
@@ -386,7 +386,7 @@ def _put_axis(joint: SecondElement, element: Any, version: tuple[int, ...]) -> N
     for field in ("acceleration", "deceleration", "jerk"):
         if limit is not None and (numbers := _numbers(own.get(field))):
             joint.put(f"limits.{field}", numbers, at)
-    for field, attribute in _OF_DYNAMICS.items():
+    for field, attribute in OF_DYNAMICS.items():
         if (number := _at(element, f"dynamics@{attribute}")) is not None:
             joint.put(f"dynamics.{field}", number, element.find("dynamics"))
     for tag, group, fields, default in (
