@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Change, Changes, by_deepdiff, compare, find_differences, moved_files, of_leaves
+from urdfsync.changes import Changes, by_deepdiff, compare, find_differences, moved_files, of_leaves
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
@@ -21,6 +21,7 @@ from urdfsync.domain import (
     Snapshot,
     Version,
 )
+from urdfsync.domain.changes import Change
 
 PLAIN = st.recursive(
     st.none() | st.booleans() | st.integers(-3, 3) | st.floats(-1, 1) | st.text("ab_[]'\"", max_size=3),

@@ -15,10 +15,10 @@ from support.commands import Execute
 from urdfsync import cli, config
 from urdfsync.checks.cache import LIMIT
 from urdfsync.checks.contents import MOST_BYTES
-from urdfsync.checks.experiment import TOLERANCE
 from urdfsync.checks.libraries import NEXT, OLDEST
 from urdfsync.checks.results import MOST_SINGLE_EDITS, CheckOptions
 from urdfsync.domain import Target
+from urdfsync.domain.experiment import TOLERANCE
 from urdfsync.engine.result import Exit
 from urdfsync.output.markdown import FOLDED
 from urdfsync.simulation.motion import MOST_ROWS

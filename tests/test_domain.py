@@ -13,18 +13,19 @@ import pytest
 from support.meshes import stl
 
 from urdfsync import config, registry
-from urdfsync.changes import Effects, compare
-from urdfsync.checks.experiment import Checks
+from urdfsync.changes import compare
 from urdfsync.config import Keys
-from urdfsync.config.advice import Advice
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target, Version
+from urdfsync.domain.advice import Advice
+from urdfsync.domain.bench import Benches
+from urdfsync.domain.changes import Effects
+from urdfsync.domain.experiment import Checks
+from urdfsync.domain.features import Mentions
+from urdfsync.domain.scene import Pictures
 from urdfsync.engine import generate
-from urdfsync.engine.imports import Mentions
 from urdfsync.files import Templates, digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
-from urdfsync.pages.scene import Pictures
-from urdfsync.simulation.bench import Benches
 from urdfsync.state import statefile
 from urdfsync.state.record import Generator, Record, as_read, as_recorded
 from urdfsync.urdf import advice, benches, scene

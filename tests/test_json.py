@@ -19,7 +19,6 @@ from support.commands import Execute
 from support.documents import is_described
 
 from urdfsync import cli, config
-from urdfsync.checks.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.checks.results import (
     CheckResult,
     CheckStatus,
@@ -32,6 +31,7 @@ from urdfsync.checks.results import (
 )
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.domain.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.identification.results import Excitation, FittedNumber, Identification, Unexcited

@@ -17,7 +17,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.config import library_folder as library_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.diagnostics import UrdfsyncError as UrdfsyncError
-from urdfsync.domain import Artifact, Reading, Target, Version
+from urdfsync.domain import Target, Version
 from urdfsync.engine.build import build as build_robots
 from urdfsync.engine.options import BuildOptions, Progress, no_progress
 from urdfsync.engine.result import Result
@@ -38,12 +38,6 @@ if TYPE_CHECKING:
 R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
 Place: TypeAlias = Config | Path | str | None
 """A configuration, or its file; None for the nearest `urdfsync.toml` in the working folder or above."""
-
-Recorder: TypeAlias = Callable[[Reading, str, Target, Any], tuple[Artifact, Sequence[Diagnostic]]]
-"""Returns a model as one record without a package, and the findings about it; the attribute `record` of a domain. Its
-arguments are a reading without errors, the source's name in diagnostics, the record's class and package, and options.
-No files are imported for the record. Pure.
-"""
 
 
 def ignore(_result: object) -> None:

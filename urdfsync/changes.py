@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import functools
 from collections import defaultdict
-from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, Protocol, TypeAlias
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
+from typing import Any
 
 import msgspec
 
@@ -14,15 +14,13 @@ from urdfsync.domain import (
     ChangeKind,
     Domain,
     ElementKey,
-    Features,
     Import,
-    Snapshot,
-    Target,
     Version,
     displaced,
     plain,
 )
-from urdfsync.matching import NOISE, Doubt, Matching, match
+from urdfsync.domain.changes import Change
+from urdfsync.matching import Doubt, Matching, match
 
 _KINDS = {
     "dictionary_item_added": ChangeKind.ADDED,
@@ -50,93 +48,6 @@ class Difference(msgspec.Struct, frozen=True):
         `unit` is the unit of both values, or `old → new` for two units; empty for a value without unit.
         """
         return Change(path, self.kind, change_class, self.old, self.new, unit)
-
-
-class Effect(msgspec.Struct, frozen=True):
-    """A property of the whole model in both versions; None for a version without it."""
-
-    path: tuple[str, ...]
-    old: Any
-    new: Any
-    unit: str = ""
-    hint: str = ""
-    """What the user should do; empty if there is nothing to do."""
-    limit: float | None = None
-    """The greatest allowed value in the new version."""
-
-
-class Effects(Protocol):
-    """Describes the effects of differences on the whole model; the attribute `effects` of a domain."""
-
-    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
-        """Return the effects of the differences on the whole model."""
-        ...
-
-    def loads(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
-        """Return each element's greatest load in the new version, with its limit; `old` is None for a new element."""
-        ...
-
-    def interface(
-        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
-    ) -> Sequence[Effect]:
-        """Return changed names of connectors and variables; `old` is None for a new name, `new` for a removed name.
-
-        `options` belong to the new version, and to an old version without `options`.
-        """
-        ...
-
-
-class Formats(Protocol):
-    """Compares models of one thing in different formats; the attribute `formats` of a domain."""
-
-    def coarse_features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
-        """Return features that another format of the same model has, too.
-
-        They count for elements of two versions that do not match by the domain's `features`.
-        """
-        ...
-
-    def in_common_frames(
-        self, old: Snapshot, new: Snapshot, renames: Mapping[ElementKey, str]
-    ) -> tuple[Snapshot, Snapshot]:
-        """Return the comparable parts of two models from different sources."""
-        ...
-
-
-class Change(msgspec.Struct, frozen=True):
-    """One change in the domain's words; `old` and `new` are plain data, None for a value that a version lacks."""
-
-    path: tuple[str, ...]
-    kind: ChangeKind
-    change_class: ChangeClass
-    old: Any
-    new: Any
-    unit: str = ""
-    noise: bool = False
-    """Whether only the rounding of a number may have changed. Builds apply such a change, too."""
-
-    def __post_init__(self) -> None:
-        """Set `noise`, which follows from the values."""
-        if is_number(self.old) and is_number(self.new):
-            is_noise = abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new))
-            msgspec.structs.force_setattr(self, "noise", is_noise)
-
-    @property
-    def element(self) -> str:
-        """Element of the change, for example `joint elbow`."""
-        return self.path[0]
-
-    def __str__(self) -> str:
-        """Return the path for people: `joint elbow / origin / xyz[2]`."""
-        return " / ".join(self.path)
-
-
-Describe: TypeAlias = Callable[[Version, Version, Mapping[ElementKey, str], Any], Iterable[Change]]
-"""Returns the changes from one version to another. Further arguments: new names by old elements, the new options.
-
-The attribute `describe` of a domain. Without it, additions and removals are structural changes. A value is a structural
-change if the text of a model changes (see `by_texts`), else a parameter change.
-"""
 
 
 class Changes(msgspec.Struct, frozen=True):
@@ -280,11 +191,6 @@ def moved_files(
             targets[key].append(path)
     pairs = ((paths, targets[key]) for key, paths in sources.items() if key in targets)
     return {old_paths[0]: new_paths[0] for old_paths, new_paths in pairs if len(old_paths) == len(new_paths) == 1}
-
-
-def is_number(value: object) -> bool:
-    """Return whether a value is a number; True and False are not."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def find_differences(

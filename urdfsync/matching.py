@@ -30,9 +30,7 @@ from typing import Any, TypeAlias
 import msgspec
 
 from urdfsync.domain import ElementKey, Features
-
-NOISE = 1e-6
-"""The greatest relative change of a number by an exporter's rounding."""
+from urdfsync.domain.changes import NOISE
 
 Elements: TypeAlias = Mapping[ElementKey, Features]
 

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.checks.compilation import compare, edit_effects
-from urdfsync.checks.experiment import TOLERANCE, Compared, Deviation, Quantity
 from urdfsync.checks.results import EditEffect
+from urdfsync.domain.experiment import TOLERANCE, Compared, Deviation, Quantity
 
 FILES = ["A.mo", "B.mo", "C.mo"]
 OWNERS = {"A.mo": "joint a", "B.mo": "joint b", "C.mo": "joint b"}

@@ -11,11 +11,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.checks.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.checks.report import closing_lines
 from urdfsync.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
 from urdfsync.commands.check import show_result
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.output.console import Console
 
 Capture = pytest.CaptureFixture[str]

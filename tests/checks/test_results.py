@@ -7,7 +7,6 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync.checks.experiment import Aspect, Deviation, Quantity
 from urdfsync.checks.results import (
     CheckResult,
     CheckStatus,
@@ -19,6 +18,7 @@ from urdfsync.checks.results import (
     worst,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain.experiment import Aspect, Deviation, Quantity
 from urdfsync.engine.result import Exit
 
 ELBOW = Deviation(Quantity.EFFORT, "joint elbow", 0.4, 12.5, 60.0, "N·m", Aspect.LOSSES)

@@ -16,8 +16,8 @@ from support.modelica import URDFSYNC
 from support.packages import generate
 from support.urdfs import dynamics, every_number, joint, limit, link, links, mimic, robot
 
-from urdfsync.checks.experiment import Aspect, Deviation, Quantity
 from urdfsync.domain import Target
+from urdfsync.domain.experiment import Aspect, Deviation, Quantity
 from urdfsync.urdf.robot import LOSSES, SENSOR_KINDS
 
 pytestmark = pytest.mark.slow

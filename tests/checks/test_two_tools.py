@@ -10,13 +10,13 @@ from support.checks import status
 
 from urdfsync.checks.compilation import compare_all
 from urdfsync.checks.compilers.compiler import Tool
-from urdfsync.checks.experiment import Compared, Experiment, Probe, Quantity, Trial
 from urdfsync.checks.process import Limits
 from urdfsync.checks.report import closing_lines
 from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, ToolResult
 from urdfsync.checks.robot import run_compilations
 from urdfsync.commands.check import show_result
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain.experiment import Compared, Experiment, Probe, Quantity, Trial
 from urdfsync.output.console import Console
 
 TOOLS = (Tool("rumoca"), Tool("omc"))

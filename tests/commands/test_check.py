@@ -12,10 +12,10 @@ import pytest
 
 from urdfsync import cli
 from urdfsync.checks.compilers.compiler import Tool
-from urdfsync.checks.experiment import Deviation, Quantity
 from urdfsync.checks.results import CheckOptions, CheckResult, EditEffect, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain.experiment import Deviation, Quantity
 from urdfsync.engine.options import Progress
 
 Capture = pytest.CaptureFixture[str]

@@ -13,9 +13,10 @@ from support.commands import Execute
 from support.files import unchanged
 
 from urdfsync.diagnostics import ConfigError, SourceError, UrdfsyncError
+from urdfsync.domain.regressor import Axis
 from urdfsync.identification.bag import Bag
 from urdfsync.identification.log import Log
-from urdfsync.identification.results import Axis, IdentifyOptions
+from urdfsync.identification.results import IdentifyOptions
 
 rosbag2 = pytest.importorskip("rosbags.rosbag2")
 typesys = pytest.importorskip("rosbags.typesys")

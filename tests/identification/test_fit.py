@@ -10,6 +10,7 @@ from benchmarks.identification import SOURCES, trials
 from support.measured import GRIPPER
 
 import urdfsync
+from urdfsync.domain.regressor import MovingLink
 from urdfsync.engine.options import no_progress
 from urdfsync.identification import run
 from urdfsync.identification.fit import (
@@ -19,7 +20,7 @@ from urdfsync.identification.fit import (
     pseudo_inertia,
     pseudo_inertia_slopes,
 )
-from urdfsync.identification.results import IdentifyOptions, MovingLink
+from urdfsync.identification.results import IdentifyOptions
 
 BOX = MovingLink(
     "box", np.array([2.0, 0.1, -0.2, 0.3, 0.02, 0.03, 0.04, 0.001, -0.002, 0.003]), np.eye(3), is_first=True

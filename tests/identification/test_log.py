@@ -11,8 +11,9 @@ from support import measured
 from support.commands import Execute
 
 from urdfsync.diagnostics import ConfigError, SourceError
+from urdfsync.domain.regressor import Axis
 from urdfsync.identification.log import Log
-from urdfsync.identification.results import Axis, IdentifyOptions
+from urdfsync.identification.results import IdentifyOptions
 
 ELBOW = Axis("elbow", "elbow", "rad", 0.0, (-1.5, 1.5), 3.0, 20.0, 50.0, "position", "elbow_phi")
 SLIDE = Axis("slide-1", "slide_1", "m", 0.2, (0.0, 0.5), 1.0, 90.0, 1.0, "position", "slide_1_s")

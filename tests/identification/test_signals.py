@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from urdfsync.domain.regressor import Axis
 from urdfsync.identification.log import LogPiece
-from urdfsync.identification.results import Axis
 from urdfsync.identification.signals import find_cutoff, prepare, target_at, thinned
 
 AXIS = Axis("elbow", "elbow", "rad", 0.0, (-9, 9), 9.0, np.inf, 1.0, "position", "elbow_phi")

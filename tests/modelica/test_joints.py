@@ -15,8 +15,8 @@ from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
 from urdfsync.checks.compilers import omc
-from urdfsync.checks.experiment import Quantity
 from urdfsync.domain import Target
+from urdfsync.domain.experiment import Quantity
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reference import Reference, read

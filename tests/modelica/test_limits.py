@@ -18,7 +18,7 @@ from support.packages import generate, strict
 from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
-from urdfsync.simulation.bench import JointSignals, Signal
+from urdfsync.domain.bench import JointSignals, Signal
 from urdfsync.simulation.joints import joint_results
 from urdfsync.urdf.benches import bench as bench_of
 

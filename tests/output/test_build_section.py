@@ -14,8 +14,8 @@ from support.files import unchanged
 from support.networks import edit
 from support.schemas import validate
 
-from urdfsync.checks.experiment import Deviation, Quantity
 from urdfsync.checks.results import CheckResult, ToolResult
+from urdfsync.domain.experiment import Deviation, Quantity
 from urdfsync.engine.result import Exit
 
 URDF = """<robot name="arm">

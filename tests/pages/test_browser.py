@@ -14,9 +14,9 @@ from support.browser import NEEDS_CHROMIUM, Page
 from support.corpus import REPOSITORY
 
 from urdfsync import cli, config
-from urdfsync.checks.experiment import Quantity
 from urdfsync.checks.results import CheckResult, Curve, ToolResult
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain.experiment import Quantity
 from urdfsync.engine.options import BuildOptions
 from urdfsync.pages.content import gather
 from urdfsync.pages.page import page as page_of

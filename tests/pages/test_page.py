@@ -17,8 +17,8 @@ from support.pages import Elements, data_of, read
 
 from urdfsync import cli, config
 from urdfsync.checks.cache import UserCache
-from urdfsync.checks.experiment import Deviation, Quantity
 from urdfsync.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
+from urdfsync.domain.experiment import Deviation, Quantity
 from urdfsync.engine.options import BuildOptions
 from urdfsync.pages import page as page_module
 from urdfsync.pages.content import gather

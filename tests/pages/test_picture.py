@@ -13,8 +13,8 @@ from support.commands import Execute
 from support.meshes import NODES, tenfold
 from support.pages import data_of, faces_of, read
 
+from urdfsync.domain.scene import PageMesh
 from urdfsync.engine.result import Exit
-from urdfsync.pages.scene import PageMesh
 from urdfsync.urdf import scene
 
 Report = Callable[..., Path]

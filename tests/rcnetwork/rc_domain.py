@@ -17,8 +17,7 @@ from typing import Any
 import msgspec
 from msgspec.structs import replace
 
-from urdfsync.changes import Change, find_differences
-from urdfsync.config.advice import Advice, Proposal
+from urdfsync.changes import find_differences
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import (
     Artifact,
@@ -39,6 +38,8 @@ from urdfsync.domain import (
     displaced,
     plain,
 )
+from urdfsync.domain.advice import Advice, Proposal
+from urdfsync.domain.changes import Change
 from urdfsync.state.record import as_recorded
 
 GROUND = "ground"

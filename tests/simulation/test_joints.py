@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from urdfsync.simulation.bench import Bench, JointSignals, LoopSignals, Signal
+from urdfsync.domain.bench import Bench, JointSignals, LoopSignals, Signal
 from urdfsync.simulation.joints import joint_results, loop_results, pattern, robots
 from urdfsync.simulation.results import LoopResult, PassedLimit, Range
 

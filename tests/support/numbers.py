@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from support.packages import Package, generate
-from urdfsync.checks.experiment import Mismatch, Numbers, Sample
 from urdfsync.domain import Companion, Target
+from urdfsync.domain.experiment import Mismatch, Numbers, Sample
 from urdfsync.urdf.second.comparison import compare_numbers
 
 BOT = Target("Bot", "Bot")

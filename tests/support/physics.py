@@ -13,9 +13,9 @@ from support import recorded_omc
 from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
 from urdfsync.checks import compilation
-from urdfsync.checks.experiment import Deviation, Experiment, Sample
 from urdfsync.checks.flags import flagged
 from urdfsync.domain import Target
+from urdfsync.domain.experiment import Deviation, Experiment, Sample
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 

@@ -7,7 +7,7 @@ from support.loops import FIVE_BAR
 from support.robots import tree
 
 from urdfsync.domain import Target
-from urdfsync.simulation.bench import Bench, JointSignals, Signal
+from urdfsync.domain.bench import Bench, JointSignals, Signal
 from urdfsync.urdf import benches
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options

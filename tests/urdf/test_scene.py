@@ -9,7 +9,7 @@ from support.loops import FOUR_BAR
 from support.robots import tree
 
 from urdfsync.domain import Target
-from urdfsync.pages.scene import Scene
+from urdfsync.domain.scene import Scene
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     Box,

@@ -25,7 +25,6 @@ from urdfsync.checks.compilers.compiler import (
     compile_task,
     one_line,
 )
-from urdfsync.checks.experiment import Compared, Deviation, Experiment, Trial
 from urdfsync.checks.flags import with_flags
 from urdfsync.checks.jobs import Jobs
 from urdfsync.checks.libraries import Libraries
@@ -41,6 +40,7 @@ from urdfsync.checks.results import (
     listed,
 )
 from urdfsync.diagnostics import Diagnostic, Severity, findings_of
+from urdfsync.domain.experiment import Compared, Deviation, Experiment, Trial
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
 from urdfsync.modelica.parser import parse

@@ -12,8 +12,8 @@ import msgspec
 from urdfsync.checks import libraries
 from urdfsync.checks.package import RobotPackage
 from urdfsync.checks.results import listed
-from urdfsync.config.advice import brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain.advice import brings_back
 from urdfsync.files import shown
 from urdfsync.modelica.classes import ClassNode
 from urdfsync.modelica.files import class_of_file, files_that_use, place_of, text_of

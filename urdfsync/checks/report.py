@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import PurePath
 
-from urdfsync.checks.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.checks.results import (
     KINDS,
     CheckResult,
@@ -20,6 +19,7 @@ from urdfsync.checks.results import (
     worst,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.output.console import StyledLine, line
 from urdfsync.output.sections import Mark, Section, TextTable
 from urdfsync.spelling import counted

@@ -11,9 +11,9 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.checks.compilers.compiler import Tool
-from urdfsync.checks.experiment import Aspect, Deviation, Numbers, Quantity
 from urdfsync.config import ros_package_path
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain.experiment import Aspect, Deviation, Numbers, Quantity
 from urdfsync.engine.result import Exit
 from urdfsync.spelling import counted
 

@@ -15,7 +15,6 @@ from urdfsync.checks import compilers, process, texts
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilation import Compilation, compare_all
 from urdfsync.checks.contents import Hashes
-from urdfsync.checks.experiment import Checks, Experiment, Mismatch, Numbers, Sample
 from urdfsync.checks.fingerprint import PHYSICS, fingerprint
 from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
@@ -26,6 +25,7 @@ from urdfsync.checks.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.reads import read_file
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.domain.experiment import Checks, Experiment, Mismatch, Numbers, Sample
 from urdfsync.engine.expansion import SourceFiles, compare
 from urdfsync.engine.judgements import judge
 from urdfsync.engine.options import BuildOptions

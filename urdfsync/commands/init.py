@@ -18,10 +18,10 @@ import tomli_w
 from urdfsync import config, registry
 from urdfsync.commands import arguments, merge_driver
 from urdfsync.config import schema
-from urdfsync.config.advice import Proposal
 from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Version
+from urdfsync.domain.advice import Proposal
 from urdfsync.engine import source as source_files
 from urdfsync.engine.judgements import judge
 from urdfsync.engine.result import Exit

@@ -17,11 +17,11 @@ import msgspec
 
 from urdfsync.changes import Changes
 from urdfsync.config import Config
-from urdfsync.config.advice import brings_back
 from urdfsync.dependencies import reads
 from urdfsync.dependencies.reads import walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Snapshot
+from urdfsync.domain.advice import brings_back
 from urdfsync.engine.actions import Actions, Reason
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.differences import GONE, Differences

@@ -7,10 +7,10 @@ import itertools
 import os
 import re
 import stat
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
-from typing import Any, Protocol
+from typing import Any
 
 import msgspec
 
@@ -216,24 +216,6 @@ class _Importer(msgspec.Struct):
             self.result.add(key, entry, file.copy if file.hash == target_hash else None)
         message = f"{trouble.message}; the imported copy is kept"
         return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message)
-
-
-class Mentions(Protocol):
-    """Names the other files that a conversion needs, and reports on imported files; a domain's attribute `imports`."""
-
-    def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
-        """Return other files that the conversion needs: paths from the folder of the dependency's own file.
-
-        The core calls this for the dependency's file, then for each file in a result. Pure.
-        """
-        ...
-
-    def findings(self, imports: Mapping[str, Import], snapshot: Snapshot) -> Iterable[tuple[str, Diagnostic]]:
-        """Return diagnostics about imported files, each with the key of its file; an empty key stands for all files.
-
-        The core adds the line of the dependency.
-        """
-        ...
 
 
 def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:

@@ -5,30 +5,15 @@ A judgement follows from the model alone, so the recorded model tells which ones
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from typing import Protocol
+from collections.abc import Collection, Iterator, Mapping
 
 import msgspec
 
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Domain, ElementKey, Reading, Version
+from urdfsync.domain.features import Judgements
 from urdfsync.engine.last_build import NO_MODEL
-
-
-class Judgements(Protocol):
-    """Judges models; the attribute `judgements` of a domain. Findings have an `element`, and no place. Pure."""
-
-    def judge(self, version: Version, changed: Collection[str]) -> Iterable[Diagnostic]:
-        """Return warnings about parts of a valid model that can hardly be meant.
-
-        Of two parts that contradict each other, one in `changed`, such as `link hand`, is told as the wrong one.
-        """
-        ...
-
-    def find_jumps(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterable[Diagnostic]:
-        """Return warnings about differences that look like mistakes of the export."""
-        ...
 
 
 def judge(

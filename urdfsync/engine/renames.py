@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import PurePath
 
-from urdfsync.changes import Formats
 from urdfsync.domain import Domain, ElementKey, Features, Snapshot, displaced
+from urdfsync.domain.changes import Formats
 from urdfsync.engine.inputs import Inputs
 from urdfsync.matching import Doubt, Elements, Matching, match
 

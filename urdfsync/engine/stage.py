@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError
-from urdfsync.domain import Import, Snapshot, Target
 from urdfsync.engine.actions import Action, Actions
 from urdfsync.engine.aside import put_aside, tell_aside
 from urdfsync.engine.decide import Decision
@@ -31,11 +30,6 @@ from urdfsync.state.notes import Notes
 from urdfsync.state.record import Record
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange, Writes
-
-Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any, Mapping[str, tuple[str, str]]], str | None]
-"""Returns the main model's diagram as SVG text; None for a model without a diagram. Pure. A domain's attribute
-`drawing`. The last argument has the texts of the package that differ from the generated ones: by path, the generated
-text, empty for a class of the user's own, and the text on disk."""
 
 
 class Plan(msgspec.Struct, frozen=True):

@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from collections.abc import Set as AbstractSet
-from typing import Any, Protocol
+from typing import Any
 
 import msgspec
 
-from urdfsync.changes import Change, Changes
+from urdfsync.changes import Changes
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.domain import Artifact, ChangeClass, ChangeKind, Domain, Order, Reading, Snapshot, Target, Version
+from urdfsync.domain import Artifact, ChangeClass, ChangeKind, Domain, Order, Reading, Target, Version
+from urdfsync.domain.changes import Change
 from urdfsync.engine.generate import Package
 from urdfsync.files import Templates
 
 CODE = "unused"
 IMPORTS = "imports"
 """Stands for the owners of imported files."""
-
-
-class Parts(Protocol):
-    """The parts of a model that templates need not use, such as `column mass`; a domain's attribute `parts`."""
-
-    def without_each(self, snapshot: Snapshot, options: Any) -> Mapping[str, Snapshot]:
-        """Return for each part the model without it."""
-        ...
-
-    def part_of(self, path: Sequence[str]) -> str:
-        """Return the part that a change belongs to, by the change's path; empty if it belongs to none."""
-        ...
 
 
 def find_unused(

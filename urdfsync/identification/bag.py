@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from urdfsync.diagnostics import ConfigError, SourceError, UrdfsyncError
+from urdfsync.domain.regressor import QUANTITIES, Array
 from urdfsync.extras import install_command
 from urdfsync.files import shown
-from urdfsync.identification.results import QUANTITIES, Array
 
 SUFFIXES = (".mcap", ".db3")
 _TYPE = "sensor_msgs/msg/JointState"

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from urdfsync.domain.regressor import Array, Axis, Regressor
 from urdfsync.engine.options import Progress
 from urdfsync.identification.fit import LeastSquares, is_body
-from urdfsync.identification.results import Array, Axis, Regressor
 
 _HARMONICS, _RATE, _LOOKS = 5, 50.0, 80
 _TRIES, _STEPS = 12, 60

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from urdfsync.identification.results import Array, Loss, MovingLink
+from urdfsync.domain.regressor import Array, Loss, MovingLink
 from urdfsync.identification.signals import shift_slopes, target_at
 
 _EXCITED = 3.0

@@ -17,10 +17,11 @@ from typing import Any, NamedTuple, NoReturn
 import numpy as np
 
 from urdfsync.diagnostics import ConfigError, SourceError
+from urdfsync.domain.regressor import QUANTITIES, Array, Axis
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, shown
 from urdfsync.identification.bag import SUFFIXES, Bag
-from urdfsync.identification.results import QUANTITIES, Array, Axis, IdentifyOptions
+from urdfsync.identification.results import IdentifyOptions
 from urdfsync.numerals import find_separator
 from urdfsync.simulation.motion import UNITS
 from urdfsync.spelling import counted, name_and_unit

@@ -7,15 +7,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync import registry
-from urdfsync.checks.experiment import Sample
 from urdfsync.checks.package import RobotPackage, read_package
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Role
+from urdfsync.domain.experiment import Sample
+from urdfsync.domain.regressor import Regressor
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import failure, put, shown
-from urdfsync.identification.results import FittedNumber, Regressor
+from urdfsync.identification.results import FittedNumber
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.values import Value, literals, read_values
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from urdfsync.checks.results import JointFit
-from urdfsync.identification.results import NUMBERS, Excitation, FittedNumber, Identification, Unexcited
+from urdfsync.domain.regressor import NUMBERS
+from urdfsync.identification.results import Excitation, FittedNumber, Identification, Unexcited
 from urdfsync.output.console import StyledLine, file_lines, findings, html, line, table_lines
 from urdfsync.spelling import counted
 

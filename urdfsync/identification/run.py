@@ -11,6 +11,7 @@ import numpy as np
 from urdfsync.checks.results import JointFit, Judgement
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
+from urdfsync.domain.regressor import NUMBERS, QUANTITIES, Array, MovingLink, Regressor
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.identification import signals
@@ -18,16 +19,11 @@ from urdfsync.identification.fit import Evidence, Fit, LeastSquares, fit, is_bod
 from urdfsync.identification.log import Log
 from urdfsync.identification.records import Records, read_records
 from urdfsync.identification.results import (
-    NUMBERS,
-    QUANTITIES,
-    Array,
     EffortSeries,
     Excitation,
     FittedNumber,
     Identification,
     IdentifyOptions,
-    MovingLink,
-    Regressor,
     Unexcited,
 )
 from urdfsync.spelling import nearest

@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from urdfsync.domain.regressor import Array, Axis
 from urdfsync.identification.log import LogPiece
-from urdfsync.identification.results import Array, Axis
 
 SHIFTS = np.linspace(-0.1, 0.1, 21)
 """Times in s by which efforts are moved against positions, to find a delay."""

@@ -14,8 +14,9 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from urdfsync.changes import Change, Changes, Effect, is_number
+from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind
+from urdfsync.domain.changes import Change, Effect, is_number
 from urdfsync.output.sections import TextTable
 from urdfsync.spelling import same_count
 

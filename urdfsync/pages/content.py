@@ -8,10 +8,12 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.changes import Changes, Effect, compare
+from urdfsync.changes import Changes, compare
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
+from urdfsync.domain.changes import Effect
+from urdfsync.domain.scene import Body, Hinge, LoopConstraint, Scene
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generate import Package
@@ -26,7 +28,6 @@ from urdfsync.files import shown
 from urdfsync.output.outline import number_table, outline
 from urdfsync.output.sections import Section, TextTable
 from urdfsync.pages.picture import Picture, picture
-from urdfsync.pages.scene import Body, Hinge, LoopConstraint, Scene
 from urdfsync.versions.comparison import Comparison, VersionContents, compare_sources
 from urdfsync.versions.report import to_section
 

@@ -17,9 +17,10 @@ from typing import Any
 import markupsafe
 import msgspec
 
-from urdfsync.checks.experiment import Deviation
 from urdfsync.checks.report import to_section as check_section
 from urdfsync.checks.results import CheckResult
+from urdfsync.domain.experiment import Deviation
+from urdfsync.domain.scene import PageMesh
 from urdfsync.output.conflicts import difference_lines, settle_hint
 from urdfsync.output.edits import to_section as edits_section
 from urdfsync.output.markdown import html_environment, words
@@ -27,7 +28,6 @@ from urdfsync.output.phrases import reason
 from urdfsync.output.sections import findings_table
 from urdfsync.pages import threejs
 from urdfsync.pages.content import Content
-from urdfsync.pages.scene import PageMesh
 from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
 from urdfsync.version import __version__

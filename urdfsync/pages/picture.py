@@ -13,11 +13,11 @@ from urdfsync.checks import cache as caches
 from urdfsync.dependencies.reads import read_file
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Import
+from urdfsync.domain.scene import PageMesh, Pictures, Scene
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.files import digest, shown
-from urdfsync.pages.scene import PageMesh, Pictures, Scene
 from urdfsync.versions.comparison import VersionContents
 
 _MOST, _LEAST = 500_000, 200

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from urdfsync.simulation.bench import Bench, JointSignals, Signal
+from urdfsync.domain.bench import Bench, JointSignals, Signal
 from urdfsync.simulation.results import JointResult, LoopResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300

@@ -18,12 +18,12 @@ from urdfsync.checks.process import limits_of
 from urdfsync.checks.texts import check_around, check_layout
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.domain.bench import Bench
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.stored import StoredClasses
-from urdfsync.simulation.bench import Bench
 from urdfsync.simulation.models import Model, find_model
 from urdfsync.simulation.results import SimulateOptions
 from urdfsync.simulation.values import find_unknown, read_values

@@ -1,9 +1,9 @@
-"""Names the model that simulates a package of a table; `urdfsync.simulation.bench.Benches` describes the function."""
+"""Names the model that simulates a package of a table; `urdfsync.domain.bench.Benches` describes the function."""
 
 from __future__ import annotations
 
 from urdfsync.domain import Target
-from urdfsync.simulation.bench import Bench
+from urdfsync.domain.bench import Bench
 from urdfsync.table.model import Table, TableOptions
 
 

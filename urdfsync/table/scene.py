@@ -1,6 +1,6 @@
 """A table as a picture: a box for each element, a line for each connection.
 
-`urdfsync.pages.scene.Pictures` describes the functions.
+`urdfsync.domain.scene.Pictures` describes the functions.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.domain import Import, Target
-from urdfsync.pages.scene import Body, Hinge, PageMesh, PagePose, Scene, Shape
+from urdfsync.domain.scene import Body, Hinge, PageMesh, PagePose, Scene, Shape
 from urdfsync.table.model import FROM, TO, Table, TableOptions, shown_unit
 from urdfsync.table.names import component_name
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from urdfsync.config.advice import Proposal
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Target
+from urdfsync.domain.advice import Proposal
 from urdfsync.table.model import Table
 
 

@@ -1,4 +1,4 @@
-"""Options that suit a robot; `urdfsync.config.advice.Advice` describes the functions."""
+"""Options that suit a robot; `urdfsync.domain.advice.Advice` describes the functions."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 from typing import get_args
 
-from urdfsync.config.advice import Proposal
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Target
+from urdfsync.domain.advice import Proposal
 from urdfsync.urdf.assembly import Assembly, connector_options
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import natural_key

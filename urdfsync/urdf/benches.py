@@ -1,15 +1,15 @@
 """Describes how a generated robot is compiled, compared and simulated.
 
-`urdfsync.checks.experiment.Checks` and `urdfsync.simulation.bench.Benches` describe the functions.
+`urdfsync.domain.experiment.Checks` and `urdfsync.domain.bench.Benches` describe the functions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from urdfsync.checks.experiment import Experiment, Numbers, Sample
 from urdfsync.domain import Target
-from urdfsync.simulation.bench import Bench, JointSignals, LoopSignals, Signal
+from urdfsync.domain.bench import Bench, JointSignals, LoopSignals, Signal
+from urdfsync.domain.experiment import Experiment, Numbers, Sample
 from urdfsync.urdf.artifacts import has_bench
 from urdfsync.urdf.artifacts import models as package_models
 from urdfsync.urdf.assembly import Assembly

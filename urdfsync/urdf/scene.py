@@ -9,8 +9,8 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Import, Target
-from urdfsync.pages import scene as scenes
-from urdfsync.pages.scene import Body, End, Hinge, PagePose, Scene, Shape
+from urdfsync.domain import scene as scenes
+from urdfsync.domain.scene import Body, End, Hinge, PagePose, Scene, Shape
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics import poses
 from urdfsync.urdf.kinematics.loops import ClosedLoops, Closure

@@ -17,11 +17,12 @@ from typing import NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync import changes, registry
-from urdfsync.changes import Changes, Effect
+from urdfsync.changes import Changes
 from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.config.load import parse as parse_config
 from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
 from urdfsync.domain import ChangeClass, Domain, Lookup, Reading, Role, Target, Version
+from urdfsync.domain.changes import Effect
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Reason

@@ -14,9 +14,9 @@ from urdfsync import cli, config
 from urdfsync.checks import compilers
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers import omc
-from urdfsync.checks.experiment import Quantity
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus
 from urdfsync.checks.robot import check_robot
+from urdfsync.domain.experiment import Quantity
 
 pytestmark = [
     pytest.mark.slow,

@@ -8,8 +8,8 @@ import msgspec
 import pytest
 from support.urdfs import joint, limit, link, links, version
 
-from urdfsync.changes import Effect
 from urdfsync.domain import ElementKey, Target, Version
+from urdfsync.domain.changes import Effect
 from urdfsync.urdf.diff.effects import effects, interface, loads
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options

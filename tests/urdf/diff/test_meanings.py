@@ -12,8 +12,9 @@ import pytest
 import support.urdfs as urdfs
 from support.packages import read
 
-from urdfsync.changes import Change, compare
+from urdfsync.changes import compare
 from urdfsync.domain import ChangeClass, ChangeKind, Import, Version
+from urdfsync.domain.changes import Change
 from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.meshes import lookup

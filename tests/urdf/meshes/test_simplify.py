@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from support.meshes import stl
 
-from urdfsync.pages.scene import PageMesh
+from urdfsync.domain.scene import PageMesh
 from urdfsync.urdf.meshes.convert import triangles
 
 KEY = "a.stl scale 1.0 1.0 1.0"

@@ -7,9 +7,9 @@ from support.numbers import BOT, differences, of_package
 from support.packages import generate
 from support.urdfs import joint, link, robot
 
-from urdfsync.checks.experiment import Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Companion
+from urdfsync.domain.experiment import Sample
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.closures import read_closures

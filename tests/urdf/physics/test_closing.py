@@ -9,8 +9,8 @@ import pytest
 from msgspec.structs import replace
 from support.loops import FOUR_BAR, ROBOTS, joint, to_urdf
 
-from urdfsync.checks.experiment import Sample
 from urdfsync.domain import Target
+from urdfsync.domain.experiment import Sample
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.completion import completed_for_pinocchio

@@ -13,9 +13,9 @@ from support.loops import FOUR_BAR, to_options, to_urdf
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
 from urdfsync.checks.compilation import compare_all
-from urdfsync.checks.experiment import TOLERANCE, Aspect, Experiment, Quantity, Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
+from urdfsync.domain.experiment import TOLERANCE, Aspect, Experiment, Quantity, Sample
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.reference import read

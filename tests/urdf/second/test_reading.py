@@ -13,9 +13,9 @@ import yourdfpy
 from support.numbers import compare
 from support.urdfs import joint, link, links, mimic, robot
 
-from urdfsync.checks.experiment import Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Target
+from urdfsync.domain.experiment import Sample
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.second.comparison import compare_numbers

@@ -70,7 +70,7 @@ class _Part(NamedTuple):
 def draw(robot: Robot, target: Target, options: Options, differing: Mapping[str, tuple[str, str]]) -> str:
     """Return the diagram of the robot model on disk as SVG, with masses and ratios.
 
-    `differing` is as `urdfsync.engine.stage.Drawing` says.
+    `differing` is as `urdfsync.domain.features.Drawing` says.
     """
     assembly = Assembly(robot, options, target)
     names = assembly.connectors

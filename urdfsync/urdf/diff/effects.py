@@ -6,9 +6,9 @@ import functools
 import math
 from collections.abc import Mapping, Sequence
 
-from urdfsync.changes import Effect
-from urdfsync.config.advice import brings_back
 from urdfsync.domain import ElementKey, Target, Version, displaced
+from urdfsync.domain.advice import brings_back
+from urdfsync.domain.changes import Effect
 from urdfsync.processes import machine
 from urdfsync.urdf.assembly import Assembly, connector_options
 from urdfsync.urdf.connectors import Connectors, input_vector

@@ -13,8 +13,9 @@ from typing import Any, NamedTuple, TypeAlias
 
 import msgspec
 
-from urdfsync.changes import Change, Difference, find_differences
+from urdfsync.changes import Difference, find_differences
 from urdfsync.domain import ChangeClass, ChangeKind, ElementKey, Import, Version
+from urdfsync.domain.changes import Change
 from urdfsync.urdf import robot
 from urdfsync.urdf.diff.renames import comparable, renamed
 from urdfsync.urdf.drives import can_be_driven, wanted_joints

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
-from urdfsync.pages.scene import PageMesh
+from urdfsync.domain.scene import PageMesh
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.meshes.process import MeshError, MeshProcess, MeshRequest
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import msgspec
 import numpy as np
 
-from urdfsync.checks.experiment import Aspect, Compared, Experiment, Quantity, Sample, Trial
 from urdfsync.diagnostics import SourceError
+from urdfsync.domain.experiment import Aspect, Compared, Experiment, Quantity, Sample, Trial
 from urdfsync.urdf.drives import by_effort, friction_law, is_chosen, sharing_joint
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import obstacles
@@ -32,7 +32,7 @@ _MOST_AXES = 20
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
-    """Return the comparison, see `urdfsync.checks.experiment.Checks`.
+    """Return the comparison, see `urdfsync.domain.experiment.Checks`.
 
     Moving links without a mass get inertias. Raises SourceError if the source has an error, or if
     Pinocchio is missing or can't read the source.

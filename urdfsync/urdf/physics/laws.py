@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfsync.checks.experiment import Aspect, Compared, Probe, Quantity, Trial
+from urdfsync.domain.experiment import Aspect, Compared, Probe, Quantity, Trial
 from urdfsync.urdf.physics import probe
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MECHANISMS

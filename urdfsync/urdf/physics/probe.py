@@ -11,8 +11,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.checks.experiment import Probe
 from urdfsync.domain import Target
+from urdfsync.domain.experiment import Probe
 from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.model.loop import loop_reaches

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.checks.experiment import Aspect, Compared, Quantity
+from urdfsync.domain.experiment import Aspect, Compared, Quantity
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.closing import OpenLoopError

@@ -13,9 +13,9 @@ from xml.etree.ElementTree import SubElement, tostring
 
 import numpy as np
 
-from urdfsync.checks.experiment import Sample
 from urdfsync.diagnostics import SourceError
-from urdfsync.identification.results import JOINT_NUMBERS, Axis, Loss, MovingLink
+from urdfsync.domain.experiment import Sample
+from urdfsync.domain.regressor import JOINT_NUMBERS, Axis, Loss, MovingLink
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
 from urdfsync.urdf.parse import xml

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from urdfsync.checks.experiment import Sample
 from urdfsync.domain import Import
+from urdfsync.domain.experiment import Sample
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.drives import sharing_joint
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions

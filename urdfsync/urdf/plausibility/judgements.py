@@ -1,4 +1,4 @@
-"""All judgements about a robot; `urdfsync.engine.judgements.Judgements` describes the functions."""
+"""All judgements about a robot; `urdfsync.domain.features.Judgements` describes the functions."""
 
 from __future__ import annotations
 

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from urdfsync.checks.experiment import Mismatch, Numbers, Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import further_key
+from urdfsync.domain.experiment import Mismatch, Numbers, Sample
 from urdfsync.modelica.literals import string
 from urdfsync.modelica.values import Value, literals, read_values
 from urdfsync.spelling import counted

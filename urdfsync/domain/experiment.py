@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import msgspec
 
-from urdfsync.domain import Companion, Import, Snapshot, Target
+from urdfsync.domain.model import Companion, Import, Snapshot, Target
 
 
 class Aspect(enum.StrEnum):

@@ -6,7 +6,7 @@ from typing import Any, Protocol
 
 import msgspec
 
-from urdfsync.domain import Snapshot, Target
+from urdfsync.domain.model import Snapshot, Target
 
 
 class Signal(msgspec.Struct, frozen=True):

@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeAlias
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Snapshot, Target
+from urdfsync.domain.model import Snapshot, Target
 
 
 class Proposal(msgspec.Struct, frozen=True):

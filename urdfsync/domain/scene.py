@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeAlias
 
 import msgspec
 
-from urdfsync.domain import Import, Snapshot, Target
+from urdfsync.domain.model import Import, Snapshot, Target
 
 PagePose: TypeAlias = tuple[float, ...]
 """16 numbers of a homogeneous matrix, column after column, as WebGL has them."""
