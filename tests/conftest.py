@@ -102,7 +102,7 @@ def _plain_environment(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture(autouse=True)
 def _no_reading_of_another_test() -> None:
     """A test that breaks a reader gets no source that an earlier test has read in the same process."""
-    if source := sys.modules.get("urdfsync.engine.source"):
+    if source := sys.modules.get("urdfsync.engine.sources.source"):
         source._read_model.cache_clear()
 
 

@@ -23,7 +23,7 @@ from urdfsync.domain.changes import Effects
 from urdfsync.domain.experiment import Checks
 from urdfsync.domain.features import Mentions
 from urdfsync.domain.scene import Pictures
-from urdfsync.engine import generate
+from urdfsync.engine.package import generate
 from urdfsync.files import Templates, digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
 from urdfsync.state import statefile

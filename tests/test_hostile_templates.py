@@ -11,7 +11,8 @@ from support import hostile
 from support.networks import configure
 
 from urdfsync import cli
-from urdfsync.engine import render, source
+from urdfsync.engine.package import render
+from urdfsync.engine.sources import source
 
 Capture = pytest.CaptureFixture[str]
 

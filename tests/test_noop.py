@@ -25,8 +25,9 @@ from support.screen import print_on_terminal
 
 from urdfsync import cli, noop
 from urdfsync.dependencies import facts, program, record
-from urdfsync.engine import last_build, remembered
-from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine import remembered
+from urdfsync.engine.inspect import last_build
+from urdfsync.engine.inspect.package_files import PackageFiles
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]

@@ -18,7 +18,7 @@ from support.replay import Files, Fresh, Project, Stamps, without_former
 
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.result import Result
-from urdfsync.engine.translators import is_xacro
+from urdfsync.engine.sources.translators import is_xacro
 from urdfsync.matching import match
 from urdfsync.state import statefile
 from urdfsync.urdf.domain import DOMAIN

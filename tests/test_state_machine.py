@@ -32,7 +32,7 @@ from support.edits import Line
 from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link
 
-from urdfsync.engine import decide
+from urdfsync.engine.decide import decision as decide
 
 pytestmark = [NEEDS_GIT, pytest.mark.slow]
 

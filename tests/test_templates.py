@@ -22,7 +22,7 @@ from support.golden import TEMPLATES, Piece, pieces
 from support.marks import lines_shown, marked_lines
 
 from urdfsync.domain import Artifact
-from urdfsync.engine.render import Renderer
+from urdfsync.engine.package.render import Renderer
 
 
 def test_each_line_of_each_template_is_in_a_golden_text() -> None:

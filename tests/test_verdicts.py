@@ -16,7 +16,7 @@ from support.replay import contents
 from support.urdfs import ELBOW_ARM
 
 from urdfsync import cli
-from urdfsync.engine import generate
+from urdfsync.engine.package import generate
 from urdfsync.state import statefile
 
 pytestmark = NEEDS_GIT

@@ -11,7 +11,7 @@ from pathlib import Path
 from benchmarks.measuring import Cost, Measurement
 from urdfsync.config import templates_folder
 from urdfsync.domain import Artifact, Target
-from urdfsync.engine.render import Renderer
+from urdfsync.engine.package.render import Renderer
 from urdfsync.table.domain import DOMAIN
 from urdfsync.table.model import TableOptions
 

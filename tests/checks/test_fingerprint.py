@@ -153,5 +153,5 @@ def test_what_can_not_be_read_has_none(project: Path) -> None:
 
 def test_a_mistake_that_a_source_meets_is_left_to_the_check(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Keys of all robots are asked for before the first one is checked."""
-    monkeypatch.setattr("urdfsync.engine.source.read_source", mock.Mock(side_effect=RecursionError("too deep")))
+    monkeypatch.setattr("urdfsync.engine.sources.source.read_source", mock.Mock(side_effect=RecursionError("too deep")))
     assert now() is None

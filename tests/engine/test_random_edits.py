@@ -22,7 +22,7 @@ from support.urdfs import ELBOW_ARM
 from urdfsync.checks import libraries
 from urdfsync.checks.compilers import omc, rumoca
 from urdfsync.checks.compilers.compiler import CompileJob, CompileTask
-from urdfsync.engine import fit
+from urdfsync.engine.decide import fit
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.statements import EditedStatements, compare
 

@@ -12,7 +12,7 @@ from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
-from urdfsync.engine.conflicts import Conflict
+from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.result import Checked, Exit, Result, exit_code
 from urdfsync.merge import Merge, merge
 

@@ -10,7 +10,7 @@ import pytest
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Reason
-from urdfsync.engine.conflicts import Conflict
+from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.result import Result
 from urdfsync.merge import Merge, merge
 from urdfsync.output.conflicts import FULL, LINES, conflict_lines

@@ -9,7 +9,7 @@ from support.cases import CASES
 from support.damage import assert_robot_or_finding, damaged
 from support.sdfs import ARM
 
-from urdfsync.engine.exchange import Request
+from urdfsync.engine.sources.exchange import Request
 from urdfsync.sdf.worker import translate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot

@@ -11,9 +11,9 @@ from support.sdfs import ARM, arm, sdf
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Translator
-from urdfsync.engine import expansion
-from urdfsync.engine.expansion import SourceFiles, expand
-from urdfsync.engine.translators import find_translator
+from urdfsync.engine.sources import expansion
+from urdfsync.engine.sources.expansion import SourceFiles, expand
+from urdfsync.engine.sources.translators import find_translator
 
 
 def translator(file: Path) -> Translator:

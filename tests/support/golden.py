@@ -21,7 +21,7 @@ from support.library import library_artifacts
 from support.packages import RENDERER, Package, generate
 from urdfsync import config
 from urdfsync.domain import Artifact, Order, Target
-from urdfsync.engine.render import Renderer
+from urdfsync.engine.package.render import Renderer
 from urdfsync.urdf.artifacts import record
 from urdfsync.urdf.options import Options
 

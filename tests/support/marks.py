@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from support.golden import TEMPLATES, Piece
-from urdfsync.engine.render import Renderer
+from urdfsync.engine.package.render import Renderer
 
 _TAG = re.compile(r"<[%#].*?[%#]>", re.DOTALL)
 _ALTERNATIVE = re.compile(r'(?:"[^"\\]*(?:\\.[^"\\]*)*"(?= if | ~ ))|(?:(?<= else )|(?<= ~ ))"[^"\\]*(?:\\.[^"\\]*)*"')

@@ -32,8 +32,8 @@ SHORT, LARGE = 1_000, 200_000
 LOCAL = {
     ("checks/compilers/omc.py", "task.pattern"): "['.*']",  # of the user's own command line
     ("checks/compilers/rumoca.py", "task.pattern"): "['.*']",
-    ("engine/file_kinds.py", "pattern"): "[pattern for _, pattern, _ in _OTHERS]",
-    ("engine/imports.py", "beginning"): "[*_HINTS]",
+    ("engine/sources/file_kinds.py", "pattern"): "[pattern for _, pattern, _ in _OTHERS]",
+    ("engine/package/imports.py", "beginning"): "[*_HINTS]",
     ("modelica/files.py", "b'\\\\b' + re.escape(name) + b'\\\\b'"): "[rb'\\bname\\b']",
     ("urdf/meshes/reading.py", "statements"): "[rb'^ *((?:[vf]|usemtl) .*)', rb'^ *([vf] .*)']",
 }

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.engine.expansion import SourceFiles, expand
+from urdfsync.engine.sources.expansion import SourceFiles, expand
 
 HEAD = '<robot name="{0}" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 ARM = (

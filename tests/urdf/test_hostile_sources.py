@@ -23,7 +23,7 @@ from support.cases import SMALL_ROBOTS, damaged, often, seldom
 from urdfsync.config import templates_folder
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Lookup, Target, Version
-from urdfsync.engine.generate import generate
+from urdfsync.engine.package.generate import generate
 from urdfsync.files import Templates
 from urdfsync.modelica.parser import parse
 from urdfsync.urdf.domain import DOMAIN

@@ -15,8 +15,8 @@ from urdfsync.checks.contents import RESOURCES, Hashes, package_texts
 from urdfsync.checks.results import CheckOptions
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.engine import source
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.sources import source
 from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.store import Store

@@ -19,11 +19,11 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
-from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation, generate_robot, generated_texts
-from urdfsync.engine.inputs import Inputs, inspect
+from urdfsync.engine.inspect.inputs import Inputs, inspect
+from urdfsync.engine.inspect.users_files import find_users_files
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.users_files import find_users_files
+from urdfsync.engine.package.generate import Package
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.files import has_word, text_of
 from urdfsync.modelica.lexer import lex

@@ -13,9 +13,9 @@ from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import generate_robot
-from urdfsync.engine.inputs import inspect
+from urdfsync.engine.inspect.inputs import inspect
+from urdfsync.engine.inspect.package_files import key_of
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.modelica.files import modelica_files
 from urdfsync.output.build_section import show_result

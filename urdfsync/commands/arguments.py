@@ -281,7 +281,7 @@ def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> list
 
 def _takes_arguments(source: Path) -> bool:
     """Return whether a source looks like xacro or another format with arguments; its reader reports a faulty one."""
-    from urdfsync.engine.translators import find_translator
+    from urdfsync.engine.sources.translators import find_translator
 
     try:
         return find_translator("urdf", source, read_unrecorded(source)) is not None

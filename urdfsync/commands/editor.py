@@ -16,8 +16,8 @@ from pathlib import Path, PurePosixPath
 
 from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.engine.conflicts import Conflict
-from urdfsync.engine.package_files import encode
+from urdfsync.engine.decide.conflicts import Conflict
+from urdfsync.engine.inspect.package_files import encode
 from urdfsync.merge.texts import find_flaw
 from urdfsync.modelica.markers import find_markers, read_sides
 from urdfsync.modelica.parser import parse

@@ -17,8 +17,8 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Choice, Reason, UsersChoice
 from urdfsync.engine.build import build
-from urdfsync.engine.conflicts import PREFERENCES
-from urdfsync.engine.package_files import key_of
+from urdfsync.engine.decide.conflicts import PREFERENCES
+from urdfsync.engine.inspect.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.build_section import show_result

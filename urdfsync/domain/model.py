@@ -173,12 +173,12 @@ class CompanionKind(msgspec.Struct, frozen=True):
 
 
 class Translator(msgspec.Struct, frozen=True):
-    """A program that turns sources in another format into text that a domain reads; see `engine.expansion`."""
+    """A program that turns sources in another format into text that a domain reads; see `engine.sources.expansion`."""
 
     name: str
     """The format in lower case, which is also the code of its faults; `NAME-limits` is that of a passed limit."""
     module: str
-    """The module to run: it reads an `engine.exchange.Request`, and writes an `Answer`."""
+    """The module to run: it reads an `engine.sources.exchange.Request`, and writes an `Answer`."""
     hints: Mapping[str, str]
     """The usual hints, by codes of faults."""
     mark: re.Pattern[bytes] = re.compile(b"(?!)")

@@ -28,12 +28,12 @@ from urdfsync.diagnostics import (
     findings_of,
 )
 from urdfsync.engine import remembered
-from urdfsync.engine.findings import orphaned_state
+from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
-from urdfsync.engine.stage import Plan
+from urdfsync.engine.stage.findings import orphaned_state
+from urdfsync.engine.stage.writes import Plan
 from urdfsync.files import shown
 from urdfsync.processes import machine
 from urdfsync.state import notes

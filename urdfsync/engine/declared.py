@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Snapshot
-from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.files import shown
 from urdfsync.spelling import nearest
 

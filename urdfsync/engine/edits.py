@@ -12,12 +12,12 @@ from urdfsync.config import Config, working_folder
 from urdfsync.diagnostics import Diagnostic, findings_of
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.decide import decide_package
+from urdfsync.engine.decide.decision import decide_package
+from urdfsync.engine.decide.united import with_meanings
 from urdfsync.engine.generation import Generation, generate_robot
-from urdfsync.engine.inputs import Inputs, inspect
+from urdfsync.engine.inspect.inputs import Inputs, inspect
+from urdfsync.engine.inspect.package_files import CLASS_FOLDER
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.rules import CLASS_FOLDER
-from urdfsync.engine.united import with_meanings
 from urdfsync.merge import edits as merge_edits
 
 

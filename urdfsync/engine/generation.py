@@ -9,13 +9,14 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Lookup, Reading, Role, Version
-from urdfsync.engine import imports, source
 from urdfsync.engine.declared import check_declared
-from urdfsync.engine.generate import Package, generate
-from urdfsync.engine.imports import Imported
-from urdfsync.engine.inputs import Inputs
-from urdfsync.engine.package_files import with_line_ends
-from urdfsync.engine.source import Source
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.package_files import with_line_ends
+from urdfsync.engine.package import imports
+from urdfsync.engine.package.generate import Package, generate
+from urdfsync.engine.package.imports import Imported
+from urdfsync.engine.sources import source
+from urdfsync.engine.sources.source import Source
 from urdfsync.files import shown
 
 

@@ -6,14 +6,14 @@
 from __future__ import annotations
 
 from urdfsync.config import Config, RobotConfig
-from urdfsync.engine.decide import decide_package
+from urdfsync.engine.decide.decision import decide_package
+from urdfsync.engine.decide.settle import settle, with_choices
+from urdfsync.engine.decide.united import with_meanings
 from urdfsync.engine.generation import generate_robot
-from urdfsync.engine.inputs import inspect
+from urdfsync.engine.inspect.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
-from urdfsync.engine.settle import settle, with_choices
-from urdfsync.engine.stage import Plan, stage
-from urdfsync.engine.united import with_meanings
+from urdfsync.engine.stage.writes import Plan, stage
 
 
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:

@@ -15,7 +15,7 @@ from urdfsync.dependencies.reads import Reads, include
 from urdfsync.diagnostics import OutputError, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
-from urdfsync.engine.stage import Plan
+from urdfsync.engine.stage.writes import Plan
 from urdfsync.processes import machine
 from urdfsync.processes.workers import Workers, workers
 

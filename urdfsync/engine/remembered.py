@@ -21,9 +21,9 @@ from urdfsync.dependencies.reads import Reads, depend_on
 from urdfsync.dependencies.record import DependencyRecord
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
-from urdfsync.engine.findings import orphaned_state
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
+from urdfsync.engine.stage.findings import orphaned_state
 from urdfsync.files import digest, shown
 from urdfsync.state.transaction import DRAFT, PLANNED
 

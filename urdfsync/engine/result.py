@@ -14,7 +14,7 @@ from urdfsync.changes import Changes
 from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
-from urdfsync.engine.conflicts import Conflict
+from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.files import shown
 from urdfsync.spelling import counted
 

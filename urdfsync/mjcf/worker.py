@@ -1,4 +1,4 @@
-"""The program that translates one MJCF into URDF, within limits; `engine.expansion` starts it.
+"""The program that translates one MJCF into URDF, within limits; `engine.sources.expansion` starts it.
 
 A stranger may have written the MJCF, and MuJoCo is native code. So MuJoCo gets all bytes from memory, and this process
 may write no file.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 
-from urdfsync.engine.exchange import Answer, Problem, Request, serve
+from urdfsync.engine.sources.exchange import Answer, Problem, Request, serve
 from urdfsync.mjcf.document import MjcfDocument, read_document
 from urdfsync.translation import program
 from urdfsync.translation.files import Files, TranslationError

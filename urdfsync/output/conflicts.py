@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.engine.actions import Choice, Reason
-from urdfsync.engine.conflicts import Conflict
+from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.result import DisputedFile, Result
 from urdfsync.modelica.markers import find_markers
 from urdfsync.output.console import Console, StyledLine, line

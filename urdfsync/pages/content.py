@@ -14,16 +14,16 @@ from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
 from urdfsync.domain.changes import Effect
 from urdfsync.domain.scene import Body, Hinge, LoopConstraint, Scene
-from urdfsync.engine.decide import decide_package
+from urdfsync.engine.decide.decision import decide_package
+from urdfsync.engine.decide.renames import find_matching
+from urdfsync.engine.decide.united import with_meanings
 from urdfsync.engine.edits import RobotEdits, find_edited
-from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import generate_robot
-from urdfsync.engine.inputs import Inputs, inspect
+from urdfsync.engine.inspect.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.renames import find_matching
+from urdfsync.engine.package.generate import Package
 from urdfsync.engine.result import DisputedFile
-from urdfsync.engine.stage import draw_model
-from urdfsync.engine.united import with_meanings
+from urdfsync.engine.stage.writes import draw_model
 from urdfsync.files import shown
 from urdfsync.output.outline import number_table, outline
 from urdfsync.output.sections import Section, TextTable

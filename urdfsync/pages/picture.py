@@ -15,8 +15,8 @@ from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Import
 from urdfsync.domain.scene import PageMesh, Pictures, Scene
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inputs import Inputs
-from urdfsync.engine.last_build import NO_MODEL
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.last_build import NO_MODEL
 from urdfsync.files import digest, shown
 from urdfsync.versions.comparison import VersionContents
 

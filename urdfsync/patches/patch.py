@@ -15,7 +15,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, UrdfsyncError, finding
 from urdfsync.domain import Role
 from urdfsync.engine.edits import RobotEdits, find_edits
 from urdfsync.engine.generation import generate_robot
-from urdfsync.engine.inputs import inspect
+from urdfsync.engine.inspect.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.patches.edited import EditedValue, Staying, edited_values, other_edits

@@ -14,13 +14,13 @@ from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.domain import Role, Version
-from urdfsync.engine import expansion, source
-from urdfsync.engine.generate import generate
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.source import Source
-from urdfsync.engine.translators import XACRO, find_translator
+from urdfsync.engine.package.generate import generate
+from urdfsync.engine.sources import expansion, source
+from urdfsync.engine.sources.source import Source
+from urdfsync.engine.sources.translators import XACRO, find_translator
 from urdfsync.files import shown
 from urdfsync.modelica.values import literals, read_values
 from urdfsync.state.store import Store

@@ -9,7 +9,7 @@ from pathlib import Path
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
-from urdfsync.engine.ros_packages import Packages
+from urdfsync.engine.sources.ros_packages import Packages
 from urdfsync.translation.files import Files, SourcePlace, TranslationError
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, pose, roll_pitch_yaw
 from urdfsync.urdf.parse.fields import parse_numbers, quoted

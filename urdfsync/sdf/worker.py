@@ -1,4 +1,4 @@
-"""The program that translates one SDF into URDF, within limits; `engine.expansion` starts it."""
+"""The program that translates one SDF into URDF, within limits; `engine.sources.expansion` starts it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import msgspec
 
-from urdfsync.engine.exchange import Answer, Request, serve
+from urdfsync.engine.sources.exchange import Answer, Request, serve
 from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frames, Scope
 from urdfsync.sdf.joints import FIXED

@@ -13,8 +13,8 @@ import numpy as np
 from urdfsync.config import Config, RobotConfig, load
 from urdfsync.dependencies.places import real
 from urdfsync.diagnostics import ConfigError, UrdfsyncError
+from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.options import Progress
-from urdfsync.engine.renames import find_matching
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
 from urdfsync.simulation.package import Prepared, prepare

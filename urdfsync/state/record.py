@@ -67,6 +67,10 @@ class FileRecord(msgspec.Struct, frozen=True):
         return next((sha256 for sha256 in self.hashes if sha256 != generated), self.hashes[0])
 
 
+NEVER_WRITTEN = FileRecord()
+"""The record of a file that no build wrote."""
+
+
 class Generator(msgspec.Struct, frozen=True):
     """The program that turned the model into files."""
 

@@ -11,7 +11,7 @@ from xml.etree.ElementTree import Element
 from msgspec.structs import replace
 
 from urdfsync.dependencies.facts import read_unrecorded
-from urdfsync.engine.exchange import Problem
+from urdfsync.engine.sources.exchange import Problem
 from urdfsync.files import text_digest
 from urdfsync.urdf.parse.xml import ParseError, parse
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection
 
 from msgspec.structs import replace
 
-from urdfsync.engine.exchange import Answer, Problem, Request
+from urdfsync.engine.sources.exchange import Answer, Problem, Request
 from urdfsync.processes import limits
 from urdfsync.translation.files import Files, TranslationError
 

@@ -14,7 +14,7 @@ import msgspec
 
 from urdfsync import spelling
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.engine import file_kinds
+from urdfsync.engine.sources import file_kinds
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
     SHAPES,

@@ -23,22 +23,22 @@ from urdfsync.config.load import parse as parse_config
 from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
 from urdfsync.domain import ChangeClass, Domain, Lookup, Reading, Role, Target, Version
 from urdfsync.domain.changes import Effect
-from urdfsync.engine import imports
-from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.build import build
-from urdfsync.engine.findings import CONNECTORS
-from urdfsync.engine.generate import Package, generate
-from urdfsync.engine.inputs import inspect
-from urdfsync.engine.judgements import find_jumps, judge
-from urdfsync.engine.last_build import NO_MODEL
+from urdfsync.engine.decide.renames import find_matching
+from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
+from urdfsync.engine.inspect.inputs import inspect
+from urdfsync.engine.inspect.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.renames import find_matching
+from urdfsync.engine.package import imports
+from urdfsync.engine.package.generate import Package, generate
 from urdfsync.engine.result import Exit, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
-from urdfsync.engine.source import Source
-from urdfsync.engine.translators import find_translator, is_xacro
-from urdfsync.engine.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
+from urdfsync.engine.sources import source as source_files
+from urdfsync.engine.sources.source import Source
+from urdfsync.engine.sources.translators import find_translator, is_xacro
+from urdfsync.engine.stage.findings import CONNECTORS
+from urdfsync.engine.stage.judgements import find_jumps, judge
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
 from urdfsync.matching import Matching

@@ -17,7 +17,7 @@ from support.packages import RENDERER, read
 
 from urdfsync.changes import compare
 from urdfsync.domain import Artifact, ChangeClass, Import, Lookup, Order, Role, Snapshot, Target, Version
-from urdfsync.engine.generate import Package
+from urdfsync.engine.package.generate import Package
 from urdfsync.files import Templates
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options

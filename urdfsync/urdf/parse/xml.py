@@ -17,7 +17,7 @@ from xml.etree.ElementTree import Element, TreeBuilder, tostring
 from xml.parsers import expat
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.file_kinds import find_conflict, find_kind
+from urdfsync.engine.sources.file_kinds import find_conflict, find_kind
 from urdfsync.urdf.validate import diagnostic
 
 _DEEPEST = 256  # as in libxml2; writing an element recurses once for each level

@@ -1,0 +1,178 @@
+"""A conflict about numbers of one element's record is one of that file: all else of an export is written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from support import urdfs
+from support.commands import Execute
+from support.files import fresh_models, models
+from support.meshes import stl
+from support.networks import edit
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Choice, Reason
+from urdfsync.engine.decide.conflicts import find_conflict, resolve
+
+FORE, HAND, WRIST = (
+    "modelica/Arm/Links/ForeParameters.mo",
+    "modelica/Arm/Links/Hand.mo",
+    "modelica/Arm/Joints/Wrist.mo",
+)
+ELBOW = urdfs.joint("elbow", "revolute", "base", "fore")
+
+
+def export(mass: float, *names: tuple[str, str]) -> None:
+    """Write the source: a forearm of this mass, and for each pair a joint with its link, in a chain."""
+    links, joints, parent = [urdfs.link("base", 1.0), urdfs.link("fore", mass)], [ELBOW], "fore"
+    for joint, link in names:
+        links.append(urdfs.link(link, 1.0))
+        joints.append(urdfs.joint(joint, "revolute", parent, link))
+        parent = link
+    Path("arm.urdf").write_text(urdfs.robot(*links, *joints))
+
+
+@pytest.fixture
+def conflict(folder: Path, execute: Execute) -> Path:
+    """A forearm that was weighed, which the export has made heavier while it got a hand."""
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    export(2.5)
+    execute("build")
+    edit(FORE, "2.5", "2.6")
+    export(2.75, ("wrist", "hand"))
+    said = execute("build", code=3)
+    assert "1 conflict" in said.out
+    assert "wait" not in said.out
+    return folder
+
+
+def test_structure_is_written(conflict: Path, execute: Execute) -> None:
+    assert Path(HAND).exists()
+    assert "wrist" in Path("modelica/Arm/Arm.mo").read_text()
+    assert "2.6" in Path(FORE).read_text()
+    before = models()
+    for command, code in (("status", 3), ("build --check", 3), ("build", 3)):
+        assert "1 conflict" in execute(*command.split(), code=code).out
+    assert models() == before
+
+
+@pytest.mark.parametrize(
+    "then", [(), (("wrist", "hand"),), (("gelenk", "hand"),), (("wrist", "hand"), ("knuckle", "tip"))]
+)
+def test_what_is_exported_meanwhile_is_written_and_the_end_is_a_fresh_build(
+    conflict: Path, execute: Execute, then: tuple[tuple[str, str], ...]
+) -> None:
+    if then:
+        edit(HAND, "end Hand;", "  // mine\nend Hand;")
+    export(2.875, *then)
+    execute("build", code=3)
+    execute("resolve", FORE, "--take")
+    assert execute("status").lines[0].startswith("arm: in step")
+    built = models()
+    assert {path: text.replace("  // mine\n", "") for path, text in built.items()} == fresh_models(conflict / "fresh")
+    assert sum("// mine" in text for text in built.values()) == bool(then)
+
+
+SHAPE = '<visual><geometry><mesh filename="tip.stl"/></geometry></visual>'
+
+
+def show(size: float) -> None:
+    """Give the forearm a mesh of this size; 0 for a file that is missing."""
+    edit("arm.urdf", "</inertial></link>", f"</inertial>{SHAPE}</link>")
+    Path("tip.stl").write_text(stl(size))
+    if not size:
+        Path("tip.stl").unlink()
+
+
+@pytest.mark.parametrize(
+    ("sizes", "told"),
+    [
+        ([1, 2], ["mesh tip.stl: content"]),
+        ([1, 2, 3], ["mesh tip.stl: content"]),
+        ([1, 2, 1], []),
+        ([1, 2, 0], ["mesh tip.stl: content"]),  # the copy stays
+        ([0, 1], ["mesh tip.stl: content"]),
+        ([0, 1, 2], ["mesh tip.stl: content"]),
+    ],
+)
+def test_a_changed_mesh_is_told_by_each_command_as_long_as_a_file_conflicts(
+    folder: Path, execute: Execute, sizes: list[float], told: list[str]
+) -> None:
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    export(2.5)
+    show(sizes[0])
+    execute("build")
+    edit(FORE, "2.5", "2.6")
+    for size in sizes[1:]:
+        export(2.75)
+        show(size)
+        execute("build", code=3)
+    for command in ("diff", "status", "build", "build --dry-run"):
+        rows = (line.split() for line in execute(*command.split(), code=None).lines if line.startswith("  mesh"))
+        assert [" ".join(row[:3]) for row in rows] == told, command
+
+
+def test_a_conflict_names_the_mesh_that_alone_has_changed(folder: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    export(2.5)
+    show(1)
+    execute("build")
+    edit(FORE, "2.5", "2.6")
+    Path("tip.stl").write_text(stl(2))
+    for command in ("build", "build", "diff"):
+        assert "its generated text changed too: mesh tip.stl" in execute(*command.split(), code=None).words
+
+
+MINE, BOTH, GENERATED = "2\n\na\n", "2\n\nb\n", "1\n\nb\n"
+FITTING, DISPUTED, SAME = (("1\n\na\n", MINE, GENERATED), ("1\n", "2\n", "3\n"), ("1\n\na\n", BOTH, GENERATED))
+
+
+@pytest.mark.parametrize(
+    ("before", "texts", "merging", "after", "text"),
+    [
+        (Reason.CONFLICT, FITTING, False, Reason.CONFLICT, None),
+        (Reason.CONFLICT, FITTING, True, Reason.MERGE, BOTH),
+        (Reason.CONFLICT, DISPUTED, True, Reason.CONFLICT, None),
+        (Reason.CONFLICT, SAME, False, Reason.INCLUDED, None),
+        (Reason.CONFLICT, SAME, True, Reason.INCLUDED, None),
+        (Reason.MOVE, FITTING, False, Reason.MOVE, BOTH),
+        (Reason.MOVE, DISPUTED, True, Reason.CONFLICT, None),
+        (Reason.ORPHAN, None, True, Reason.ORPHAN, None),
+        (Reason.UPDATE, None, True, Reason.UPDATE, None),
+    ],
+)
+def test_merges_are_taken_if_the_configuration_allows_them_or_a_file_moves(
+    before: Reason, texts: tuple[str, str, str] | None, merging: bool, after: Reason, text: str | None
+) -> None:
+    action = Action("a.txt", before, Role.MODEL, "", "base", "new", mine="mine")
+    conflicts = {"a.txt": find_conflict(action, [texts[0]], *texts[1:])} if texts else {}
+    (resolved,), merged = resolve([action], conflicts, merging=merging)
+    assert (resolved.reason, merged.get("a.txt")) == (after, text)
+
+
+def test_an_edit_is_in_step_if_it_has_all_that_is_new_since_each_base() -> None:
+    action = Action("a.txt", Reason.CONFLICT, Role.MODEL, mine="mine")
+    ours, theirs, generated = "1\n\na\n\nx\n", "y\n\na\n\n2\n", "1\n\na\n\n2\n"
+    for mine, reason in (("1\n\nb\n\n2\n", Reason.INCLUDED), ("1\n\nb\n\nx\n", Reason.CONFLICT)):
+        found = find_conflict(action, [ours, theirs], mine, generated)
+        (resolved,), _ = resolve([action], {"a.txt": found}, merging=False)
+        assert resolved.reason is reason
+
+
+def test_edits_of_a_file_that_git_united_are_those_that_no_branch_recorded() -> None:
+    action = Action("a.txt", Reason.CONFLICT, Role.MODEL)
+    ours, theirs = "1\n\na\n\n2\n", "3\n\na\n\n4\n"
+    for mine, merged in (("1\n\na\n\n4\n", "5\n\na\n\n6\n"), ("1\n\nb\n\n4\n", "5\n\nb\n\n6\n")):
+        for bases in ([ours, theirs], [theirs, ours]):
+            found = find_conflict(action, bases, mine, "5\n\na\n\n6\n")
+            assert (found.merged(Choice.MERGE), found.rejected) == (merged, "")
+
+
+def test_bases_of_two_branches_that_give_different_merges_give_none() -> None:
+    action = Action("a.txt", Reason.CONFLICT, Role.MODEL)
+    both = find_conflict(action, ["1\n", "2\n"], "3\n", "1\n")
+    assert both.merged(Choice.MERGE) is None
+    assert both.rejected == "two branches recorded different bases, which give different merges"
+    same = find_conflict(action, ["1\n\na\n", "1\r\n\r\na\r\n"], MINE, GENERATED)
+    assert (same.base, same.merged(Choice.MERGE), same.rejected) == ("1\n\na\n", BOTH, "")

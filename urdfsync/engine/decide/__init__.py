@@ -1,0 +1,1 @@
+"""Decides on each file of a package."""

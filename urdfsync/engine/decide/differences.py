@@ -1,0 +1,207 @@
+"""Compares the last complete build of a robot with the present build: elements, model, names of files."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from pathlib import PurePosixPath
+
+import msgspec
+
+from urdfsync import changes
+from urdfsync.changes import Changes
+from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, displaced
+from urdfsync.engine.decide.renames import match_with_last
+from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, with_unshown
+from urdfsync.engine.declared import pending
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.last_build import NO_MODEL, option_values
+from urdfsync.engine.package.generate import Package
+from urdfsync.matching import Matching, without_exchanges
+from urdfsync.modelica.files import class_path
+from urdfsync.state.record import FileRecord
+
+GONE = "_gone"
+"""The end of the new name of a removed element whose name another element has now."""
+
+
+class Differences(msgspec.Struct, frozen=True):
+    """The differences between the last complete build and the present build."""
+
+    matching: Matching
+    """Renamed elements, and elements that may be other parts than their names say."""
+    changes: Changes | None
+    """The changes of the model; None if they are unknown, and for a removed robot."""
+    respelled: Mapping[str, tuple[str, str]]
+    """Recorded classes for which this version of urdfsync uses another name (see `LastBuild.respelled`)."""
+    moves: Mapping[str, str]
+    """The old key of each text file that moves with its element or with the package, by its new key."""
+    identifiers: Mapping[str, str]
+    """New identifiers by old identifiers of the last complete build."""
+    former: Mapping[str, str]
+    """New identifiers by all former identifiers, also of builds before the last complete one."""
+    other_elements: Mapping[str, str]
+    """For each name that another element has now: the new name of the element that had this name before."""
+    has_exchanges: bool
+    """Whether an element has the former name of another element."""
+    unused: frozenset[str] = frozenset()
+    """The parts of the model that no template uses."""
+
+    @property
+    def renames(self) -> Mapping[ElementKey, str]:
+        """Renamed elements: old element → new name."""
+        return self.matching.renames
+
+    @property
+    def is_structural(self) -> bool:
+        """Whether files or names may come or go; False if only numbers changed."""
+        changes = self.changes
+        return changes is None or changes.change_class.rank >= ChangeClass.STRUCTURAL.rank or bool(self.respelled)
+
+
+def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
+    """Compare the last complete build of a robot with the present build."""
+    last, now, package = inputs.last, generation.now.snapshot, generation.package
+    matching = _find_matching(inputs, now)
+    unused = frozenset[str]()
+    if not inputs.options.removes:
+        target, options = inputs.robot.target, inputs.robot.options
+        unused = find_unused(inputs.domain, generation.now, target, options, inputs.templates, package)
+    news = _find_changes(inputs, generation, matching, unused)
+    classes = (last.folder.path(key) for key in last.files if key.endswith(".mo"))
+    respelled = {} if all(path in package.artifacts for path in classes) else last.respelled
+    others, has_exchanges, renames = dict[str, str](), False, matching.renames
+    if renames and last.version:
+        after = inputs.domain.features(now)
+        others = {name: f"{name}{GONE}" for _, name in displaced(renames)}
+        others |= {key[1]: new for key, new in renames.items() if key in after}
+        has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
+    differences = Differences(matching, news, respelled, {}, {}, last.record.former, others, has_exchanges, unused)
+    if differences.is_structural:
+        identifiers = _find_identifiers(inputs, now, differences)
+        former = {old: identifiers.get(new, new) for old, new in last.record.former.items()} | identifiers
+        differences = msgspec.structs.replace(differences, identifiers=identifiers, former=former)
+    if differences.is_structural or inputs.has_moved:
+        differences = msgspec.structs.replace(differences, moves=_find_moves(inputs, package, differences))
+    return differences
+
+
+def _find_matching(inputs: Inputs, now: Snapshot) -> Matching:
+    """Match the elements of the last complete build with the present elements.
+
+    A stranger may have written the recorded model: names count as exchanged only if the records on disk confirm it.
+    """
+    declared, last = pending(inputs), inputs.last
+    matching = match_with_last(inputs, now, declared)
+    if last.version is None or not matching.renames:
+        return matching
+    old = last.elements
+    if last.record.is_united:  # a record that git united has elements of both branches: a name may mean either
+        return Matching(without_exchanges(matching, old).renames)
+    found = {key: new for key, new in matching.renames.items() if key[1] not in declared}
+    exchanged = {f"{kind} {name}" for (kind, name), new in found.items() if (kind, new) in old}
+    return matching if agrees(inputs, exchanged) else without_exchanges(matching, old)
+
+
+def agrees(inputs: Inputs, owners: Collection[str]) -> bool:
+    """Whether the unedited records of these elements on disk equal the records from the recorded model."""
+    last, package = inputs.last, inputs.last.package
+    if package is None or not owners:
+        return not owners
+    for path, artifact in package.artifacts.items():
+        if artifact.owner in owners and artifact.role is Role.RECORD:
+            on_disk = inputs.files.hash(last.folder.key(path), Role.RECORD)
+            recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
+            if last.record.open and on_disk and last.has_written(on_disk):
+                continue  # an incomplete build has written this file since
+            if on_disk in recorded and package.hash(path) != on_disk:
+                return False
+    return True
+
+
+def _find_changes(
+    inputs: Inputs, generation: Generation, matching: Matching, unused: Collection[str]
+) -> Changes | None:
+    """Find the changes of the model, and of templates, options and version."""
+    last, robot, domain = inputs.last, inputs.robot, inputs.domain
+    if last.version is None or inputs.options.removes:
+        return None
+    try:
+        news = changes.compare(last.version, generation.now, domain, robot.options, matching)
+    except NO_MODEL:
+        if last.package is not None:  # the recorded model is valid, so the fault is not a stranger's
+            raise
+        return None
+    if news.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
+        return None  # git may have merged two models into an invalid model
+    if domain.describe is None and news.changes and (before := last.package_like(generation.now.snapshot)) is not None:
+        news = changes.by_texts(news, generation.package.changed_models(before))
+    news = _with_unshown(inputs, generation, news, unused)
+    is_same = last.record.generator == inputs.generator and last.target == robot.target
+    if last.record.generator == inputs.generator and last.record.options == option_values(robot.options):
+        if is_same:
+            return news
+        former, present = (f"{target.package} with the class {target.name}" for target in (last.target, robot.target))
+        if last.target.package != robot.target.package:
+            former, present = last.target.package, robot.target.package
+        return msgspec.structs.replace(news, generator=True, package=f"{former} → {present}")
+    options: list[str] = []
+    if is_same and last.options is not None:
+        names = robot.options.__struct_fields__
+        options = [name for name in names if getattr(last.options, name) != getattr(robot.options, name)]
+    return msgspec.structs.replace(news, generator=True, options=tuple(options))
+
+
+def _with_unshown(inputs: Inputs, generation: Generation, news: Changes, unused: Collection[str]) -> Changes:
+    """Return the changes, of which those that no text shows count as unmodelled.
+
+    The recorded hashes show most changes; they do not show the changes that an incomplete build has written already.
+    The recorded package takes 20 ms with 100 links.
+    """
+    last, package = inputs.last, generation.package
+    owners = package.owners
+    hashes = {last.folder.path(key): file.hashes for key, file in last.files.items()}
+    changed = {owner for path, owner in owners.items() if package.hash(path) not in hashes.get(path, ())}
+    imported = {IMPORTS} if last.version and last.version.imports != generation.now.imports else set[str]()
+    found = with_unshown(news, inputs.domain, unused, set(owners.values()), changed | imported)
+    if not found.unshown:
+        return found
+    if (before := last.package_like(generation.now.snapshot)) is None:
+        return news
+    changed = changed_owners(package, before)
+    return with_unshown(news, inputs.domain, unused, set(owners.values()), changed | imported)
+
+
+def _find_identifiers(inputs: Inputs, now: Snapshot, differences: Differences) -> dict[str, str]:
+    """Return new identifiers by old identifiers of the last complete build."""
+    last, target = inputs.last, inputs.robot.target
+    if last.version is None or differences.changes is None:
+        return {}
+    old, new = inputs.domain.names(last.version.snapshot, last.target), inputs.domain.names(now, target)
+    renamed = {last.folder.rpartition("/")[2]: inputs.robot.folder.name, last.target.name: target.name}
+    for kind, identifiers in old.items():
+        for name, identifier in identifiers.items():
+            new_name = differences.renames.get((kind.removesuffix("s"), name), name)
+            renamed[identifier] = new.get(kind, {}).get(new_name, identifier)
+    for path, (respelled, _) in differences.respelled.items():
+        names = (class_path(PurePosixPath(each)).name for each in (path, respelled))
+        former, present = (f"{name[0].lower()}{name[1:]}" for name in names)
+        renamed[former] = renamed.pop(present, present)
+    return {name: new for name, new in renamed.items() if name != new}
+
+
+def _find_moves(inputs: Inputs, package: Package, differences: Differences) -> dict[str, str]:
+    """Return old keys by new keys of text files that move with their element or with the package."""
+    last = inputs.last
+    texts = set(map(last.folder.path, last.files))
+    recorded = last.package.artifacts if last.package else {}
+    before = {path: (file.owner, file.template) for path, file in recorded.items() if path in texts}
+    for path, (respelled, _) in differences.respelled.items():
+        before[path] = recorded[respelled].owner, recorded[respelled].template
+    now = {path: (file.owner, file.template) for path, file in package.artifacts.items()}
+    if before == now and not (inputs.has_moved or differences.renames):
+        return {}
+    renamed = changes.moved_files(before, now, differences.renames)
+    pairs = ((renamed.get(path, path), path) for path in texts)
+    keys = ((inputs.folder.key(new), last.folder.key(old)) for new, old in pairs if new in now)
+    return {new: old for new, old in keys if new != old}

@@ -1,0 +1,92 @@
+"""Lets the user's texts follow a rename that their bases do not show: by names that are missing now.
+
+Such a text is a class of the user's own in the package, an edit of a file whose generated text stays the same, or an
+edit that git has merged with the rename of another branch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.decide.conflicts import Conflict, Verdicts
+from urdfsync.engine.decide.package_after import PackageAfter
+from urdfsync.engine.decide.package_names import declared_names, new_name
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.package.generate import Package
+
+if TYPE_CHECKING:
+    from urdfsync.engine.decide.fit import Misfit
+
+
+def follow(
+    inputs: Inputs, package: Package, verdicts: Verdicts, own: Sequence[Action], renamed: Mapping[str, str]
+) -> Verdicts:
+    """Let the user's files follow renames that their bases do not show; `own` are files without a generated text.
+
+    They follow as the user allows merges; else they conflict, and the new text is proposed.
+    """
+    after = PackageAfter(inputs, package, (*verdicts.actions, *own), verdicts.texts, is_open=True)
+    users = {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
+    keys = {
+        action.path
+        for action in after.actions
+        if action.reason in users and action.path.endswith(".mo")
+        if action.mine not in (None, *inputs.last.record.confirmed)
+        if action.path in verdicts.texts or not inputs.files.is_chosen(action.path)
+    }
+    if not renamed or not keys or not after.mentions(keys, renamed):
+        return verdicts._replace(actions=after.actions)
+    from urdfsync.merge import Merge  # imports the parser
+
+    followers = _find_followers(after, keys, renamed)
+    actions, texts, conflicts = list[Action](), dict(verdicts.texts), dict(verdicts.conflicts)
+    for action in after.actions:
+        key = action.path
+        if key in followers and (inputs.is_merging or action.reason in (Reason.MERGE, Reason.MOVE)):
+            texts[key] = followers[key][1]
+            action = msgspec.structs.replace(action, reason=Reason.MOVE if action.origin else Reason.MERGE)
+        elif key in followers:
+            mine, new = followers[key]
+            generated = package.content(inputs.folder.path(key)).decode() if action.generated else mine
+            conflicts[key] = Conflict(key, generated, mine, generated, Merge(new, new, ()))
+            action = msgspec.structs.replace(action, reason=Reason.RENAMED)
+        actions.append(action)
+    return Verdicts(actions, texts, conflicts)
+
+
+def _find_followers(
+    after: PackageAfter, keys: Collection[str], renamed: Mapping[str, str]
+) -> dict[str, tuple[str, str]]:
+    """Return the text, and the text with new names, of those files of `keys` that can follow, by key.
+
+    `renamed` has new identifiers by old identifiers. A name follows if it is missing, and if its new name exists at the
+    same place. A text that declares the old name itself does not follow.
+    """
+    from urdfsync.engine.decide.fit import find_misfits  # imports the parser
+    from urdfsync.merge.renames import rename
+
+    names: dict[str, dict[str, list[Misfit]]] = {}
+    for misfit in find_misfits(after):
+        if misfit.key in keys and misfit.use and new_name(misfit.use.part, renamed, misfit.use.candidates):
+            names.setdefault(misfit.key, {}).setdefault(misfit.use.part, []).append(misfit)
+    found = dict[str, tuple[str, str]]()
+    for key, misfits in names.items():
+        text = after.merged.get(key) or after.inputs.files.text(key) or ""
+        lines, own, news = text.splitlines(), declared_names([text]), dict[str, str]()
+        for part, uses in misfits.items():
+            candidates = {name for one in uses if one.use for name in one.use.candidates}
+            if part not in own:
+                news[part] = new_name(part, renamed, candidates)
+        used = "\n".join(lines[one.finding.line - 1] for uses in misfits.values() for one in uses)
+        found[key] = text, rename(used, text, news)[1]
+    texts = {key: new for key, (text, new) in found.items() if new != text}
+    if not texts:
+        return {}
+    merged = {**after.merged, **texts}
+    followed = PackageAfter(after.inputs, after.package, after.actions, merged, is_open=after.is_open)
+    lost = {one.key for one in find_misfits(followed) if one.use and one.use.part in names.get(one.key, ())}
+    return {key: found[key] for key in texts.keys() - lost}

@@ -1,0 +1,144 @@
+"""Merges the files that both the user and the export changed."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import DISPUTED, Action, Reason
+from urdfsync.engine.decide import united
+from urdfsync.engine.decide.conflicts import PREFERENCES, Conflict, Verdicts, find_conflict, only_names_changed, resolve
+from urdfsync.engine.decide.differences import GONE, Differences
+from urdfsync.engine.decide.package_after import PackageAfter, keep_needed
+from urdfsync.engine.decide.package_names import known_names, names_of
+from urdfsync.engine.decide.renames import describe_doubt
+from urdfsync.engine.decide.triage import Triage
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.inputs import Inputs
+
+if TYPE_CHECKING:
+    from urdfsync.engine.decide.fit import Misfit
+
+
+def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differences: Differences) -> Verdicts:
+    """Merge the files that both sides changed, as far as the user allows merges and these fit the package."""
+    package, actions = generation.package, triaged.actions
+    disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
+    conflicts = {one.path: _conflict(inputs, generation, one, triaged) for one in disputed}
+    conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, triaged.origins)
+    names = {name: new for (_, name), new in differences.renames.items()} | dict(triaged.names)
+    renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
+    actions, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
+    needed = keep_needed(PackageAfter(inputs, package, actions, texts), triaged.origins)
+    return Verdicts(*united.write_meanings(inputs.files, needed, texts), conflicts)
+
+
+def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: Triage) -> Conflict:
+    """Return the texts of a file that both sides changed; if its class is a folder, *mine* is its `package.mo`."""
+    doubt, names, renumbered = triaged.doubts.get(action.path), triaged.names, triaged.renumbered
+    key, files, last = action.origin or action.path, inputs.files, inputs.last
+    path = inputs.folder.path(action.path)
+    mine, generated = files.text(key), generation.package.content(path).decode()
+    record = last.files.get(key)
+    hashes = record.hashes if record and action.base in record.hashes else (action.base,)
+    known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
+    # if the text of one of several bases is lost, the user's changes are unknown: nothing is merged
+    bases = [text for text in known if text is not None] if None not in known else []
+    base, rejected, moved_to = bases[0] if bases else None, "", ""
+    if mine is None:
+        mine = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
+        rejected = describe_doubt(doubt) if doubt else "you turned the class into a folder"
+    elif doubt:
+        is_own = action.owner == doubt.element
+        rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
+    elif branches := files.left_by_git.get(key):
+        merge = msgspec.structs.replace(branches, contradictions=(united.describe(branches.contradictions, mine),))
+        return Conflict(action.path, base, mine, generated, merge, origin=action.origin, is_of_branches=True)
+    if rejected:
+        texts = base, mine, generated, None
+        return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
+    from urdfsync.modelica.lexer import words_in  # imports the parser
+
+    if not names and bases and last.record.former:
+        names = _names_since_undo(inputs, generation, action, frozenset(words_in(bases[0])))
+    numbers = renumbered.names(action, itertools.chain.from_iterable(map(words_in, bases)))
+    conflict = find_conflict(action, bases, mine, generated, {**names, **numbers})
+    proposal = conflict.merge.proposal if conflict.merge else ""
+    for name, new in numbers.items():
+        if GONE in new and new in proposal:  # no answer may write this name
+            rejected = f"`{name}` is another part now, and the export has no part like the one that you edited"
+            without = conflict.merge and conflict.merge.rejected
+            return msgspec.structs.replace(conflict, merge=without, rejected=rejected)
+    return msgspec.structs.replace(conflict, renumbered=renumbered.describe(action, numbers)) if numbers else conflict
+
+
+def _names_since_undo(
+    inputs: Inputs, generation: Generation, action: Action, words: frozenset[str]
+) -> Mapping[str, str]:
+    """Return the new names of words in a base: `--undo` came after the build that brought these names."""
+    last, path = inputs.last, inputs.folder.path(action.path)
+    names = names_of(inputs, generation, last.record.former, words)
+    if not names:
+        return names  # the rest renders and parses texts
+    before = last.package if last.record.generator == inputs.generator else None
+    if before is None or path not in before.artifacts or before.hash(path) == action.base:
+        now = known_names(generation.package)  # the base may have the new names already
+        return {name: new for name, new in names.items() if name not in now}
+    return names
+
+
+def _without_misfits(
+    after: PackageAfter, conflicts: Mapping[str, Conflict], origins: Collection[str]
+) -> dict[str, Conflict]:
+    """Return the conflicts; leave out merges that would use unknown names.
+
+    First this tries clean merges, then merges with contradictions decided for each side. `after` has no merges yet.
+    """
+    sound, before, actions = dict(conflicts), None, after.actions
+    files_after = functools.partial(PackageAfter, after.inputs, after.package)
+    for side in (None, *PREFERENCES):
+        tried = {
+            key: text
+            for key, one in sound.items()
+            # a merge of branches gets its new names only when it moves
+            if not (one.is_of_branches and one.origin)
+            if (text := one.merged(side)) is not None and (side is None or one.merged(None) is None)
+        }
+        if not tried:
+            continue
+        planned, merged = resolve(actions, sound, merging=True, choice=side)
+        planned = keep_needed(files_after(planned, merged), origins)
+        misfits = look_for_misfits(files_after(planned, merged, is_open=True), merged.keys())
+        if misfits and before is None:
+            # names in a folder without its `package.mo` are not looked up: the faults there would seem to be new
+            restored = {one.path for one in actions if one.reason is Reason.RESTORE and one.base == one.generated}
+            waiting = [msgspec.structs.replace(one, is_waiting=one.path not in restored) for one in actions]
+            paths = {one.origin or one.path for one in conflicts.values()}
+            before = {(one.key, one.fault) for one in look_for_misfits(files_after(waiting, {}), paths)}
+        for key in {one.key for one in misfits} & tried.keys():
+            conflict = sound[key]
+            own = (one for one in misfits if one.key == key)
+            new = next((one.finding for one in own if (conflict.origin or key, one.fault) not in (before or ())), None)
+            if new is None or tried[key] == conflict.mine:
+                continue
+            reason = f"in the merge, {new.message} (line {new.line})"
+            merge = conflict.merge and conflict.merge.rejected
+            changed = {"refused": {**conflict.refused, side: reason}} if side else {"merge": merge, "rejected": reason}
+            sound[key] = msgspec.structs.replace(conflict, **changed)
+    return sound
+
+
+def look_for_misfits(after: PackageAfter, only: Collection[str] | None = None) -> Sequence[Misfit]:
+    """Find misfits in the user's files after all actions that do not wait; `only` limits the search to these keys."""
+    if only is None and after.inputs.has_moved and any(action.is_waiting for action in after.actions):
+        return ()  # the package does not move yet
+    if not (after.users or (only is None and after.extended_orders)):
+        return ()
+    from urdfsync.engine.decide.fit import find_misfits  # this imports the parser: 15 of 220 ms of a build
+
+    return find_misfits(after, only)

@@ -1,0 +1,147 @@
+"""Decides on the `package.order` files of a robot's package and of the packages around it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import ORPHANS, Action, Choice, Reason
+from urdfsync.engine.decide import united
+from urdfsync.engine.decide.differences import Differences
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.parents import SharedFile, merge_order
+from urdfsync.engine.package.generate import Package
+from urdfsync.modelica.markers import find_markers, join_sides
+from urdfsync.modelica.names import is_identifier
+
+
+class Orders(NamedTuple):
+    """What becomes of the `package.order` files."""
+
+    actions: Sequence[Action]
+    texts: Mapping[str, str]
+    """The new texts by key; empty for no file."""
+    shared: Sequence[SharedFile]
+    """The files around this package, and around the package of the last build."""
+
+
+def decide_orders(inputs: Inputs, package: Package, differences: Differences, actions: Sequence[Action]) -> Orders:
+    """Decide on the `package.order` files, and on the packages around the robot's; `actions` are those of classes."""
+    files, robot = inputs.files, inputs.robot
+    is_same = not (differences.is_structural or inputs.has_moved)
+    recorded = _recorded_orders(inputs, package if is_same else inputs.last.package)
+    desired = {inputs.folder.key(path): names for path, names in package.orders.items()}
+    if robot.folder.parent != robot.output and inputs.parents.listed:
+        desired[files.key(robot.folder.parent / "package.order")] = (robot.folder.name,)
+    inside = (inputs.folder.key(""), inputs.last.folder.key(""))
+    decided, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
+    for key in sorted(recorded.keys() | desired.keys()):
+        old, written, generated = files.text(key), recorded.get(key, ()), desired.get(key, ())
+        text = None if old is None else _order_text(inputs, key, old)
+        names = _wanted_lines(inputs, key, generated, written, actions)
+        owned = () if text is None else _owned_lines(inputs, key, text, generated, written, actions)
+        texts[key] = merge_order(text, names, owned)
+        reason = _order_reason(old, texts[key], is_recorded=key in recorded)
+        decided.append(Action(key, reason, Role.ORDER, "package"))
+        if not key.startswith(inside):
+            shared.append(SharedFile(files.path(key), None, names, owned, joins=text != old))
+    for file in inputs.parents.shared:
+        key = files.key(file.path)
+        if file.content is not None:
+            files.on_disk(key, Role.PACKAGE)  # raises OutputError for a link
+            decided.append(Action(key, Reason.CREATE, Role.PACKAGE, "parent package"))
+        elif (old := files.text(key)) != merge_order(old, file.names):
+            reason = Reason.CREATE if old is None else Reason.UPDATE
+            decided.append(Action(key, reason, Role.ORDER, "parent package"))
+    return Orders(decided, texts, (*shared, *inputs.parents.shared))
+
+
+def _recorded_orders(inputs: Inputs, package: Package | None) -> dict[str, Collection[str]]:
+    """Return the lines of each `package.order` that the last build wrote, by key, in their order.
+
+    `package` is the package of the last build. Without it, the lines follow from the recorded files, in another order.
+    """
+    last, orders = inputs.last, dict[str, dict[str, None]]()
+    if last.record.files and package:
+        orders = {last.folder.key(path): dict.fromkeys(names) for path, names in package.orders.items()}
+    for key in last.files:
+        folder, _, name = key.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
+        if f"{folder}/".startswith(last.folder.key("")) and key.endswith(".mo"):
+            orders.setdefault(f"{folder}/package.order", {})[name] = None
+    if "." in last.target.package and last.record.files:
+        above, _, name = last.folder.rpartition("/")
+        orders[f"{above}/package.order" if above else "package.order"] = {name: None}
+    return {key: names for key, names in orders.items() if inputs.files.is_inside(key)}
+
+
+def _removable_lines(
+    inputs: Inputs, order: str, text: str, recorded: Collection[str], actions: Iterable[Action]
+) -> list[str]:
+    """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
+
+    A recorded line may name a user's class, so this looks for the class on disk and in `package.mo`. If git has united
+    two states, this looks for each line's class: the other branch may have renamed it.
+    """
+    folder = order.removesuffix("package.order")
+    paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
+    deleted = [path.removeprefix(folder) for path in paths if path.rpartition("/")[0] == folder.rstrip("/")]
+    listed = {line.strip() for line in text.splitlines()}
+    is_united = inputs.last.record.is_united and order.startswith(inputs.folder.key(""))
+    candidates = listed if is_united else listed.intersection(recorded)
+    names = filter(is_identifier, candidates.difference(deleted))
+    missing = [name for name in names if not inputs.files.has_class(folder, name)]
+    mentioned = set(re.findall(r"\w+", inputs.files.text(f"{folder}package.mo") or "")) if missing else set()
+    return [*deleted, *(name for name in missing if name not in mentioned)]
+
+
+def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
+    """Return the names of the classes that these files store in the folder of a `package.order`."""
+    folder = order.removesuffix("package.order")
+    paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in keys if key.startswith(folder))
+    return sorted(filter(is_identifier, (path.removesuffix(".mo") for path in paths)))
+
+
+def _order_reason(old: str | None, new: str, *, is_recorded: bool) -> Reason:
+    """Decide on one `package.order` by its text on disk, None without a file, and its new text, empty for no file."""
+    if old is None:
+        return Reason.FORGET if not new else Reason.RESTORE if is_recorded else Reason.CREATE
+    return Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
+
+
+def _order_text(inputs: Inputs, key: str, old: str) -> str:
+    """Return the lines on disk; where git has left both sides of a merge that may stand together, both."""
+    is_united = inputs.last.record.is_united
+    is_joined = find_markers(old) and united.can_join(inputs.files.path(key), old, is_united=is_united)
+    return join_sides(old) if is_joined else old
+
+
+def _wanted_lines(
+    inputs: Inputs, key: str, generated: Sequence[str], written: Collection[str], actions: Iterable[Action]
+) -> tuple[str, ...]:
+    """Return the lines of a `package.order`: those of the generated package, and of classes that no line names."""
+    names = dict.fromkeys(generated)
+    if inputs.options.adopts and inputs.files.text(key) is None:  # tools hide the user's classes without a line
+        names |= dict.fromkeys(_classes_beside(key, inputs.files.classes(key.removesuffix("package.order"))))
+    if written:  # `--undo` brought an orphan back, or a class of the user's own
+        orphans = {action.path for action in actions if action.reason in ORPHANS}
+        undone = {path for path, one in inputs.settled.actions.items() if one.choice is Choice.UNDO}
+        undone -= {action.path for action in actions if action.is_deletion}
+        names |= dict.fromkeys(_classes_beside(key, {*orphans, *filter(inputs.files.read, undone)}))
+    return tuple(names)
+
+
+def _owned_lines(
+    inputs: Inputs,
+    key: str,
+    text: str,
+    generated: Sequence[str],
+    written: Collection[str],
+    actions: Iterable[Action],
+) -> tuple[str, ...]:
+    """Return the lines of a `package.order` on disk that a build may move or remove."""
+    wanted = set(generated)
+    # looking at the disk for all names would take 15 ms with 100 links
+    unwanted = [name for name in written if name not in wanted]
+    return *(name for name in written if name in wanted), *_removable_lines(inputs, key, text, unwanted, actions)

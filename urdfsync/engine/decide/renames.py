@@ -1,0 +1,141 @@
+"""Finds the new names of elements: the core matches them, and the configuration or a choice declares them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import PurePath
+
+from urdfsync.domain import Domain, ElementKey, Features, Snapshot, displaced
+from urdfsync.domain.changes import Formats
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.matching import Doubt, Elements, Matching, match
+
+
+def find_matching(
+    domain: Domain,
+    old: Snapshot,
+    new: Snapshot,
+    declared: Mapping[str, str],
+    *,
+    is_pending: bool = False,
+    has_other_format: bool = False,
+) -> Matching:
+    """Match the elements of two versions; `declared` maps old names to new names.
+
+    Declared renames of a kind (links, joints) are ignored if the old version has the new names already. That is so if
+    an element with one of the old names is equal in both versions. If `is_pending`, this element must also differ from
+    the element with the new name: elements that look alike prove nothing. If the new version `has_other_format`, the
+    elements without a match match by features that all formats have, and by places alone if they are more than half.
+    """
+    if old == new and not (declared and is_pending):
+        return Matching()
+    before, after = domain.features(old), domain.features(new)
+    named = {(kind, name): (kind, declared[name]) for kind, name in before if name in declared}
+    named = {key: new for key, new in named.items() if new in after}
+    done = {
+        key[0]
+        for key, new in named.items()
+        if before[key] == after.get(key) and not (is_pending and before[key].contents == after[new].contents)
+    }
+    named = {key: new for key, new in named.items() if key[0] not in done}
+    matching = match(before, after, named)
+    pairs = _pairs(before, after, matching) if has_other_format else {}
+    count = min(len(before), len(after))
+    if not has_other_format or len(pairs) == count:
+        return matching
+    formats = domain.formats  # loads numpy, which takes as long as a build of a changed mass
+    if formats is None:
+        return matching
+    # if most elements match, a part that matches by its place alone may be a new part at the place of a removed one
+    further = _coarse_renames(formats, old, new, matching, pairs, by_places=2 * len(pairs) < count)
+    return Matching({**further, **matching.renames}, matching.doubts)
+
+
+def _has_other_format(inputs: Inputs) -> bool:
+    """Return whether the last build read a source of another format. A plain source has no recorded expansion."""
+    before = inputs.store.load_expansion(inputs.last.name)
+    return (PurePath(before.source).suffix if before else "") != inputs.source.format
+
+
+def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[ElementKey, ElementKey]:
+    gone = displaced(matching.renames)
+    new = {key: (key[0], matching.renames.get(key, key[1])) for key in before if key not in gone}
+    return {key: to for key, to in new.items() if to in after}
+
+
+def _coarse_renames(
+    formats: Formats,
+    old: Snapshot,
+    new: Snapshot,
+    matching: Matching,
+    pairs: Mapping[ElementKey, ElementKey],
+    *,
+    by_places: bool,
+) -> dict[ElementKey, str]:
+    """Return the renames of elements that are not in `pairs`: by features of all formats, then `by_places` alone.
+
+    `pairs` are the matched elements. A pair stays as it is even if its elements have no coarse features.
+    """
+    before, after, renames = formats.coarse_features(old), formats.coarse_features(new), dict[ElementKey, str]()
+    matched, taken = set(pairs), set(pairs.values())
+    for has_contents in (True, False) if by_places else (True,):
+        sides = [before, after]
+        if not has_contents:
+            sides = [{key: Features({}, each.neighbours) for key, each in side.items()} for side in sides]
+        known = _pairs(sides[0], sides[1], Matching({**renames, **matching.renames}))
+        for key, name in match(sides[0], sides[1], known).renames.items():
+            if key not in matched and (key[0], name) not in taken:
+                renames[key] = name
+        matched, taken = {*matched, *renames}, {*taken, *((kind, name) for (kind, _), name in renames.items())}
+    return renames
+
+
+def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
+    """Match the elements of the last complete build with the present elements.
+
+    While a conflict is open, one export may rename an element, and the next export may change its numbers. So this
+    joins the renames up to the model that the last build read with the renames since then. `declared` has only renames
+    that no complete build has made.
+    """
+    last, domain = inputs.last, inputs.domain
+    if last.version is None:
+        return Matching()
+    recorded, last_seen = last.version.snapshot, last.seen
+    open_renames = last.record.open.renamed if last.record.open else {}
+    has_other_format = recorded != now and _has_other_format(inputs)
+    direct = find_matching(domain, recorded, now, declared, is_pending=True, has_other_format=has_other_format)
+    if last_seen is None:
+        return direct
+    opened = {(name, new) for (_, name), new in open_renames.items()}
+    remaining = {name: new for name, new in declared.items() if (name, new) not in opened}
+    later = find_matching(domain, last_seen, now, remaining, is_pending=True, has_other_format=has_other_format)
+    existing, seen = domain.features(now), domain.features(last_seen)
+    gone, followed = displaced(open_renames), dict[ElementKey, str]()
+    gone_since = displaced(later.renames)
+    for kind, name in domain.features(recorded):
+        last_name = open_renames.get((kind, name), name)
+        if (kind, name) in gone or (kind, last_name) in gone_since:
+            continue
+        new_name = later.renames.get((kind, last_name), last_name)
+        if (kind, last_name) in seen and (kind, new_name) in existing:
+            followed[kind, name] = new_name
+    found = {key: name for key, name in direct.renames.items() if key[1] in declared}
+    for more in (followed, direct.renames):
+        taken = {(kind, name) for (kind, _), name in found.items()}
+        found |= {key: name for key, name in more.items() if key not in found and (key[0], name) not in taken}
+    return Matching({key: name for key, name in found.items() if name != key[1]}, {**direct.doubts, **later.doubts})
+
+
+def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
+    """Return the doubt as a clause; `is_used` if a file of the whole robot uses the element's name."""
+    name, aspects = doubt.element.partition(" ")[2], " and ".join(doubt.aspects)
+    subject = f"it uses `{name}`, which" if is_used else f"`{name}`"
+    if doubt.part:
+        return f"`{doubt.part}` of `{name}` may be another part now: the export counts anew"
+    if doubt.is_certain:
+        return f"{subject} is another part now{f', the former `{doubt.former}`' if doubt.former else ''}"
+    if doubt.former and not aspects:
+        return f"{subject} may be the former `{doubt.former}` now"
+    shared = f"its {aspects} {'are those' if len(doubt.aspects) > 1 else 'is that'} of the former `{doubt.former}`"
+    neighbours = "parts next to it, or like it, have other names"
+    return f"{subject} may be another part now: {shared if doubt.former else neighbours}"

@@ -1,0 +1,262 @@
+"""Applies the user's choices: each choice changes a file, at its present path, and the file's base.
+
+The user could do the same by hand: save a text, and name its base. So choices change files and bases first. Then the
+build decides on the changed files, and writes all together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+
+from urdfsync.diagnostics import ConfigError, OutputError
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Choice, Reason, UsersChoice
+from urdfsync.engine.decide.conflicts import Conflict, over_bases
+from urdfsync.engine.decide.decision import Decision
+from urdfsync.engine.decide.package_names import names_of
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.inputs import Former, Inputs, Settled
+from urdfsync.engine.inspect.package_files import encode, text_hash, with_line_ends
+from urdfsync.files import shown
+from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.markers import find_markers
+from urdfsync.spelling import nearest
+from urdfsync.state.record import FileRecord, role_of
+
+_EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
+"""Reasons of actions on edited files for which the user may choose `--take`."""
+
+
+def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settled:
+    """Apply the choices of the options.
+
+    A choice is ignored if one of the two texts has changed, or if the choice does not fit the file. Raises
+    OutputError for `--keep` on a file with markers of git.
+    """
+    choices = _Choices(inputs, generation, decision)
+    by_path = {action.path: action for action in decision.actions}
+    for key, chosen in inputs.options.choices.items():
+        role = role_of(inputs.folder.path(key))
+        action = by_path.get(key, Action(key, Reason.FORGET, role))  # the decision lacks a deleted file, for example
+        if chosen.sides == action.sides and choices.apply(action, chosen):
+            choices.settled.keys.add(key)
+    return choices.settled
+
+
+class _Choices:
+    """The choices that were applied so far: each choice sees the changes by earlier choices."""
+
+    def __init__(self, inputs: Inputs, generation: Generation, decision: Decision) -> None:
+        self._inputs, self._generation, self._decision = inputs, generation, decision
+        self.settled = Settled(names=decision.names)
+
+    def apply(self, action: Action, chosen: UsersChoice) -> bool:
+        """Apply one choice; return whether the choice fits its file."""
+        match chosen.choice:
+            case Choice.MOVED:
+                return action.reason is Reason.ASKED and self._move(action, chosen.text)
+            case Choice.UNDO:
+                return self._undo(action)
+            case Choice.KEEP:
+                return self._keep(action)
+            case Choice.TAKE:
+                return self._take(action)
+            case _:
+                return self._merge(action, chosen)
+
+    def _undo(self, action: Action) -> bool:
+        """Give back the text that a build replaced, unless the user has saved the file since."""
+        inputs, settled, role = self._inputs, self.settled, action.role
+        # the text of another file may be about to move to this path: the user means the file that is there now
+        for key in filter(None, (action.path, action.origin)):
+            aside = inputs.last.aside.get(inputs.last.folder.path(key))
+            if aside is not None and role is not Role.IMPORT and inputs.files.hash(key, role) == aside.after:
+                break
+        else:
+            return False
+        content = inputs.store.aside_text(inputs.last.name, aside.file)
+        if content is None:
+            return False
+        settled.texts.update(aside.texts)
+        for path, model in aside.beside.items():
+            if (place := inputs.folder.key(path)) not in settled.contents and inputs.files.read(place) is None:
+                settled.contents[place] = encode(model)
+                settled.bases[place], texts = known_bases(model)
+                settled.texts.update(texts)
+        there = msgspec.structs.replace(action, path=key, origin=None)
+        self._add(there, content, FileRecord(aside.bases), Reason.UNDO, Choice.UNDO)
+        return True
+
+    def _keep(self, action: Action) -> bool:
+        """Keep the user's text; the generated text becomes its base, so only later exports conflict again."""
+        inputs, key = self._inputs, action.origin or action.path
+        conflict = self._decision.disputed.get(action.path)
+        if action.reason is Reason.ORPHAN:
+            self._add(action, inputs.files.read_on_disk(key), FileRecord(), Reason.KEEP, Choice.KEEP)
+            return True
+        if not (action.is_conflict or conflict):
+            return False
+        record, content = _generated_base(action), inputs.files.read(key)
+        if action.reason is Reason.ASKED:  # the user says that the part is the same: later exports still merge
+            record = inputs.last.files.get(key, record)
+        if conflict and action.origin:
+            from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+            from urdfsync.modelica.layout import with_within
+
+            # the file gets new names only when it moves
+            names = {new: old for old, new in without_clashes(self._decision.names, conflict.mine).items()}
+            package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
+            record, texts = known_bases(with_within(rename(conflict.generated, "", names)[0], package))
+            self.settled.texts.update(texts)
+        if markers := find_markers((content or b"").decode(errors="replace")):
+            message, hint = "unresolved merge markers", "settle them in the file, then build again"
+            raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
+        self._add(action, content, record, Reason.KEEP, Choice.KEEP)
+        return True
+
+    def _take(self, action: Action) -> bool:
+        """Take the generated text, or delete a file that is not generated any more."""
+        inputs, key = self._inputs, action.origin or action.path
+        if action.reason is Reason.ORPHAN:
+            self._add(action, None, inputs.last.files.get(key, FileRecord()), Reason.DELETE, Choice.TAKE)
+            return True
+        if action.mine is None or not (action.is_conflict or action.reason in _EDITED):
+            return False
+        if action.generated is None:  # a class of the user's own: its text with new names is proposed
+            conflict = self._decision.disputed.get(action.path)
+            text = conflict.merged(None) if conflict else None
+            content = None if text is None else encode(text)
+        else:
+            mine = inputs.files.read_on_disk(key) or b""
+            content = self._generation.content(inputs.folder.path(action.path), action.role, mine)
+        if content is None:
+            return False
+        self._add(action, content, _generated_base(action), Reason.UPDATE, Choice.TAKE)
+        return True
+
+    def _merge(self, action: Action, chosen: UsersChoice) -> bool:
+        """Take a merge of both sides, or the text that the user has edited."""
+        conflict, key = self._decision.disputed.get(action.path), action.origin or action.path
+        if conflict is None:
+            return False
+        text = chosen.text if chosen.choice is Choice.EDIT else conflict.merged(chosen.choice)
+        if text is None:
+            return False
+        record = _generated_base(action)
+        if conflict.is_of_branches:  # the text was merged with no generated one: the build does that next
+            record = self._inputs.last.files.get(key, record)
+        reason = Reason.KEEP if text == conflict.mine else Reason.MERGE
+        self._add(action, encode(text), record, reason, chosen.choice)
+        return True
+
+    def _add(self, action: Action, content: bytes | None, record: FileRecord, reason: Reason, choice: Choice) -> None:
+        """Add the new content and base of a file after a choice."""
+        key, last, settled = action.origin or action.path, self._inputs.last, self.settled
+        mine, former = self._inputs.files.read_on_disk(key), last.files.get(key, FileRecord())
+        if mine is not None and (choice is not Choice.UNDO or content != mine):  # otherwise nothing changes
+            settled.before[key] = Former(mine, former, last.bases(former))
+        settled.contents[key], settled.bases[key] = content, record
+        changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
+        settled.actions[key] = msgspec.structs.replace(action, **changes)
+
+    def _move(self, action: Action, named: str | None) -> bool:
+        """Move an edit to another element's file, by default the likely one's.
+
+        Raises ConfigError for an impossible move. If another edit leaves a file in the same command, this edit may move
+        there.
+        """
+        inputs, decision, settled, package = self._inputs, self._decision, self.settled, self._generation.package
+        (kind, _, name), key, choices = action.owner.partition(" "), action.path, inputs.options.choices
+        conflict = decision.disputed[key]
+        new = named or conflict.moved_to
+        path = self._find_target(action, new)
+        target, sha256 = inputs.folder.key(path), package.hash(path)
+        is_leaving = target in choices and choices[target].choice is Choice.MOVED
+        is_asked = any(one.path == target and one.reason is Reason.ASKED for one in decision.actions)
+        message = ""
+        if is_asked and not is_leaving:
+            message = "your edit in this file may belong to another part, too"
+            hint = "settle this file first, or name both files with --moved"
+        elif inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
+            message, hint = "one of the two classes is a folder", "move the edit by hand, then use --keep"
+        elif target in decision.differences.moves.values():
+            message, hint = "this file's own text moves to another file", "build first, then move the edit by hand"
+        if message:
+            raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
+        last, mine = inputs.last.files.get(target, FileRecord()), inputs.files.hash(target, action.role)
+        is_edited = mine not in (None, sha256, *last.hashes) and not is_leaving
+        text = (inputs.files.text(target) or "") if is_edited else package.content(path).decode()
+        if target in settled.contents:
+            text = (settled.contents[target] or b"").decode()
+        merged = self._merge_into(conflict, f"{kind}s", name, new, text)
+        if merged is None:
+            message, hint = "your edit contradicts this file", "move the edit by hand, then use --take"
+            raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
+        if key not in settled.contents:  # another edit may have moved here already
+            mine_bytes = inputs.files.read(key) or b""
+            source = self._generation.content(inputs.folder.path(key), action.role, mine_bytes)
+            self._add(action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
+        content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
+        other = Action(target, Reason.MERGE, action.role, f"{kind} {new}", generated=sha256, mine=mine)
+        self._add(other, content, last if is_edited else FileRecord((sha256,)), Reason.MERGE, Choice.MOVED)
+        return True
+
+    def _find_target(self, action: Action, new: str) -> str:
+        """Return the path of the corresponding file of the element `new`. Raises ConfigError if there is none."""
+        inputs, generation, (kind, _, name) = self._inputs, self._generation, action.owner.partition(" ")
+        path = generation.package.find_like(inputs.folder.path(action.path), f"{kind} {new}")
+        known = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
+        near, message = nearest(new, sorted(known - {name})), ""
+        hint = "name the part that the edit belongs to: --moved NAME"
+        if not name:
+            message, hint = "this file belongs to no single part", "change the names in the file, then use --keep"
+        elif not new:
+            message = "the part to which the edit belongs is unknown"
+        elif new == name:
+            message = f"this file belongs to {kind} `{name}` already"
+        elif new not in known:
+            message, hint = f"the source has no {kind} `{new}`", f"did you mean `{near}`?" if near else hint
+        elif path is None:
+            message = f"{kind} `{new}` has no such file"
+        if message or path is None:
+            raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(action.path)), hint=hint)
+        return path
+
+    def _merge_into(self, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
+        """Merge the edit of another element's file into a text of the element `new`; None for a contradiction."""
+        from urdfsync.merge import merge  # imports the parser
+        from urdfsync.modelica.lexer import words_in
+
+        inputs, generation = self._inputs, self._generation
+        record = inputs.last.files.get(conflict.path, FileRecord())
+        bases = [*inputs.last.bases(record).values()] or [conflict.generated]
+        base, mine = (over_bases(bases, conflict.mine, is_modelica=True) or [(bases[0], conflict.mine)])[0]
+        identifiers = inputs.domain.names(generation.now.snapshot, inputs.robot.target)[kind]
+        names = names_of(inputs, generation, {identifiers[old]: identifiers[new]}, frozenset(words_in(base)))
+        merged = merge(base, mine, text, is_modelica=True, names=names)
+        return None if merged.flaw else merged.text
+
+
+def _generated_base(action: Action) -> FileRecord:
+    """Return a record with the generated text as base; without one, no base."""
+    return FileRecord((action.generated,) if action.generated else ())
+
+
+def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:
+    """Return a record with this base, and the base's text by its hash."""
+    texts = {} if base is None else {text_hash(base): base}
+    return FileRecord(tuple(texts)), texts
+
+
+def with_choices(inputs: Inputs, settled: Settled) -> Inputs:
+    """Return the inputs with the files and bases that choices have changed."""
+    left = {key: merge for key, merge in inputs.files.left_by_git.items() if key not in settled.contents}
+    inputs = inputs.laid_over({**inputs.files.overlay, **settled.contents}, left)
+    recorded = {**inputs.last.record.files, **settled.bases}
+    record = msgspec.structs.replace(
+        inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
+    )
+    last = msgspec.structs.replace(inputs.last, record=record, texts=settled.texts)
+    return msgspec.structs.replace(inputs, last=last, settled=settled)

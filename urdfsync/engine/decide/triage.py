@@ -1,0 +1,127 @@
+"""Sorts a robot's files by hashes: in step, edited, to write or to delete, in conflict, or asked about."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+import msgspec
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import DISPUTED, Action, Reason
+from urdfsync.engine.decide import united
+from urdfsync.engine.decide.conflicts import find_conflict
+from urdfsync.engine.decide.differences import Differences
+from urdfsync.engine.decide.edit_origins import find_doubts
+from urdfsync.engine.decide.package_names import renamed_names
+from urdfsync.engine.decide.renumbered import NOT_RENUMBERED, Renumbered, find_renumbered
+from urdfsync.engine.decide.rules import File, decide
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.package.generate import Package
+from urdfsync.matching import Doubt
+from urdfsync.state.record import role_of
+
+
+class Triage(NamedTuple):
+    """What the hashes of the files tell, and which parts the user's edits mean."""
+
+    actions: tuple[Action, ...]
+    origins: frozenset[str]
+    """The former keys of files whose elements have other names."""
+    doubts: Mapping[str, Doubt]
+    renumbered: Renumbered
+    names: Mapping[str, str]
+    """New names by old names; empty if no edit and no text in `aside` needs them."""
+
+
+def triage(inputs: Inputs, generation: Generation, differences: Differences) -> Triage:
+    """Decide on every file by hashes; ask about edits that may belong to other parts."""
+    package, origins = generation.package, frozenset(differences.moves.values())
+    decided = decide(_find_files(inputs, generation), differences.moves)
+    edits = [one for one in decided if one.reason in DISPUTED | {Reason.KEEP} and one.role is not Role.IMPORT]
+    renumbered = find_renumbered(inputs, generation, differences, edits) if edits else NOT_RENUMBERED
+    doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, renumbered, decided)}
+    actions = tuple(_adjust(inputs, package, action, doubts) for action in decided)
+    names: Mapping[str, str] = {}
+    needing = DISPUTED | {Reason.KEEP} if differences.other_elements else DISPUTED
+    if inputs.last.aside or any(one.reason in needing and one.role is not Role.IMPORT for one in actions):
+        names = renamed_names(inputs, generation, differences)
+    if differences.other_elements or renumbered:
+        actions = tuple(_with_other_names(inputs, package, actions, names, renumbered))
+    return Triage(actions, origins, doubts, renumbered, names)
+
+
+def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
+    """Return every recorded or generated file as it is before the build, by key."""
+    last, files = inputs.last, dict[str, File]()
+
+    def add(key: str, role: Role, owner: str, generated: str | None) -> None:
+        on_disk = inputs.files.on_disk(key, role)
+        record = last.file(key, role, on_disk, generated)
+        files[key] = File(role, owner, record, on_disk, generated)
+
+    for path, artifact in generation.package.artifacts.items():
+        add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
+    for name, entry in generation.imported.imports.items():
+        add(inputs.folder.key(entry.target), Role.IMPORT, name, entry.target_hash)
+    for key in last.files.keys() - files.keys():
+        path = last.folder.path(key)
+        # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
+        old = last.package.artifacts.get(path) if last.package else None
+        add(key, old.role if old else role_of(path), old.owner if old else "", None)
+    for key, record in united.find_left_records(inputs, find_unknown(inputs, files)).items():
+        role = role_of(inputs.folder.path(key))
+        if not last.is_chosen(key, on_disk := inputs.files.on_disk(key, role)):
+            files[key] = File(role, "", record, on_disk, None)
+    return files
+
+
+def find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
+    """Yield the Modelica files in the package that are neither generated nor recorded."""
+    others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one.name != inputs.robot.name)
+    for key in sorted(inputs.files.classes(inputs.folder) - set(known)):
+        if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
+            yield key
+
+
+def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt]) -> Action:
+    """Correct an action by contents and options: the rules see only hashes."""
+    left = inputs.files.left_by_git
+    if left.get(action.path) and action.reason in (Reason.KEEP, Reason.UNCHANGED, Reason.UPDATE):
+        return msgspec.structs.replace(action, reason=Reason.MARKERS)
+    if left.get(action.path, True) is None:
+        action = msgspec.structs.replace(action, is_left_by_git=True)
+    if action.path in doubts:
+        return msgspec.structs.replace(action, reason=Reason.ASKED)
+    if action.reason is Reason.DELETE and action.mine is not None and action.role is not Role.IMPORT:
+        # a record alone proves nothing: its author, or git's union of two records, may name any file of the user's
+        is_written = action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)
+        return action if is_written else msgspec.structs.replace(action, reason=Reason.ORPHAN)
+    if action.reason is Reason.UNOWNED and inputs.options.adopts:
+        return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
+    return action
+
+
+def _with_other_names(
+    inputs: Inputs, package: Package, actions: Iterable[Action], names: Mapping[str, str], renumbered: Renumbered
+) -> Iterator[Action]:
+    """Yield the actions. An edit that uses an outdated name is merged, even if the generated text did not change."""
+    for action in actions:
+        is_chosen = inputs.files.is_chosen(action.path)
+        is_edit = action.reason is Reason.KEEP and action.role is not Role.IMPORT and not is_chosen
+        if is_edit and action.base == action.generated:
+            from urdfsync.modelica.lexer import words_in  # imports the parser
+
+            text = inputs.files.text(action.path) or ""
+            generated = package.content(inputs.folder.path(action.path)).decode()
+            words, is_settled = words_in(generated), action.mine in inputs.last.record.confirmed
+            mine = Counter(words_in(text))
+            mine.subtract(words)
+            is_outdated = not is_settled and any(count > 0 and word in names for word, count in mine.items())
+            if not is_outdated and (numbers := renumbered.names(action, words)):
+                is_outdated = find_conflict(action, [generated], text, generated, numbers).merged(None) != text
+            if is_outdated:
+                action = msgspec.structs.replace(action, reason=Reason.CONFLICT)
+        yield action

@@ -1,0 +1,353 @@
+"""Finds the versions of files that git has merged from two branches, and the meaning of each file."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import msgspec
+
+from urdfsync import git
+from urdfsync.dependencies import reads
+from urdfsync.dependencies.places import named, real
+from urdfsync.diagnostics import SourceError, StateError
+from urdfsync.domain import Role
+from urdfsync.engine.actions import ORPHANS, Action, Reason
+from urdfsync.engine.decide.conflicts import over_bases
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.last_build import LastBuild
+from urdfsync.engine.inspect.package_files import PackageFiles, encode, text_hash
+from urdfsync.git.revisions import Revision
+from urdfsync.git.unmerged import find_git_folder
+from urdfsync.modelica import markers
+from urdfsync.state import statefile
+from urdfsync.state.record import NEVER_WRITTEN, FileRecord, role_of
+
+if TYPE_CHECKING:
+    import pygit2
+
+    from urdfsync.merge import Merge
+
+_UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
+"""The references under which git keeps the commit that it is merging into HEAD."""
+
+_IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
+"""Reasons for which a generated file stays."""
+_SETTLED = frozenset({Reason.MERGE, Reason.FORGET}) | ORPHANS
+"""Reasons for which a build writes a file's meaning."""
+_Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
+"""Changed lines and their replacements. The order of lines does not count: a diff can cut added blocks in several
+ways."""
+
+
+class Sides(NamedTuple):
+    """The versions of a file that git merged; lines end with line feeds."""
+
+    base: str
+    """The text in the common ancestor; empty without one."""
+    ours: str
+    theirs: str
+
+
+def with_meanings(inputs: Inputs, generation: Generation) -> Inputs:
+    """Return the inputs; each file that still is git's merge of two branches, or what git left of it, has its meaning.
+
+    If nobody edited the versions, the meaning is our version. Otherwise it is a merge by elements without
+    contradictions.
+    """
+    files, last, package, folder = inputs.files, inputs.last, generation.package, inputs.folder
+    contents: dict[str, bytes] = {}
+    left: dict[str, Merge | None] = {}
+    generated = {folder.key(path): package.hash(path) for path in package.artifacts}
+    for key in dict.fromkeys((*generated, *last.files)):
+        role, text = role_of(folder.path(key)), generated.get(key)
+        if role is Role.IMPORT:
+            continue
+        on_disk = files.on_disk(key, role)
+        if on_disk == text and key not in inputs.unmerged:
+            continue  # most files are in step
+        is_edited = isinstance(on_disk, str) and on_disk not in (text, *last.file(key, role, on_disk, text).hashes)
+        found = _find_meaning(inputs, key, is_edited=is_edited) if is_edited or key in inputs.unmerged else None
+        if isinstance(found, str) and text_hash(found) == files.hash(key, role):
+            continue  # the file has its meaning already, and only `git add` is missing
+        if isinstance(found, str):
+            contents[key], left[key] = encode(found), None
+        elif found is not None:
+            left[key] = found
+    return inputs.laid_over(contents, left) if left else inputs
+
+
+def _find_meaning(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merge | None:
+    """Return a file's meaning, or the merge of two branches that contradict each other; None for other files."""
+    last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
+    has_markers, is_unmerged = bool(markers.find_markers(text)), key in inputs.unmerged
+    if not (has_markers or is_unmerged or last.files.get(key, NEVER_WRITTEN).is_ambiguous):
+        return None
+    if is_unmerged and not has_markers and (left := _find_left_side(file, _plain(text))):
+        if _is_chosen(inputs, key, _plain(text)):
+            return None  # `git add` is missing
+        return text if _are_generated(last, [left[1]]) else _merge_edits(last, key, left[0])
+    if not (has_markers or is_edited):
+        return None
+    sides = find_sides(file, text)
+    if sides is None and has_markers:
+        ours, theirs = markers.read_sides(_plain(text))
+        # both sides are generated texts, so no edit is lost
+        return ours if _are_generated(last, (ours, theirs)) else None
+    if sides and _are_generated(last, (sides.ours, sides.theirs)):
+        return sides.ours
+    if sides is None or not has_markers:
+        return None
+    return _merge_edits(last, key, sides)
+
+
+def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | Merge:
+    """Merge two versions by their elements; if that fails, merge their edits into the same generated text.
+
+    The second way ignores differences between exports: these are no contradictions between people.
+    """
+    from urdfsync.merge.texts import merge_branches  # imports the parser
+
+    recorded = last.files[key].hashes if key in last.files else ()
+    bases = [base for sha256 in recorded if (base := last.base(sha256)) is not None]
+    ours, theirs = (dict(over_bases(bases, side, is_modelica=True)) for side in sides[1:])
+    versions = [sides, *((base, ours[base], theirs[base]) for base in ours if base in theirs)]
+    merges = [merge_branches(*texts) for texts in versions]
+    merge = min(merges, key=lambda one: len(one.contradictions))
+    return merge if merge.text is None else merge.text
+
+
+def describe(contradictions: Sequence[str], text: str) -> str:
+    """Return a clause that names the elements about which two branches contradict each other in a file's text."""
+    elements = [element for element in dict.fromkeys(contradictions) if element]
+    both = f"both branches changed {' and '.join(elements) or 'the same lines'}"
+    if not markers.find_markers(text):  # git's merge driver failed, or somebody took one side
+        return f"git has not merged it, since {both}: `git add` it to keep this text"
+    return f"git's markers are in it, since {both}"
+
+
+def write_meanings(
+    files: PackageFiles, actions: Iterable[Action], merged: Mapping[str, str]
+) -> tuple[tuple[Action, ...], dict[str, str]]:
+    """Return actions that write the meanings of files that git merged, and all merged texts, by key."""
+    settled, texts = list[Action](), dict(merged)
+    for action in actions:
+        if action.is_left_by_git and action.reason in _IN_STEP:
+            reason = Reason.UPDATE if action.reason is Reason.UNCHANGED else Reason.MERGE
+            action = msgspec.structs.replace(action, reason=reason)
+        if action.is_left_by_git and action.reason in _SETTLED and action.path not in merged:
+            texts[action.path] = files.text(action.path) or ""
+        settled.append(action)
+    return tuple(settled), texts
+
+
+def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
+    """Return whether builds wrote all of these texts."""
+    recorded = last.record.hashes
+    return all(sha256 in recorded or last.base(sha256) is not None for sha256 in map(text_hash, texts))
+
+
+def can_join(file: Path, text: str, *, is_united: bool) -> bool:
+    """Return whether a `package.order` with markers is still git's merge, so that its lines may be joined.
+
+    Without a readable repository, `is_united` decides: whether git has united the recorded state.
+    """
+    try:
+        Revision(file.parent, "HEAD")
+    except SourceError:
+        return is_united
+    return find_sides(file, text) is not None
+
+
+def _is_chosen(inputs: Inputs, key: str, text: str) -> bool:
+    """Return whether the file has the user's choice between git's present versions.
+
+    The text equals one version, which does not show it. But the choice has replaced another version, or both.
+    """
+    import pygit2
+
+    last, file = inputs.last, inputs.files.path(key)
+    aside = last.aside.get(inputs.folder.path(key))
+    if aside is None or aside.after != text_hash(text):
+        return False
+    former = _plain((inputs.store.aside_text(last.name, aside.file) or b"").decode(errors="replace"))
+    if former == text:
+        return False  # an earlier `--keep` looks the same
+    try:
+        staged = _staged(Revision(file.parent, "HEAD").repository, file, former)
+        return any(former in sides[1:] or _is_untouched(former, sides) for sides in staged)
+    except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
+        return False  # as in `find_sides`
+
+
+def _find_left_side(file: Path, text: str) -> tuple[Sides, str] | None:
+    """Return the versions of an unmerged file that has the text of one of them, and the text of the other.
+
+    A merge driver that fails leaves ours.
+    """
+    import pygit2
+
+    try:
+        staged = _staged(Revision(file.parent, "HEAD").repository, file, text)
+        found = next((sides for sides in staged if text in sides[1:]), None)
+    except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
+        return None  # as in `find_sides`
+    return (found, found.theirs if text == found.ours else found.ours) if found else None
+
+
+def find_sides(file: Path, text: str) -> Sides | None:
+    """Return the versions of a file that git merged, in the present merge or in the last merge.
+
+    Return None if there are none, or if somebody has changed the file since the merge.
+    """
+    import pygit2
+
+    reads.depend_on_commits(git.find_top(file.parent))
+    text = _plain(text)
+    try:
+        repository = Revision(file.parent, "HEAD").repository
+        candidates = itertools.chain(_staged(repository, file, text), _committed(repository, file))
+        return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
+    except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
+        return None  # as without a repository: it is damaged or shallow
+
+
+def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileRecord]:
+    """Return the records of files that one branch edited and the other branch deleted, by key.
+
+    Git leaves such a file in the working tree, but the united record does not list this file.
+    """
+    top = git.find_top(inputs.config.root) or ""
+    folder = find_git_folder(top)
+    if not any((folder / name).exists() for name in (*_UNDER_WAY, "SQUASH_MSG")):
+        return {}  # importing pygit2 takes 55 ms
+    import pygit2
+
+    reads.depend_on_commits(top)
+    wanted = {os.path.relpath(real(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
+    found = dict[str, FileRecord]()
+    try:
+        for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():
+            left = ours or theirs
+            if not (base and left and left.path in wanted) or (ours and theirs):
+                continue
+            for name in ("HEAD",) if ours else _UNDER_WAY:
+                state = _read(name, inputs.store.path(inputs.last.name))
+                record = statefile.loads(state, name)[0] if state else None
+                if record and (file := record.files.get(wanted[left.path])):
+                    found[wanted[left.path]] = file
+    except (SourceError, StateError, pygit2.GitError, KeyError, OSError):
+        return found  # as in `find_sides`
+    return found
+
+
+def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:
+    """Yield the versions in the index, if git reports a conflict in the file."""
+    folder = Path(real(file.parent)).relative_to(named(os.path.realpath(repository.workdir)))
+    path = (folder / file.name).as_posix()
+    for base, ours, theirs in repository.index.conflicts or ():
+        entries = [entry for entry in (ours, theirs) if entry and entry.path == path]
+        blobs = (repository[entry.id].read_raw() if entry else b"" for entry in (base, ours, theirs))
+        texts = [_plain(blob.decode(errors="replace")) for blob in blobs]
+        if ours and theirs and entries:
+            if base is None:  # if renames of both branches end here, the index may have git's merge of two other files
+                texts[1:] = (next(_read_side(file, one, number == 0), one) for number, one in enumerate(texts[1:]))
+            if not any(map(markers.find_markers, texts[1:])):
+                yield Sides(*texts)
+        elif entries and text in texts[1:]:
+            # if both branches renamed a file, git writes the merge to both paths; each branch has only one path
+            for version in _read_side(file, text, bool(ours)):
+                yield Sides(version, version, version)
+
+
+def _read_side(file: Path, merged: str, is_ours: bool) -> Iterator[str]:
+    """Yield the texts of a file in the commits of one side; the markers in git's merge may name their branch."""
+    label = re.search(r"(?m)^>{7,} ([^\s:]+)", merged)
+    for name in ("HEAD",) if is_ours else (*_UNDER_WAY, label[1] if label else ""):
+        if (text := _read(name, file)) is not None:
+            yield text
+
+
+def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
+    """Yield the versions in the two commits that git is merging, and in the parents of the last merge."""
+    import pygit2
+
+    for names in (*(("HEAD", name) for name in _UNDER_WAY), ("HEAD^1", "HEAD^2")):
+        ours, theirs = (_read(name, file) for name in names)
+        if ours is None or theirs is None:
+            continue
+        commits = [repository.revparse_single(name).peel(pygit2.Commit) for name in names]
+        ancestor = repository.merge_base(commits[0].id, commits[1].id)
+        # the base of a merge is the common ancestor; the base of a cherry-pick is the commit's parent
+        for base in dict.fromkeys([str(ancestor or ""), f"{names[1]}^"]):
+            yield Sides(_read(base, file) or "", ours, theirs)
+
+
+def _read(revision: str, file: Path) -> str | None:
+    """Return the text of a file in a commit; None if the commit lacks it."""
+    try:
+        return _plain(Revision(file.parent, revision).read(file).decode())
+    except (SourceError, UnicodeDecodeError):
+        return None
+
+
+def _plain(text: str) -> str:
+    return text.replace("\r\n", "\n")
+
+
+def _is_untouched(text: str, sides: Sides) -> bool:
+    """Return whether a text is git's merge of two versions, with the driver or by lines.
+
+    After a merge by lines, each side of a conflict has one version, with the other version's changes to unchanged
+    lines. This compares the changes, since git may compare lines in several ways.
+    """
+    from urdfsync.merge.texts import merge_file
+
+    readings = markers.read_sides(text)
+    if not any(map(markers.find_markers, readings)):  # nested markers come only from the driver
+        is_merged = readings[0] == text
+        ours, theirs = (_changes(sides.base, side) for side in sides[1:]) if is_merged else _apart(sides)
+        if _changes(sides.ours, readings[0]) <= theirs and _changes(sides.theirs, readings[1]) <= ours:
+            return True
+    first, middle, last = markers.signs(text)
+    driven, _ = merge_file(*sides, ((first, "mine"), (middle, "generated"), (last, "")))
+    return driven == markers.without_labels(text)
+
+
+def _changes(old: str, new: str) -> _Changes:
+    from urdfsync.merge.lines import compare
+
+    lines, new_lines = _lines(old), _lines(new)
+    return Counter(
+        _change(lines[change.start : change.stop], new_lines[change.new_start : change.new_stop])
+        for change in compare(lines, new_lines)
+    )
+
+
+def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
+    """Return the changes of each side that do not touch changes of the other side."""
+    from urdfsync.merge.lines import find_regions
+
+    lines = [_lines(text) for text in sides]
+    ours, theirs = _Changes(), _Changes()
+    for region in find_regions(*lines):
+        if not region.is_generated:
+            ours[_change(lines[0][region.base], lines[1][region.mine])] += 1
+        elif not region.is_mine:
+            theirs[_change(lines[0][region.base], lines[2][region.generated])] += 1
+    return ours, theirs
+
+
+def _lines(text: str) -> list[str]:
+    """Return the lines of a text, ignoring a missing line feed at the end: git adds one before a marker."""
+    return text.removesuffix("\n").split("\n")
+
+
+def _change(old: Sequence[str], new: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    return tuple(sorted(old)), tuple(sorted(new))

@@ -1,0 +1,1 @@
+"""Reads all inputs of a build."""

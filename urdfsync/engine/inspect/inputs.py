@@ -1,0 +1,174 @@
+"""Inputs of a build of one robot: configuration, source, templates, the last build, and the files on disk."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import msgspec
+
+from urdfsync import registry
+from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.places import real
+from urdfsync.dependencies.reads import unrecorded
+from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
+from urdfsync.domain import Domain
+from urdfsync.engine.actions import Action
+from urdfsync.engine.inspect import parents
+from urdfsync.engine.inspect.last_build import LastBuild, option_values
+from urdfsync.engine.inspect.package_files import Folder, PackageFiles
+from urdfsync.engine.inspect.parents import Parents
+from urdfsync.engine.inspect.users_files import UsersFiles, find_users_files
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.sources import source
+from urdfsync.engine.sources.source import Source
+from urdfsync.files import Templates, digest, shown
+from urdfsync.git.unmerged import find_unmerged
+from urdfsync.state.record import FileRecord, Generator, Record
+from urdfsync.state.store import Store
+from urdfsync.version import __version__
+
+if TYPE_CHECKING:
+    from urdfsync.merge import Merge
+
+
+class Former(NamedTuple):
+    """A replaced text, and its base."""
+
+    text: bytes
+    record: FileRecord
+    bases: Mapping[str, str]
+
+
+class Settled(msgspec.Struct):
+    """The files that the user's choices have changed, by their present keys."""
+
+    actions: dict[str, Action] = msgspec.field(default_factory=dict)
+    contents: dict[str, bytes | None] = msgspec.field(default_factory=dict)
+    """New contents; None for no file."""
+    bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
+    texts: dict[str, str] = msgspec.field(default_factory=dict)
+    """Texts of the bases in `bases`, by hash."""
+    before: dict[str, Former] = msgspec.field(default_factory=dict)
+    """Texts before the choices."""
+    names: Mapping[str, str] = {}
+    """New names by old names, before the choices."""
+    keys: set[str] = msgspec.field(default_factory=set)
+    """Keys of the choices that were applied."""
+
+
+class Inputs(msgspec.Struct, frozen=True, dict=True):
+    """All inputs that a build reads before it parses the source."""
+
+    config: Config
+    robot: RobotConfig
+    options: BuildOptions
+    domain: Domain
+    templates: Templates
+    generator: Generator
+    source: Source
+    store: Store
+    last: LastBuild
+    files: PackageFiles
+    folder: Folder
+    parents: Parents
+    program: str
+    """Hash of the program and the templates; this machine's notes are valid only for this hash."""
+    damage: Diagnostic | None = None
+    """A warning if lines of the recorded state can't be read."""
+    settled: Settled = msgspec.field(default_factory=Settled)
+    """The user's choices, if `files` and `last` already include the choices."""
+
+    def laid_over(self, contents: Mapping[str, bytes | None], left_by_git: Mapping[str, Merge | None]) -> Inputs:
+        """Return the inputs with other contents of files (see `PackageFiles`)."""
+        files = self.files.laid_over(contents, left_by_git)
+        return msgspec.structs.replace(self, files=files, last=msgspec.structs.replace(self.last, _files=files))
+
+    @property
+    def former_name(self) -> str | None:
+        """The robot's name in the last build, if it differs."""
+        return self.last.name if self.last.name != self.robot.name else None
+
+    @property
+    def is_merging(self) -> bool:
+        """Whether the user allows merges: by the configuration, or for this command."""
+        return self.options.merges or self.robot.on_conflict == "merge"
+
+    @property
+    def has_moved(self) -> bool:
+        """Whether the package has another folder than in the last build."""
+        return self.folder != self.last.folder
+
+    @cached_property
+    def unmerged_paths(self) -> set[str]:
+        """The real paths that git could not merge, in the repositories of the configuration and of the source."""
+        return find_unmerged((self.config.root, Path(real(self.robot.source)).parent))
+
+    @cached_property
+    def unmerged(self) -> frozenset[str]:
+        """The keys of the package's files that git could not merge."""
+        below = os.path.join(os.path.realpath(self.robot.folder), "")  # noqa: PTH118 - git's paths are strings
+        inside = (path.removeprefix(below) for path in self.unmerged_paths if path.startswith(below))
+        return frozenset(map(self.folder.key, inside))
+
+    @cached_property
+    def users_files(self) -> UsersFiles:
+        """The user's models outside of the package, and which of them mention the package's present or former names."""
+        former = self.files.path(self.last.folder) if self.has_moved else None
+        names = {folder.name for folder in (self.robot.folder, former) if folder}
+        names |= {old for old, new in self.last.record.former.items() if new in names}
+        return find_users_files(self.config, self.robot, names, former)
+
+
+def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:
+    """Read all inputs of a robot's build. Raises UrdfsyncError for faulty inputs."""
+    domain, store = registry.domain(robot.domain), Store(config.root)
+    files = PackageFiles(config, robot)
+    folder = Folder(files.key(robot.folder))
+    above = Parents(listed=False) if options.removes else parents.check(config, robot, domain.uses(robot.options))
+    (record, damage), name = store.load(robot.name), robot.name
+    others = {files.key(other.folder) for other in config.robots if other.name != robot.name}
+    if record and record.folder in others:  # another robot has this folder now: its files must not be deleted
+        record = None
+    if record is None:  # the folder may have the package of a robot that is no longer configured
+        with unrecorded():  # this build gives the robot a record, and the next one does not look
+            name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
+        record = store.load(name)[0] if name != robot.name else None
+    damage, notes = damage or store.find_damaged_base(name), store.notes(name)
+    if options.adopts and record and (record.snapshot is not None or record.is_united):
+        message, hint = f"robot `{robot.name}` was built already", "`urdfsync resolve` settles its conflicts"
+        place = shown(config.file), robot.lines[""]
+        raise OutputError.of("already-built", message, *place, hint=hint)
+    templates = source.templates(config, robot, domain)
+    text = Source(b"", "") if options.removes else source.read_source(config, robot, store, options, name)
+    generator = Generator(robot.domain, __version__, templates.digest)
+    record = record or Record(
+        package=robot.target.package,
+        class_=robot.target.name,
+        folder=str(folder),
+        generator=generator,
+        options=option_values(robot.options),
+    )
+    program = digest(f"{registry.program(robot.domain, store.folder)} {templates.digest}".encode())
+    if notes.program != program:  # another program wrote these texts and imports
+        notes = msgspec.structs.replace(notes, texts={}, imports=frozenset())
+    last = LastBuild(name, record, notes, store, files, domain, robot, templates)
+    read = domain, templates, generator, text, store, last, files, folder, above
+    return Inputs(config, robot, options, *read, program, damage)
+
+
+def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
+    """Yield robots with a record but no configuration, and the key of their folder; None for an unreadable record."""
+    # a robot counts if its record file exists: if the disk ignores case, `arm` and `Arm` share one
+    names = store.names()
+    configured = {robot.name.casefold() for robot in config.robots if os.path.lexists(store.path(robot.name))}
+    for name in names:
+        if name.casefold() not in configured:
+            try:
+                record, _ = store.load(name)
+            except UrdfsyncError:
+                record = None
+            yield name, record.folder if record else None

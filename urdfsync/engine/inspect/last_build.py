@@ -1,0 +1,207 @@
+"""The last build of a robot: its record, and the model and package from this record."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+import msgspec
+
+from urdfsync.config import RobotConfig
+from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.domain import Domain, ElementKey, Features, Import, Role, Snapshot, Target, Version
+from urdfsync.engine.inspect.package_files import Folder, OnDisk, PackageFiles
+from urdfsync.engine.package.generate import Package, generate
+from urdfsync.engine.package.imports import RecordedFile
+from urdfsync.files import Templates, digest
+from urdfsync.state.notes import Notes
+from urdfsync.state.record import NEVER_WRITTEN, FileRecord, Record, as_read
+from urdfsync.state.store import Aside, Store
+
+NO_MODEL = (
+    ArithmeticError,
+    AssertionError,
+    AttributeError,
+    LookupError,
+    RecursionError,
+    TypeError,
+    UrdfsyncError,
+    ValueError,
+)
+"""Errors that a domain may raise for a recorded snapshot: a stranger may have written the record."""
+
+
+class LastBuild(msgspec.Struct, frozen=True, dict=True):
+    """The last build of a robot, from the record and from this machine's notes."""
+
+    name: str
+    """The robot's name in the last build."""
+    record: Record
+    """The record; without model and files if the robot was never built, or if its state is lost."""
+    notes: Notes
+    _store: Store
+    _files: PackageFiles
+    _domain: Domain
+    _robot: RobotConfig
+    _templates: Templates
+    texts: Mapping[str, str] = {}
+    """Texts of the bases that the user's choices restore, by hash."""
+
+    @cached_property
+    def folder(self) -> Folder:
+        """The folder of the package in the last build."""
+        return Folder(self.record.folder)
+
+    @property
+    def target(self) -> Target:
+        """Package and class."""
+        return Target(self.record.package, self.record.class_)
+
+    @cached_property
+    def files(self) -> Mapping[str, FileRecord]:
+        """The recorded files by key, without files that a build may not touch."""
+        return {key: file for key, file in self.record.files.items() if self._files.is_inside(key)}
+
+    def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
+        """Return the record of a file on disk.
+
+        A text that urdfsync once wrote is urdfsync's own even if the record differs: an overtaken build wrote the text,
+        or git restored it. A text that the user confirmed, such as by `--undo`, is his.
+        """
+        record = self.files.get(key, NEVER_WRITTEN)
+        if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
+            return record
+        is_own = self.has_written(on_disk) and not self.is_chosen(key, on_disk)
+        return FileRecord((on_disk,)) if is_own else record
+
+    def has_written(self, sha256: str) -> bool:
+        """Whether a build once wrote the text with this hash, or a choice restores it as generated."""
+        return sha256 in self.texts or self._store.has_written(self.name, sha256)
+
+    def is_chosen(self, key: str, on_disk: OnDisk) -> bool:
+        """Return whether a user's choice, such as `--undo`, made a file and its base."""
+        return self._files.is_chosen(key) or on_disk in self.record.confirmed
+
+    @cached_property
+    def options(self) -> Any:
+        """The domain's recorded options; None if this version of urdfsync can't read them."""
+        if self.record.generator.domain != self._robot.domain:
+            return None
+        try:
+            return msgspec.convert(self.record.options, self._domain.options)
+        except msgspec.ValidationError:
+            return None
+
+    @cached_property
+    def imports(self) -> Mapping[str, RecordedFile]:
+        """The imported files and their copies."""
+        seen = self.record.open.imports if self.record.open else {}
+        keys = self.record.imports.keys() | seen.keys()
+        return self._imported({key: (*self.record.imports.get(key, ()), *seen.get(key, ())) for key in sorted(keys)})
+
+    def _imported(self, recorded: Mapping[str, tuple[Import, ...]]) -> Mapping[str, RecordedFile]:
+        """Return imported files and their copies. If a file has several records, the copy's hash decides."""
+        imports = dict[str, RecordedFile]()
+        for name, entries in recorded.items():
+            files = list[RecordedFile]()
+            for entry in entries:
+                key, is_noted = self.folder.key(entry.target), hash_of(entry) in self.notes.imports
+                written = self.files.get(key, NEVER_WRITTEN).hashes
+                files.append(RecordedFile(entry, self._files.read(key), written, is_noted))
+            imports[name] = next((file for file in files if file.is_intact), files[0])
+        return imports
+
+    @cached_property
+    def version(self) -> Version | None:
+        """The model of the last complete build; None if there was none, or if it is lost."""
+        snapshot = self.read(self.record.snapshot)
+        files = self._imported(self.record.imports) if self.record.open else self.imports
+        imports = {key: file.entry for key, file in files.items()}
+        return None if snapshot is None else Version(snapshot, imports, self.options)
+
+    @cached_property
+    def elements(self) -> Mapping[ElementKey, Features]:
+        """The elements of the model; empty without a model."""
+        return {} if self.version is None else self._domain.features(self.version.snapshot)
+
+    @cached_property
+    def seen(self) -> Snapshot | None:
+        """The model that the last build read, if that build was incomplete."""
+        return self.read(self.record.open.seen) if self.record.open else None
+
+    def read(self, recorded: Mapping[str, Any] | None) -> Snapshot | None:
+        """Return a recorded model; None if this domain can't read the record: a stranger may have written it."""
+        if not recorded or self.record.generator.domain != self._robot.domain:
+            return None
+        try:
+            return as_read(recorded, self._domain.model)
+        except NO_MODEL:
+            return None
+
+    @cached_property
+    def package(self) -> Package | None:
+        """The package from the recorded model with the present templates; None if it can't be generated."""
+        return None if self.version is None else self.package_like(self.version.snapshot)
+
+    def package_like(self, now: Snapshot) -> Package | None:
+        """Return the package from the recorded model, in the order of another model; None as for `package`."""
+        if self.version is None:
+            return None
+        options = self.options or self._robot.options
+        try:
+            snapshot = self._domain.arranged(self.version.snapshot, now)
+            version = msgspec.structs.replace(self.version, snapshot=snapshot)
+            return generate(self._domain, version, self.target, options, self._templates)
+        except NO_MODEL:
+            return None
+
+    @cached_property
+    def respelled(self) -> Mapping[str, tuple[str, str]]:
+        """The present path, and the hash, of each class that was recorded under another name, by its recorded path.
+
+        A class is listed only if its two texts differ only in the name of the class.
+        """
+        recorded = {self.folder.path(key): file for key, file in self.files.items()}
+        if not (names := [path for path in recorded if path.endswith(".mo")]) or self.package is None:
+            return {}
+        artifacts, respelled = self.package.artifacts, dict[str, tuple[str, str]]()
+        if lost := [path for path in names if path not in artifacts]:
+            new = [path for path in artifacts if path.endswith(".mo") and path not in recorded]
+            paths = {_without_name(path, self.package.content(path).decode()): path for path in new}
+            for path in lost:
+                for sha256, text in self.bases(recorded[path]).items():
+                    if (key := _without_name(path, text)) in paths:
+                        respelled[path] = paths[key], sha256
+        return respelled
+
+    def base(self, sha256: str | None) -> str | None:
+        """Return the stored generated text with this hash; None if there is none."""
+        return self.texts.get(sha256) or self._store.base(self.name, sha256) if sha256 else None
+
+    def bases(self, record: FileRecord) -> dict[str, str]:
+        """Return the stored texts of a file's bases, by hash."""
+        return {sha256: text for sha256 in record.hashes if (text := self.base(sha256)) is not None}
+
+    @cached_property
+    def aside(self) -> Mapping[str, Aside]:
+        """The texts that builds and choices replaced, by path below the package."""
+        return self._store.aside(self.name)
+
+
+def _without_name(path: str, text: str) -> tuple[str, str]:
+    """Return a class's folder, and the text of the class without its name."""
+    folder, _, name = path.removesuffix(".mo").rpartition("/")
+    return folder, re.sub(rf"\b{re.escape(name)}(?=(Parameters)?\b)", "\0", text)
+
+
+def hash_of(recorded: Any) -> str:
+    """Return the hash by which this machine notes a recorded value."""
+    return digest(msgspec.json.encode(recorded, order="sorted"))
+
+
+def option_values(options: msgspec.Struct) -> dict[str, Any]:
+    """Return a domain's options for the record: plain data, without None and empty tables."""
+    values = msgspec.json.decode(msgspec.json.encode(options))
+    return {name: value for name, value in values.items() if value not in (None, {})}

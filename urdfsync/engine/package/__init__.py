@@ -1,0 +1,1 @@
+"""Makes a package from a model: the imported files, and the texts."""

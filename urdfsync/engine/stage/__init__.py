@@ -1,0 +1,1 @@
+"""Stages all writes of a build."""

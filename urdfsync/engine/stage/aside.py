@@ -1,0 +1,154 @@
+"""Puts texts aside that a build replaces, and that this machine did not generate.
+
+`.urdfsync/aside` has a copy of each, for `--undo`. Once the user saves a text's file, and a build writes files, the
+list drops the text; the copy stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import PurePosixPath
+
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Reason
+from urdfsync.engine.decide.decision import Decision
+from urdfsync.engine.decide.settle import known_bases
+from urdfsync.engine.inspect.inputs import Former, Inputs
+from urdfsync.engine.inspect.package_files import PackageFiles, encode
+from urdfsync.engine.package.generate import Package
+from urdfsync.files import digest, shown, text_digest
+from urdfsync.modelica.files import class_parts
+from urdfsync.spelling import counted
+from urdfsync.state.record import FileRecord, role_of
+from urdfsync.state.store import Aside
+
+
+def put_aside(
+    inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
+) -> tuple[dict[str, Aside], dict[str, bytes]]:
+    """Return the saved texts after a build, by path below the package, and the new texts by file.
+
+    `contents` are the texts that the build writes, by key; None for a deletion.
+    """
+    folder, settled = inputs.folder, inputs.settled
+    moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
+
+    def path_of(key: str) -> str:  # a package that is to move is still in its former folder while conflicts wait
+        return folder.path(inputs.last.folder.path(key))
+
+    index, replaced = dict[str, Aside](), dict(_replaced(inputs, package, decision, contents))
+    for path, aside in inputs.last.aside.items():
+        key = inputs.last.folder.key(path)  # the package may have moved since
+        is_unsaved = _is_as_written(inputs.files, key, aside)
+        if key in moved and is_unsaved and (text := inputs.store.aside_text(inputs.last.name, aside.file)) is not None:
+            former = Former(text, FileRecord(aside.bases), aside.texts)
+            replaced.setdefault(moved[key], _follow(inputs, former, moved[key], decision.names))
+        elif is_unsaved or not contents:
+            index[path] = aside
+    for key in settled.contents:
+        index.pop(path_of(key), None)  # another choice replaces this text, or this text was restored
+    chosen = {
+        moved.get(key, key): _follow(inputs, former, moved[key], decision.names) if key in moved else former
+        for key, former in settled.before.items()
+    }
+    deleted = [one for one in decision.actions if one.writes and one.reason is Reason.DELETE] if chosen else []
+    models = (one.path for one in deleted if one.path.startswith(folder.key("")) and one.path.endswith(".mo"))
+    beside, texts = {folder.path(key): inputs.files.text(key) or "" for key in models}, dict[str, bytes]()
+    for key, former in {**replaced, **chosen}.items():
+        place, after = PurePosixPath(path_of(key)), contents.get(key, settled.contents.get(key))
+        file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
+        sha256, bases = None if after is None else text_digest(after), (former.record.hashes, former.bases)
+        index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
+        texts[file] = former.text
+    return index, texts
+
+
+def tell_aside(
+    inputs: Inputs, actions: Actions, index: Mapping[str, Aside], texts: Mapping[str, bytes]
+) -> tuple[Diagnostic, ...]:
+    """Return a note if the build replaces texts that this machine did not generate, without the user's choice."""
+    told, chosen = (Reason.MERGE, Reason.MOVE, Reason.UNDO), inputs.settled.actions.keys()
+    saved = {inputs.last.folder.key(path) for path in inputs.last.aside}  # such a text moves with its file
+    known = {
+        inputs.folder.path(one.path)
+        for one in actions
+        if one.reason in told or {one.path, one.origin} & chosen or one.origin in saved
+    }
+    new = sorted(path for path, aside in index.items() if aside.file in texts and path not in known)
+    if not new:
+        return ()
+    file, be = shown(inputs.files.path(inputs.folder.key(new[0]))), "is" if len(new) == 1 else "are"
+    what = f"{counted(len(new), 'text')} that this machine did not generate"
+    message = f"a build replaces {what}" if inputs.options.dry else f"{what} {be} replaced"
+    place = shown(inputs.store.aside_file(inputs.robot.name).parent)
+    hint = f"copies {'will be' if inputs.options.dry else 'are'} below {place}"
+    if any(role_of(path) is not Role.IMPORT for path in new):
+        hint += "; `resolve FILE --undo` brings one back"
+    return (Diagnostic(Severity.NOTE, "put-aside", message, file, hint=hint),)
+
+
+def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
+    """Return whether a file is unchanged since the build that saved its former text in `aside`."""
+    try:
+        state = files.state_on_disk(key)
+    except OutputError:  # the user replaced it by a link or a folder
+        return False
+    return (state.text_sha256 if state else None) == aside.after
+
+
+def _follow(inputs: Inputs, former: Former, key: str, names: Mapping[str, str]) -> Former:
+    """Return a text and its base for the file's new path: with new names, and a new `within` clause."""
+    from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+    from urdfsync.modelica.layout import with_within
+
+    text, base = former.text.decode(errors="surrogateescape"), next(iter(former.bases.values()), None)
+    if base is not None:
+        base, text = rename(base, text, without_clashes(names, text))
+    class_name = (inputs.robot.target.package, *class_parts(inputs.folder.path(key)))
+    return Former(encode(with_within(text, ".".join(class_name))), *known_bases(base))
+
+
+def _replaced(
+    inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
+) -> Iterator[tuple[str, Former]]:
+    """Yield the key and the former text of each replaced or deleted file; leave out texts that this machine generated.
+
+    A `package.order` is saved only if git has united two states: then a build may remove the user's lines.
+    """
+    files, last, folder = inputs.files, inputs.last, inputs.folder.key("")
+    origins = {action.origin for action in decision.actions if action.origin and action.writes}
+    for action in decision.actions:
+        key, is_moving = action.path, action.reason is Reason.MOVE
+        if not action.writes or key not in contents or (key in origins and not is_moving):
+            continue  # the user's text moves to another file
+        if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
+            continue
+        place = (action.origin or key) if is_moving else key
+        record = last.files.get(place, FileRecord())
+        state = files.state(place) if is_moving else files.state_on_disk(key)
+        # a mesh is no text: bytes that look like line ends count
+        if state is None or not last.notes.written.intersection(record.hashes).isdisjoint(state):
+            continue
+        text = files.read(place) if is_moving else files.read_on_disk(key)
+        if text is None:  # somebody has just deleted it
+            continue
+        former = Former(text, record, last.bases(record))
+        if is_moving:
+            former = _follow(inputs, former, key, decision.names)
+        if former.text != contents[key]:
+            yield key, Former(former.text, *_bases_given_back(inputs, package, action, former))
+
+
+def _bases_given_back(
+    inputs: Inputs, package: Package, action: Action, former: Former
+) -> tuple[FileRecord, Mapping[str, str]]:
+    """Return the bases of a text after `--undo`."""
+    # with the old base, the next build would merge the text again, unless only this command merges; or would take it
+    # for generated
+    is_merge = action.reason in (Reason.MERGE, Reason.MOVE) or action.is_left_by_git
+    is_own_base = text_digest(former.text) in former.record.hashes
+    is_based_anew = is_own_base or (is_merge and inputs.robot.on_conflict == "merge")
+    if action.generated and action.role is not Role.IMPORT and is_based_anew:
+        return known_bases(package.content(inputs.folder.path(action.path)).decode())
+    return (FileRecord(), {}) if is_own_base else (former.record, former.bases)

@@ -1,0 +1,132 @@
+"""The record of a robot after a build, and this machine's notes. Pure, but for the texts that it looks up."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import msgspec
+
+from urdfsync.domain import ChangeClass, ElementKey
+from urdfsync.engine.actions import Reason
+from urdfsync.engine.decide.decision import Decision
+from urdfsync.engine.decide.differences import Differences
+from urdfsync.engine.decide.edit_origins import EDITED
+from urdfsync.engine.decide.renames import match_with_last
+from urdfsync.engine.decide.rules import files_after
+from urdfsync.engine.declared import pending
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.last_build import hash_of, option_values
+from urdfsync.engine.inspect.package_files import text_hash
+from urdfsync.engine.sources.source import expansion_hash
+from urdfsync.files import text_digest
+from urdfsync.state.notes import Notes
+from urdfsync.state.record import FileRecord, Open, Question, Record, as_recorded
+from urdfsync.state.store import Aside
+
+
+def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> Record:
+    """Return the record after a build."""
+    old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
+    imports, inside = generation.imported.imports, inputs.folder.key("")
+    merged = {key: text_hash(text) for key, text in decision.texts.items() if key.endswith(".mo")}
+    # a merge may wait: then the edit stays on disk
+    edits = (action for action in decision.actions if action.reason in EDITED or action.path in merged)
+    judged = frozenset((*merged.values(), *(str(action.mine) for action in edits if action.mine)))
+    # the merge of a confirmed text with an export stays confirmed
+    merges = (action for action in decision.actions if action.path in merged and action.mine in old.confirmed)
+    confirmed = frozenset(merged[action.path] for action in merges)
+    if not decision.is_complete:
+        return _open_record(inputs, generation, decision, judged, confirmed)
+    files = files_after(decision.actions, inputs.last.files, is_complete=True)
+    users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
+    edited = (one for one in decision.actions if one.reason in users and one.mine)
+    is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
+    new = Record(
+        package=inputs.robot.target.package,
+        class_=inputs.robot.target.name,
+        folder=str(inputs.folder),
+        generator=inputs.generator,
+        options=option_values(inputs.robot.options),
+        renamed=_brought(inputs, differences.renames),
+        former=_former(inputs, generation, differences),
+        confirmed=confirmed.union(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
+        edited=judged,
+        snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
+        imports={key: (entry,) for key, entry in imports.items()},
+        files={key: file for key, file in files.items() if key.startswith(inside)},
+    )
+    # an edit is not worth a commit of the record
+    silent = msgspec.structs.replace(new, edited=old.edited)
+    if news is not None and all(change.change_class.rank <= ChangeClass.UNMODELLED.rank for change in news.changes):
+        # nor is a change without effect on the package, such as an unmodelled part of the source
+        silent = msgspec.structs.replace(silent, snapshot=old.snapshot, options=old.options, generator=old.generator)
+    return old if silent == old else new
+
+
+def _open_record(
+    inputs: Inputs, generation: Generation, decision: Decision, judged: frozenset[str], confirmed: frozenset[str]
+) -> Record:
+    """Return the record after an incomplete build: it keeps the model of the last complete build.
+
+    `judged` has the hashes of the user's texts, `confirmed` those of confirmed texts after their merges.
+    """
+    old, imports, inside = inputs.last.record, generation.imported.imports, inputs.folder.key("")
+    # record renewed files, but none in a former folder
+    files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
+    files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
+    renewed = dict(old.open.imports) if old.open else {}
+    for key, entry in imports.items():
+        if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,)):
+            renewed[key] = (entry,)
+    renewed = {key: entries for key, entries in renewed.items() if entries != old.imports.get(key)}
+    questions = (action for action in decision.actions if action.reason is Reason.ASKED)
+    asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
+    # a decision about an earlier export does not answer a question, not in the next build either
+    outdated = decision.outdated.union(question.mine for question in asked.values())
+    confirmed |= old.confirmed.difference(outdated)
+    renames = decision.differences.renames
+    if pending(inputs):  # the user may delete a declaration
+        renames = match_with_last(inputs, generation.now.snapshot, {}).renames
+    new = msgspec.structs.replace(
+        old,
+        files=files,
+        open=Open(as_recorded(generation.now.snapshot), renames, asked, renewed),
+        confirmed=confirmed.union(text_digest(text) for text in inputs.settled.contents.values() if text is not None),
+    )
+    return old if new == old else msgspec.structs.replace(new, edited=judged)
+
+
+def _former(inputs: Inputs, generation: Generation, differences: Differences) -> Mapping[str, str]:
+    """Return present identifiers by former ones that name nothing now: of package, main model and elements."""
+    names = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
+    elements = (identifier for kind in names.values() for identifier in kind.values())
+    present = {inputs.robot.folder.name, inputs.robot.target.name, *elements}
+    return {old: new for old, new in differences.former.items() if new in present and old not in present}
+
+
+def _brought(inputs: Inputs, renames: Mapping[ElementKey, str]) -> Mapping[str, str]:
+    """Return the declared renames that this build or an earlier one has applied."""
+    declared, done = inputs.robot.renamed, inputs.last.record.renamed
+    if inputs.last.version is None:  # the first build has the new names already
+        return dict(declared)
+    brought = {(name, new) for (_, name), new in renames.items()}
+    return {old: new for old, new in declared.items() if done.get(old) == new or (old, new) in brought}
+
+
+def notes_after(inputs: Inputs, generation: Generation, record: Record, saved: Iterable[Aside]) -> Notes:
+    """Return this machine's notes with the results of this build; `record` is the new record."""
+    old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
+    recorded, texts = inputs.last.record.hashes | record.hashes, generation.package.notes()
+    recorded |= {text_hash(model) for aside in saved for model in aside.beside.values()}  # `--undo` records them again
+    made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
+    made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
+    return msgspec.structs.replace(
+        old,
+        program=inputs.program,
+        texts=texts,
+        imports=frozenset(hash_of(entry) for key, entry in imports.imports.items() if key in made_here),
+        expansion=expansion_hash(expanded) if expanded and inputs.source.is_made_here else "",
+        written=frozenset(made | (set(old.written) & recorded)),
+        model=hash_of(record.snapshot),
+    )

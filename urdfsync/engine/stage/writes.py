@@ -1,0 +1,252 @@
+"""Stages one robot's plan with all its writes: what they need first, the files, and last the record."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic, OutputError
+from urdfsync.engine.actions import Action, Actions
+from urdfsync.engine.decide.decision import Decision
+from urdfsync.engine.decide.edit_origins import EDITED
+from urdfsync.engine.decide.package_after import PackageAfter
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.inputs import Inputs, Settled
+from urdfsync.engine.inspect.package_files import encode
+from urdfsync.engine.inspect.parents import SharedFile
+from urdfsync.engine.package.generate import Package
+from urdfsync.engine.result import Result
+from urdfsync.engine.stage.aside import put_aside, tell_aside
+from urdfsync.engine.stage.findings import UNMERGED, find_lasting, find_news, find_uses, tell_uses
+from urdfsync.engine.stage.foresight import foresee_actions
+from urdfsync.engine.stage.record_after import notes_after, record_after
+from urdfsync.engine.stage.saved_conflicts import SavedConflicts, save_conflicts
+from urdfsync.files import shown
+from urdfsync.state import bases, expansion, statefile
+from urdfsync.state.notes import Notes
+from urdfsync.state.record import Record
+from urdfsync.state.store import Aside, StateHashes
+from urdfsync.state.transaction import FileChange, Writes
+
+
+class Plan(msgspec.Struct, frozen=True):
+    """All writes of one robot's build, and the result after them."""
+
+    result: Result
+    state: StateHashes
+    """Hashes of the recorded state when the plan was made."""
+    shared: tuple[SharedFile, ...] = ()
+    """Changes of the `package.mo` and `package.order` files around the package."""
+    writes: Writes = Writes()
+    """All other changes of files."""
+    emptied: tuple[Path, ...] = ()
+    """The folders that become empty, innermost first."""
+    notes: Notes | None = None
+    """This machine's notes after the build, if they change."""
+    next_result: Result | None = None
+    """The result of the next plan, if nobody changes a file after this build; None if it is not certain."""
+
+
+def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
+    """Return the plan with all its writes. A dry run gets the same plan, so it reports the same as a build."""
+    store, robot, options = inputs.store, inputs.robot, inputs.options
+    actions, files = _actions_after(decision.actions, inputs.settled), _file_changes(inputs, generation, decision)
+    is_writing = bool(files) or any(action.writes for action in actions)
+    contents = {key: one.content for key, one in files.items()}
+    index, texts = put_aside(inputs, generation.package, decision, contents)
+    conflicts = save_conflicts(inputs, decision.conflicts)
+    picture, drawing = draw_model(inputs, generation, decision) if options.draw else None, store.drawing(robot.name)
+    copies = [*(store.save(drawing, picture.encode()) if picture else ()), *store.save_aside(robot.name, index, texts)]
+    record = None if options.removes else record_after(inputs, generation, decision)
+    if record is None:
+        state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
+        needed = list[FileChange]()
+    else:
+        copies += conflicts.changes
+        needed, state = _state_changes(inputs, generation, decision, record, index.values(), is_writing=is_writing)
+    writes = Writes(before=(*needed, *copies), files=tuple(files.values()), record=tuple(state))
+    uses = find_uses(inputs, generation, decision)
+    lasting = [*find_lasting(inputs, generation, decision), *tell_uses(uses)]
+    news = [*find_news(inputs, generation, decision), *tell_aside(inputs, actions, index, texts)]
+    result = msgspec.structs.replace(
+        _result(inputs, decision, actions, conflicts, is_writing=is_writing),
+        diagnostics=_sorted((*lasting, *news, *conflicts.diagnostics)),
+        is_unmerged=any(finding.code == UNMERGED for finding in (*lasting, *news)),
+        renews=bool(needed or state),
+        drawing=None if picture is None else drawing,
+    )
+    notes, after = None, None
+    if record is not None:
+        after = foresee_actions(inputs, decision, record)
+        notes = msgspec.structs.replace(
+            notes_after(inputs, generation, record, index.values()),
+            proposals=inputs.last.notes.proposals if options.dry else conflicts.noted,
+            versions=inputs.last.notes.versions if options.dry else conflicts.written,
+            edited={one.path: one.mine for one in after or decision.actions if one.reason in EDITED and one.mine},
+            uses=uses,
+        )
+        if notes == inputs.last.notes and not (inputs.former_name or options.choices):
+            notes = None
+    next_result = None if after is None else _next_result(result, after, lasting)
+    emptied = _emptied(inputs, writes.in_order())
+    return Plan(result, store.hashes(), decision.shared, writes, emptied, notes, next_result)
+
+
+def _result(
+    inputs: Inputs, decision: Decision, actions: Actions, conflicts: SavedConflicts, *, is_writing: bool
+) -> Result:
+    """Return the result of the build, without its findings and without what becomes of the recorded state."""
+    robot, news = inputs.robot, decision.differences.changes
+    if news and not is_writing and decision.is_complete:
+        # else the next plan would report them again: the record keeps the old generator and options
+        news = msgspec.structs.replace(news, generator=False, options=())
+    return Result(
+        robot.name,
+        robot.target.package,
+        robot.folder,
+        inputs.config.root,
+        actions,
+        dry=inputs.options.dry,
+        writes=is_writing,
+        stale=inputs.source.stale,
+        is_broken=any(misfit.is_broken for misfit in decision.misfits),
+        changes=news if news and (news.changes or news.generator) else None,
+        conflict_texts=conflicts.conflicts,
+        settled=frozenset(inputs.settled.keys),
+    )
+
+
+def _next_result(result: Result, actions: Actions, lasting: Iterable[Diagnostic]) -> Result:
+    """Return the result of the next plan with these actions, if nobody changes a file."""
+    silent: dict[str, Any] = {"writes": False, "renews": False, "changes": None}
+    known = [msgspec.structs.replace(finding, is_new=False) for finding in lasting]
+    return msgspec.structs.replace(result, actions=actions, diagnostics=_sorted(known), **silent)
+
+
+def _sorted(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(sorted(findings, key=lambda found: (not found.is_new, found.file, found.line)))
+
+
+def draw_model(inputs: Inputs, generation: Generation, decision: Decision) -> str | None:
+    """Return the diagram of the main model as the build leaves the package; None if the domain has no diagram."""
+    draw = inputs.domain.drawing
+    if draw is None:
+        return None
+    model = generation.now.snapshot, generation.imported.imports, inputs.robot.target, inputs.robot.options
+    after = PackageAfter(inputs, generation.package, decision.actions, decision.texts)
+    return draw(*model, after.differing)
+
+
+def _actions_after(actions: Actions, settled: Settled) -> Actions:
+    """Return the actions of the build, and those of the choices."""
+    after = {action.path: action for action in actions}
+    for key, chosen in settled.actions.items():
+        decided = after.get(key)
+        if decided and (decided.is_conflict or decided.writes):
+            after[key] = msgspec.structs.replace(decided, choice=chosen.choice)
+        else:
+            after[key] = chosen
+    return Actions(after.values())
+
+
+def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
+    """Return the folders of the package and the state that may become empty, innermost first."""
+    above = {inputs.files.path(inputs.last.folder).parent, inputs.store.folder}
+    folders = {folder for change in changes if change.content is None for folder in change.path.parents}
+    below = [folder for folder in folders if not above.isdisjoint(folder.parents)]
+    return tuple(sorted(below, key=lambda folder: len(folder.parts), reverse=True))
+
+
+def _file_changes(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, FileChange]:
+    """Return the changes of the package's files by key, without files that other robots share."""
+    changes = dict[str, FileChange]()
+    shared = {inputs.files.key(file.path) for file in decision.shared}
+    decided = {action.path: action for action in decision.actions}
+
+    def change(key: str, content: bytes | None, *, is_moved: bool = False) -> None:
+        state = inputs.files.state_on_disk(key)
+        old = state.sha256 if state else None
+        changes[key] = FileChange(inputs.files.path(key), content, old, is_moved)
+
+    for key, content in inputs.settled.contents.items():
+        if not (key in decided and decided[key].writes) and content != inputs.files.read_on_disk(key):
+            change(key, content)
+    for action in decision.actions:
+        if action.writes and action.path not in shared:
+            content = None if action.is_deletion else _content(inputs, generation, decision, action)
+            change(action.path, content, is_moved=action.origin is not None and action.path in decision.texts)
+    return changes
+
+
+def _content(inputs: Inputs, generation: Generation, decision: Decision, action: Action) -> bytes:
+    key, files = action.path, inputs.files
+    if key in decision.texts:
+        return encode(decision.texts[key])
+    state = files.state(key)
+    mine = (files.read(key) or b"") if state and state.sha256 != state.text_sha256 else b""
+    content = generation.content(inputs.folder.path(key), action.role, mine)
+    if content is None:
+        message, hint = "it can't be written: its source file is missing", "restore that file, or the imported copy"
+        raise OutputError.of("no-source", message, shown(files.path(key)), hint=hint)
+    return content
+
+
+def _state_changes(
+    inputs: Inputs,
+    generation: Generation,
+    decision: Decision,
+    record: Record,
+    saved: Iterable[Aside],
+    *,
+    is_writing: bool,
+) -> tuple[list[FileChange], list[FileChange]]:
+    """Return the changes of the bases, and those of the rest of the state: the record is the last one."""
+    store, last = inputs.store, inputs.last
+    # without other writes, `status` and some other commands leave a complete state
+    if last.record.files and decision.is_complete and not (is_writing or inputs.options.renews):
+        return [], []
+    source = _source_changes(inputs)
+    recorded = store.save(store.path(inputs.robot.name), statefile.dumps(record).encode())
+    needed = {*last.record.hashes, *record.hashes, *(sha256 for one in saved for sha256 in one.bases)}
+    kept, is_renewing = needed if decision.is_complete else None, is_writing or bool(source or recorded)
+    return [*_base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)], [*source, *recorded]
+
+
+def _source_changes(inputs: Inputs) -> list[FileChange]:
+    """Return the changes of the state after a new name of the robot, or a new expansion of its source."""
+    store, name, last, expanded = inputs.store, inputs.robot.name, inputs.last, inputs.source.expansion
+    changes = [*(store.remove(last.name) if last.name != name else ()), *store.for_git()]
+    if not inputs.source.stale:
+        changes += store.save(store.expansion(name), expansion.dumps(expanded) if expanded else None)
+    return changes
+
+
+def _base_changes(
+    inputs: Inputs, package: Package, record: Record, needed: Collection[str] | None, *, is_writing: bool
+) -> Iterator[FileChange]:
+    """Yield the changes of the stored bases.
+
+    A missing or damaged text is written again if the present package has it. The next complete build that writes
+    anything keeps only the hashes of texts that are not `needed`.
+    """
+    store, last, settled = inputs.store, inputs.last, inputs.settled
+    stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
+    known = (item for texts in stored.values() for item in (texts or {}).items())
+    absent = record.hashes - {sha256 for sha256, text in known if text is not None}
+    missing = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
+    if absent:
+        made = package.paths_by_hash  # found by hash, since a text may have another path now
+        missing |= {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
+    cleans = needed is not None and (is_writing or bool(missing))
+    # git may have united lines in another order
+    is_united = last.record.is_united and is_writing
+    is_whole = inputs.options.full or inputs.former_name or inputs.damage or is_united
+    for digit, texts in stored.items():
+        is_kept = frozenset(texts or ()) if not cleans else frozenset(needed or ())
+        after = {sha256: text if sha256 in is_kept else None for sha256, text in (texts or {}).items()}
+        after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
+        if is_whole or after != texts:
+            yield from store.save(store.base_file(inputs.robot.name, digit), bases.dumps(after))
