@@ -250,3 +250,10 @@ def test_percent(old: Any, new: Any, shown: str) -> None:
 )
 def test_what_comes(value: Any, shown: str) -> None:
     assert row(None, value, ChangeKind.ADDED) == shown
+
+
+def test_a_number_that_comes_or_goes_has_its_unit() -> None:
+    spring = "joint elbow / dynamics / spring_stiffness"
+    found = lines(change(spring, None, 30.0, "N·m/rad", kind=ChangeKind.ADDED))
+    assert found[1] == "  dynamics / spring_stiffness added: 30 N·m/rad"
+    assert lines(change(spring, 30.0, None, "N·m/rad", kind=ChangeKind.REMOVED))[1].endswith("removed: 30 N·m/rad")

@@ -130,7 +130,8 @@ def change_row(components: Sequence[Change], *, exact: bool = False) -> OutlineR
     if first.kind is ChangeKind.RENAMED:
         return OutlineRow(label, f"renamed to {new}")
     if first.kind is not ChangeKind.CHANGED:
-        details = _details(new if first.kind is ChangeKind.ADDED else old if label else None)
+        value = new if first.kind is ChangeKind.ADDED else old if label else None
+        details = f"{_details(value)} {first.unit if is_number(value) else ''}".rstrip()
         return OutlineRow(label, f"{first.kind}: {details}" if details else first.kind, relation)
     if len(components) > 1:
         indices = ", ".join(change.path[-1].rpartition("[")[2][:-1] for change in components)
