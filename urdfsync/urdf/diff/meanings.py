@@ -8,6 +8,7 @@ unmodelled.
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
@@ -246,8 +247,9 @@ def _of_import(
 
     A change of a mesh's further files counts as a change of its first file.
     """
-    imports = {name: file for name, file in (old.imports or {}).items() if not name.startswith(key)}
-    imports |= {name: file for name, file in (new.imports or {}).items() if name.startswith(key)}
+    of_mesh = re.compile(rf"{re.escape(key)}(?: file \d+)?")  # `a.stl scale 1.0 1.0 1.0` begins another scale, too
+    imports = {name: file for name, file in (old.imports or {}).items() if not of_mesh.fullmatch(name)}
+    imports |= {name: file for name, file in (new.imports or {}).items() if of_mesh.fullmatch(name)}
     models = []
     for name in old.links.keys() & new.links.keys():
         link, new_link = old.links[name], new.links[name]
