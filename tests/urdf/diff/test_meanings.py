@@ -228,6 +228,13 @@ def test_a_mesh_that_begins_or_ceases_to_collide_is_a_change_of_its_link_alone(o
         assert (str(change), change.kind, change.change_class) == ("link base / collision 2", kind, STRUCTURAL)
 
 
+def test_a_robot_that_was_fixed_has_no_hulls_to_compare() -> None:
+    found = import_("a")
+    fixed = msgspec.structs.replace(found, facts={"bounds": found.facts["bounds"]})
+    assert list(mesh_change(fixed, found, FLOATING)) == []
+    assert [change[2] for change in mesh_change(fixed, None, FLOATING)] == [STRUCTURAL]
+
+
 @pytest.mark.parametrize(("meshes", "options", "reach"), [
     ({MESH: import_("a")}, FIXED, STRUCTURAL),
     ({}, FIXED, UNMODELLED),

@@ -32,6 +32,8 @@ _Fields: TypeAlias = Sequence[str | int]
 _SHAPES = ("visuals", "collisions")
 _STRUCTURE = ("kind", "at", "in_parent", "on_child", "parent", "child")
 """Fields of sensors and loops that models depend on."""
+_POINT = ((0.0, 0.0, 0.0),)
+"""A hull that touches the ground, as any does."""
 _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
@@ -49,8 +51,8 @@ def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opti
     sides = [
         _RobotVersion({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
         for robot, imports in (
-            (renamed(old.snapshot, renames), _with_hulls_of(old.imports, new.imports)),
-            (new.snapshot, _with_hulls_of(new.imports, old.imports)),
+            (renamed(old.snapshot, renames), _with_hulls(old.imports, new.imports)),
+            (new.snapshot, _with_hulls(new.imports, old.imports)),
         )
     ]
     for difference in find_differences(old, new, *comparable(old.snapshot, new.snapshot, renames)):
@@ -58,20 +60,22 @@ def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opti
             yield change
 
 
-def _with_hulls_of(
+def _with_hulls(
     imports: Mapping[str, Import] | None, others: Mapping[str, Import] | None
 ) -> Mapping[str, Import] | None:
-    """Return imports, with hulls of another version's where they have none: there the mesh does not collide.
+    """Return imports with a hull each: their own, else that of another version's file, else a point.
 
-    Values of both versions are mixed here, so a shape that collides may meet such a mesh.
+    A mesh has a hull where it collides in a floating robot. But values of both versions are mixed here, and the last
+    build may have had another `base`.
     """
-    if imports is None or others is None:
-        return imports
+    if imports is None:
+        return None
     complete = dict(imports)
     for key, file in imports.items():
-        if lookup.HULL not in file.facts and key in others and lookup.HULL in others[key].facts:
-            facts = {**file.facts, lookup.HULL: others[key].facts[lookup.HULL]}
-            complete[key] = msgspec.structs.replace(file, facts=facts)
+        if lookup.HULL not in file.facts:
+            other = (others or {}).get(key, file)
+            hull = other.facts.get(lookup.HULL, _POINT)
+            complete[key] = msgspec.structs.replace(file, facts={**file.facts, lookup.HULL: hull})
     return complete
 
 
@@ -225,7 +229,7 @@ def _data(element: Link | Joint, imports: Mapping[str, Import] | None, options: 
         joint = effective(element)
         return (structure(joint), joint_model(joint, options, can_be_driven(joint))), joint
     if imports is None:
-        facts = {"bounds": (), "hull": ((0.0, 0.0, 0.0),)}
+        facts = {lookup.BOUNDS: (), lookup.HULL: _POINT}
         keys = _mesh_keys(element) if options.meshes == "import" else ()
         imports = {key: Import(key, "", "", facts) for key in keys}
     visuals, collisions = link_shapes(element, imports, "", options)
