@@ -104,7 +104,7 @@ def test_so_does_another_line_of_urdfsync_its_library_or_the_templates(
     for line in ("# one line\n", "# another line\n"):
         file.write_text(line)
         if place == "code":
-            monkeypatch.setattr(program, "_package", str(file))
+            monkeypatch.setattr(program, "_PACKAGE", str(file.parent))
         elif place == "library":
             monkeypatch.setattr("urdfsync.checks.fingerprint.find_own_library", lambda *_: file.parent)
         else:

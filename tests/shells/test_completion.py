@@ -126,7 +126,7 @@ def test_it_loads_no_more_than_the_up_to_date_check(built: Path) -> None:
     loaded = set(done.stderr.split())
     assert {name for name in loaded if name.startswith("urdfsync.")} <= {
         *("urdfsync.__main__", "urdfsync.shells", "urdfsync.shells.completion", "urdfsync.dependencies"),
-        *("urdfsync.noop", "urdfsync.streams"),
+        *("urdfsync.noop", "urdfsync.streams", "urdfsync.version"),
         *(f"urdfsync.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "record")),
     }
     assert not loaded & {"argparse", "msgspec", "json"}
