@@ -6,7 +6,6 @@ source, with the files of that version.
 
 from __future__ import annotations
 
-import contextlib
 import itertools
 import os
 import tempfile
@@ -216,8 +215,11 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions, 
     effects: tuple[Effect, ...] = ()
     if last is not None and differences is not None and (differences.changes or differences.generator):
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source)
-        with contextlib.suppress(*NO_MODEL):  # the recorded model may be invalid
+        try:
             effects = _effects(inputs.domain, last, Version(snapshot), differences, robot)
+        except NO_MODEL:
+            if inputs.last.package is not None:  # the recorded model is valid, so the fault is not a stranger's
+                raise
     return Comparison(result, shown(robot.source), None, missing, effects)
 
 
