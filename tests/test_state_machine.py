@@ -315,6 +315,8 @@ class Walk(RuleBasedStateMachine):
         """Fresh packages by their source."""
         self.conflicts = dict[str, str]()
         """The path of the user's file, by the path of the new file."""
+        self.is_exported = False
+        """Whether a source has changed since the last verdict."""
         self.broken: Sequence[str] = ()
         self.replaced = dict[str, str]()
         """Texts that the last command merged or replaced, by path."""
@@ -365,7 +367,7 @@ class Walk(RuleBasedStateMachine):
             changed = EXPORTS[kind](robot, random)
             export(robot if changed is None else changed)
         self.replaced.clear()
-        self.has_news, self.broken = True, ()
+        self.has_news, self.is_exported, self.broken = True, True, ()
 
     @precondition(lambda self: self.repository.layout == "link")
     @rule(exports=st.lists(st.sampled_from(sorted(EXPORTS)), max_size=2), random=seeds)
@@ -420,7 +422,7 @@ class Walk(RuleBasedStateMachine):
     @rule(answer=st.sampled_from(ANSWERS), all_=st.booleans(), random=seeds)
     def resolve(self, answer: str, all_: bool, random: Random) -> None:
         """Answer one conflict, or all conflicts."""
-        if self.execute("status", code=None).code == 0:
+        if self.is_exported and self.execute("status", code=None).code == 0:
             return  # further exports have come back to the last one without conflicts
         path = random.choice(sorted(self.conflicts))
         asked = self.conflicts if all_ else {path: self.conflicts[path]}
@@ -633,6 +635,7 @@ class Walk(RuleBasedStateMachine):
         assert status["failed"] == check["failed"]
         codes = [printed.code for printed in documents]
         assert [code == 0 for code in codes] == [status["in_step"]] * 2, codes
+        self.is_exported = False
         self.conflicts = {
             one["path"]: one["origin"] or one["path"] for one in check["actions"] if one["kind"] == "conflict"
         }

@@ -241,7 +241,7 @@ def simulate(
     if options.against is not None:
         from urdfsync.simulation.against import simulate_against  # takes 60 ms with libgit2
 
-        result = simulate_against(loaded, robot, options.against, options, progress)
+        result = simulate_against(loaded, robot, options, progress)
     else:
         result = run.simulate(loaded, robot, options, progress)
     write_outputs(files, result)

@@ -283,7 +283,7 @@ def by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:
 
 
 def _differ_in(old: Mapping[str, Any], new: Mapping[str, Any]) -> bool:
-    """Return whether a value differs that both have."""
+    """Return whether the two mappings differ at a common key."""
     return any(old[name] != new[name] for name in old.keys() & new.keys())
 
 
@@ -294,7 +294,7 @@ def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterato
         if before is None or after is None:
             kind = ChangeKind.ADDED if before is None else ChangeKind.REMOVED
             yield Difference(("imports", key), kind, before and before.target_hash, after and after.target_hash)
-        # a version without colliding shapes, say, asks for fewer facts: no other file
+        # a robot without colliding shapes asks for fewer facts of the same file
         elif before.target_hash != after.target_hash or _differ_in(before.facts, after.facts):
             hashes = before.target_hash, after.target_hash
             if before.target_hash == after.target_hash:  # the contents are equal; only facts differ, such as colours

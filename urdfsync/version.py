@@ -1,3 +1,3 @@
-"""The version of urdfsync, for modules that must not import the package's face: that names the whole API."""
+"""The version of urdfsync. Modules import it from here: `urdfsync` itself names the whole API."""
 
 __version__ = "0.1.0"

@@ -64,7 +64,7 @@ LibraryTexts: TypeAlias = Sequence[ClassText]
 
 
 def class_texts(name: str, texts: Mapping[str, bytes]) -> list[ClassText]:
-    """Return the texts of all classes of a library; `files` are by their path in the library's folder."""
+    """Return the texts of all classes of a library; `texts` are by their path in the library's folder."""
     inside = dict[str, list[str]]()
     for path in sorted(path for path in texts if path.endswith(".mo")):
         inside.setdefault(_stem(path).rpartition("/")[0], []).append(path)

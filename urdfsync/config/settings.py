@@ -23,7 +23,7 @@ STATE_FOLDER = ".urdfsync"
 OWN_KEYS = ("source", "arguments", "command", "command_inputs", "package", "class", "renamed")
 """Keys that `[defaults]` can't have."""
 CompilerName: TypeAlias = Literal["rumoca", "omc"]
-"""The table of compilers, the default first: each is a module of `checks/compilers`."""
+"""The name of a compiler, the default first: each is a module of `checks/compilers`."""
 
 
 class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):

@@ -78,7 +78,7 @@ class Domain(Protocol):
     companions: Sequence[CompanionKind] = ()
     """Kinds of files that a source is read with."""
 
-    # Optional features. Each Protocol is defined beside the code that uses it; an object or a module implements it.
+    # Optional features. The modules of `urdfsync.domain` describe them; an object or a module implements each.
     advice: Advice | None = None
     starter: Starter | None = None
     imports: Mentions | None = None

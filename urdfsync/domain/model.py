@@ -107,6 +107,11 @@ def further_key(key: str, number: int) -> str:
     return f"{key} file {number}"
 
 
+def belongs_to(name: str, key: str) -> bool:
+    """Return whether `name` is the key of a dependency or of one of its further files; `key` is the dependency's."""
+    return name == key or name.startswith(f"{key} file ")
+
+
 class Import(msgspec.Struct, frozen=True, omit_defaults=True):
     """A dependency in the package; if its source is missing now, its file comes from an earlier build."""
 

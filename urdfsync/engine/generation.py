@@ -40,9 +40,9 @@ class Generation(msgspec.Struct, frozen=True):
 
 
 def generate_robot(inputs: Inputs) -> Generation:
-    """Parse the source, import the files that it refers to, and generate the package without rendering texts.
+    """Parse the source, import the files that it refers to, and generate the package.
 
-    Raises SourceError, ConfigError or OutputError.
+    Only texts with new data are rendered. Raises SourceError, ConfigError or OutputError.
     """
     if inputs.options.removes:
         nothing = Package((), inputs.templates, inputs.robot.target.package)
@@ -70,7 +70,9 @@ def generate_robot(inputs: Inputs) -> Generation:
         package = generate(domain, version, robot.target, robot.options, inputs.templates)
         if last.notes.program == inputs.program and not options.full:
             package.skip(last.notes.texts, last.base)
-        return Generation(version, reading, tuple(findings), imported, package)
+    for path in package.artifacts:
+        package.hash(path)  # renders the text, if it is new: a fault of a template is told here
+    return Generation(version, reading, tuple(findings), imported, package)
 
 
 def generated_texts(

@@ -32,14 +32,14 @@ from urdfsync.simulation.run import simulate_prepared
 
 
 def simulate_against(
-    config: Config, robot: RobotConfig, named: str, options: SimulateOptions, progress: Progress
+    config: Config, robot: RobotConfig, options: SimulateOptions, progress: Progress
 ) -> SimulateResult:
-    """Simulate a model, and the same model of the revision `named` with the same settings.
+    """Simulate a model, and the same model of the revision `options.against` with the same settings.
 
     The revision is checked out to a temporary folder: its package, its configuration and the user's models are those
     of that time. Raises UrdfsyncError, also for faults of the revision; those name its files.
     """
-    revision = Revision(config.root, named)
+    revision = Revision(config.root, str(options.against))
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as scratch:
         with _told_of(revision, scratch):
             former_config, former_robot = _check_out(revision, Path(scratch), config, robot)

@@ -60,7 +60,7 @@ def read_cases(given: Sequence[str], sampling: Sampling) -> Cases:
 
     Values form a grid. Each point of the grid gets the same samples of all distributions.
     """
-    # a name may have `=`, and no SPEC ends so
+    # the name of a file may have `=`; no SPEC ends with `.csv`
     files = [text for text in given if "=" not in text or text.lower().endswith(".csv")]
     if files and len(given) > 1:
         _refuse(f"`{files[0]}` is a file with all cases, so it must be the only `--vary`", _HINT)

@@ -26,12 +26,12 @@ class UnitName(NamedTuple):
     sliding: str | None = None
     """The unit for a sliding joint, if `name` is the unit for a turning joint. Other joints have no unit."""
     is_signed: bool = False
-    """Whether such a number of a joint may be negative."""
+    """Whether a limit or a number of the dynamics in this unit may be negative."""
 
 
 _NAME = operator.attrgetter("name")
 _LENGTH, _ANGLE, _INERTIA = UnitName("m"), UnitName("rad"), UnitName("kg·m²")
-POSITION, _LOAD, _LOSS = UnitName("rad", "m", is_signed=True), UnitName("N·m", "N"), UnitName("N·m·s/rad", "N·s/m")
+_POSITION, _LOAD, _LOSS = UnitName("rad", "m", is_signed=True), UnitName("N·m", "N"), UnitName("N·m·s/rad", "N·s/m")
 _SPEED, _ACCELERATION, _STIFFNESS = UnitName("rad/s", "m/s"), UnitName("rad/s²", "m/s²"), UnitName("N·m/rad", "N/m")
 
 
@@ -257,8 +257,8 @@ class Link(msgspec.Struct, frozen=True, gc=False):
 class Limit(msgspec.Struct, frozen=True, gc=False):
     """Limits of a joint; None means no limit. A missing limit of position is 0, as in urdfdom."""
 
-    lower: Annotated[float, POSITION] = 0.0
-    upper: Annotated[float, POSITION] = 0.0
+    lower: Annotated[float, _POSITION] = 0.0
+    upper: Annotated[float, _POSITION] = 0.0
     effort: Annotated[float | None, _LOAD] = None
     velocity: Annotated[float | None, _SPEED] = None
     acceleration: Annotated[float | None, _ACCELERATION] = None
@@ -276,7 +276,7 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
     """Inertia that the drive adds at the joint, as in MuJoCo's `armature`."""
     spring_stiffness: Annotated[float | None, _STIFFNESS] = None
     """A spring pulls with `spring_stiffness` · (`spring_reference` - position), as in SDFormat."""
-    spring_reference: Annotated[float | None, POSITION] = None
+    spring_reference: Annotated[float | None, _POSITION] = None
     """Position at which the spring is relaxed; None stands for 0."""
 
 
@@ -296,7 +296,7 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
     """
 
     reduction: Annotated[float, UnitName("", "rad/m")] = 1.0
-    offset: Annotated[float, POSITION] = 0.0
+    offset: Annotated[float, _POSITION] = 0.0
     rotor_inertia: Annotated[float | None, _INERTIA] = None
     """Inertia of the motor, on the motor's side of the gear."""
     joint: str | None = None
@@ -314,9 +314,9 @@ class Servo(msgspec.Struct, frozen=True, gc=False):
 
     position_gain: Annotated[float | None, _STIFFNESS] = None
     velocity_gain: Annotated[float | None, _LOSS] = None
-    min_position: Annotated[float | None, POSITION] = None
+    min_position: Annotated[float | None, _POSITION] = None
     """Limits of the reference."""
-    max_position: Annotated[float | None, POSITION] = None
+    max_position: Annotated[float | None, _POSITION] = None
     min_velocity: Annotated[float | None, _SPEED] = None
     """Limits of a commanded velocity."""
     max_velocity: Annotated[float | None, _SPEED] = None
@@ -336,14 +336,14 @@ class Mimic(msgspec.Struct, frozen=True, gc=False):
 
     joint: str
     multiplier: float = 1.0
-    offset: Annotated[float, POSITION] = 0.0
+    offset: Annotated[float, _POSITION] = 0.0
 
 
 class Calibration(msgspec.Struct, frozen=True, gc=False):
     """Positions of the reference edges."""
 
-    rising: Annotated[float | None, POSITION] = None
-    falling: Annotated[float | None, POSITION] = None
+    rising: Annotated[float | None, _POSITION] = None
+    falling: Annotated[float | None, _POSITION] = None
 
 
 class SafetyController(msgspec.Struct, frozen=True, gc=False):
@@ -351,8 +351,8 @@ class SafetyController(msgspec.Struct, frozen=True, gc=False):
 
     k_velocity: Annotated[float, _LOSS] = 0.0
     k_position: Annotated[float, UnitName("1/s")] = 0.0
-    soft_lower_limit: Annotated[float, POSITION] = 0.0
-    soft_upper_limit: Annotated[float, POSITION] = 0.0
+    soft_lower_limit: Annotated[float, _POSITION] = 0.0
+    soft_upper_limit: Annotated[float, _POSITION] = 0.0
 
 
 class Joint(msgspec.Struct, frozen=True, gc=False):
@@ -377,7 +377,7 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     """The gear; None without reduction, offset and rotor."""
     command: Command | None = None
     """Quantity by which the source commands the joint; None for the position."""
-    start: Annotated[float | None, POSITION] = None
+    start: Annotated[float | None, _POSITION] = None
     """Position at the start of a simulation; None leaves it to `kinematics.poses.start_positions`."""
     motor: Motor | None = None
     servo: Servo | None = None

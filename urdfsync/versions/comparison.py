@@ -27,7 +27,6 @@ from urdfsync.engine.build import build
 from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.engine.inspect.inputs import inspect
-from urdfsync.engine.inspect.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package import imports
 from urdfsync.engine.package.generate import Package, generate
@@ -215,11 +214,8 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions, 
     effects: tuple[Effect, ...] = ()
     if last is not None and differences is not None and (differences.changes or differences.generator):
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source)
-        try:
+        with inputs.last.passing_over_invalid():
             effects = _effects(inputs.domain, last, Version(snapshot), differences, robot)
-        except NO_MODEL:
-            if inputs.last.package is not None:  # the recorded model is valid, so the fault is not a stranger's
-                raise
     return Comparison(result, shown(robot.source), None, missing, effects)
 
 

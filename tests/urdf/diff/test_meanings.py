@@ -13,7 +13,7 @@ import support.urdfs as urdfs
 from support.packages import read
 
 from urdfsync.changes import compare
-from urdfsync.domain import ChangeClass, ChangeKind, Import, Version
+from urdfsync.domain import ChangeClass, ChangeKind, Import, Version, further_key
 from urdfsync.domain.changes import Change
 from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.domain import DOMAIN
@@ -226,6 +226,20 @@ def test_a_mesh_that_begins_or_ceases_to_collide_is_a_change_of_its_link_alone(o
     for old, new, kind in ((without, with_it, ADDED), (with_it, without, REMOVED)):
         (change,) = compare(old, new, DOMAIN, options).changes
         assert (str(change), change.kind, change.change_class) == ("link base / collision 2", kind, STRUCTURAL)
+
+
+def test_a_mesh_shows_its_colours_where_a_material_comes_or_goes() -> None:
+    """A mesh with two colours is two visuals; only the version without the material knows that."""
+    plain = import_("a")
+    parts = {"parts": [[255, 0, 0], [0, 0, 255]], "textured": False, "colorless": False}
+    split = {MESH: msgspec.structs.replace(plain, facts={**plain.facts, **parts}), further_key(MESH, 1): plain}
+    painted = version(put("link base / visual 2 / material", {"name": "", "rgba": [1.0, 0.0, 0.0, 1.0]}), plain)
+    bare = msgspec.structs.replace(version(), imports=split)
+    for old, new, kind in ((painted, bare, REMOVED), (bare, painted, ADDED)):
+        found = [change for change in compare(old, new, DOMAIN, FIXED).changes if change.element == "link base"]
+        assert [(str(c), c.kind, c.change_class) for c in found] == [
+            ("link base / visual 2 / material", kind, STRUCTURAL)
+        ]
 
 
 def test_a_robot_that_was_fixed_has_no_hulls_to_compare() -> None:

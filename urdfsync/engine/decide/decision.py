@@ -15,7 +15,8 @@ from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.decide.differences import Differences, compare_with_last
 from urdfsync.engine.decide.followers import follow
-from urdfsync.engine.decide.merges import look_for_misfits, merge_edits
+from urdfsync.engine.decide.merges import merge_edits
+from urdfsync.engine.decide.misfits import look_for_misfits
 from urdfsync.engine.decide.orders import decide_orders
 from urdfsync.engine.decide.package_after import PackageAfter
 from urdfsync.engine.decide.rules import put_off

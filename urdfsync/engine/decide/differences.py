@@ -15,7 +15,7 @@ from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, 
 from urdfsync.engine.declared import pending
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
-from urdfsync.engine.inspect.last_build import NO_MODEL, option_values
+from urdfsync.engine.inspect.last_build import option_values
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Matching, without_exchanges
 from urdfsync.modelica.files import class_path
@@ -126,11 +126,10 @@ def _find_changes(
     last, robot, domain = inputs.last, inputs.robot, inputs.domain
     if last.version is None or inputs.options.removes:
         return None
-    try:
+    news: Changes | None = None
+    with last.passing_over_invalid():
         news = changes.compare(last.version, generation.now, domain, robot.options, matching)
-    except NO_MODEL:
-        if last.package is not None:  # the recorded model is valid, so the fault is not a stranger's
-            raise
+    if news is None:
         return None
     if news.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
         return None  # git may have merged two models into an invalid model

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 def follow(
     inputs: Inputs, package: Package, verdicts: Verdicts, own: Sequence[Action], renamed: Mapping[str, str]
 ) -> Verdicts:
-    """Let the user's files follow renames that their bases do not show; `own` are files without a generated text.
+    """Let the user's files follow renames that their bases do not show; `own` are actions on classes of his own.
 
     They follow as the user allows merges; else they conflict, and the new text is proposed.
     """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -14,6 +14,7 @@ from urdfsync.engine.actions import DISPUTED, Action, Reason
 from urdfsync.engine.decide import united
 from urdfsync.engine.decide.conflicts import PREFERENCES, Conflict, Verdicts, find_conflict, only_names_changed, resolve
 from urdfsync.engine.decide.differences import GONE, Differences
+from urdfsync.engine.decide.misfits import look_for_misfits
 from urdfsync.engine.decide.package_after import PackageAfter, keep_needed
 from urdfsync.engine.decide.package_names import known_names, names_of
 from urdfsync.engine.decide.renames import describe_doubt
@@ -22,7 +23,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 
 if TYPE_CHECKING:
-    from urdfsync.engine.decide.fit import Misfit
+    pass
 
 
 def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differences: Differences) -> Verdicts:
@@ -131,14 +132,3 @@ def _without_misfits(
             changed = {"refused": {**conflict.refused, side: reason}} if side else {"merge": merge, "rejected": reason}
             sound[key] = msgspec.structs.replace(conflict, **changed)
     return sound
-
-
-def look_for_misfits(after: PackageAfter, only: Collection[str] | None = None) -> Sequence[Misfit]:
-    """Find misfits in the user's files after all actions that do not wait; `only` limits the search to these keys."""
-    if only is None and after.inputs.has_moved and any(action.is_waiting for action in after.actions):
-        return ()  # the package does not move yet
-    if not (after.users or (only is None and after.extended_orders)):
-        return ()
-    from urdfsync.engine.decide.fit import find_misfits  # this imports the parser: 15 of 220 ms of a build
-
-    return find_misfits(after, only)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import PurePath
 
 from urdfsync.domain import Domain, ElementKey, Features, Snapshot, displaced
 from urdfsync.domain.changes import Formats
@@ -51,12 +50,6 @@ def find_matching(
     return Matching({**further, **matching.renames}, matching.doubts)
 
 
-def _has_other_format(inputs: Inputs) -> bool:
-    """Return whether the last build read a source of another format. A plain source has no recorded expansion."""
-    before = inputs.store.load_expansion(inputs.last.name)
-    return (PurePath(before.source).suffix if before else "") != inputs.source.format
-
-
 def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[ElementKey, ElementKey]:
     gone = displaced(matching.renames)
     new = {key: (key[0], matching.renames.get(key, key[1])) for key in before if key not in gone}
@@ -102,7 +95,7 @@ def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) 
         return Matching()
     recorded, last_seen = last.version.snapshot, last.seen
     open_renames = last.record.open.renamed if last.record.open else {}
-    has_other_format = recorded != now and _has_other_format(inputs)
+    has_other_format = recorded != now and last.source_format != inputs.source.format
     direct = find_matching(domain, recorded, now, declared, is_pending=True, has_other_format=has_other_format)
     if last_seen is None:
         return direct

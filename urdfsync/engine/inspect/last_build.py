@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cached_property
+from pathlib import PurePath
 from typing import Any
 
 import msgspec
@@ -53,6 +55,12 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def folder(self) -> Folder:
         """The folder of the package in the last build."""
         return Folder(self.record.folder)
+
+    @cached_property
+    def source_format(self) -> str:
+        """The suffix of the source in the last build if another program read it; empty for a plain source."""
+        before = self._store.load_expansion(self.name)
+        return PurePath(before.source).suffix if before else ""
 
     @property
     def target(self) -> Target:
@@ -156,6 +164,15 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
             return generate(self._domain, version, self.target, options, self._templates)
         except NO_MODEL:
             return None
+
+    @contextlib.contextmanager
+    def passing_over_invalid(self) -> Iterator[None]:
+        """Pass over errors if the recorded model is invalid; raise them if it gives a package: then they are ours."""
+        try:
+            yield
+        except NO_MODEL:
+            if self.package is not None:
+                raise
 
     @cached_property
     def respelled(self) -> Mapping[str, tuple[str, str]]:

@@ -8,14 +8,13 @@ unmodelled.
 from __future__ import annotations
 
 import functools
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import msgspec
 
 from urdfsync.changes import Difference, find_differences
-from urdfsync.domain import ChangeClass, ChangeKind, ElementKey, Import, Version
+from urdfsync.domain import ChangeClass, ChangeKind, ElementKey, Import, Version, belongs_to
 from urdfsync.domain.changes import Change
 from urdfsync.urdf import robot
 from urdfsync.urdf.diff.renames import comparable, renamed
@@ -33,7 +32,7 @@ _SHAPES = ("visuals", "collisions")
 _STRUCTURE = ("kind", "at", "in_parent", "on_child", "parent", "child")
 """Fields of sensors and loops that models depend on."""
 _POINT = ((0.0, 0.0, 0.0),)
-"""A hull that touches the ground, as any does."""
+"""Stands for an unknown hull: a single point, so that the mesh counts as touching the ground."""
 _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
@@ -198,11 +197,11 @@ def _reach(
     fields = list(difference.path[2:])
     if fields[0] == "contact":  # the whole contact, since its keys differ from the fields of `Contact`
         fields = ["contact"]
-    imports = None
-    if isinstance(before, Link) and old.imports is not None and new.imports is not None:
-        imports = {**new.imports, **old.imports}
     reaches = []
-    for element, other in ((before, after), (after, before)):
+    for element, other, version, others in ((before, after, old, new), (after, before, new, old)):
+        imports = None
+        if isinstance(element, Link) and version.imports is not None and others.imports is not None:
+            imports = {**others.imports, **version.imports}  # the element's own facts, such as its meshes' colours
         model, record = _data(element, imports, options)
         other_model, other_record = _data(_exchanged(element, other, fields), imports, options)
         same = ChangeClass.UNMODELLED if record == other_record else ChangeClass.PARAMETER
@@ -251,9 +250,8 @@ def _of_import(
 
     A change of a mesh's further files counts as a change of its first file.
     """
-    of_mesh = re.compile(rf"{re.escape(key)}(?: file \d+)?")  # `a.stl scale 1.0 1.0 1.0` begins another scale, too
-    imports = {name: file for name, file in (old.imports or {}).items() if not of_mesh.fullmatch(name)}
-    imports |= {name: file for name, file in (new.imports or {}).items() if of_mesh.fullmatch(name)}
+    imports = {name: file for name, file in (old.imports or {}).items() if not belongs_to(name, key)}
+    imports |= {name: file for name, file in (new.imports or {}).items() if belongs_to(name, key)}
     models = []
     for name in old.links.keys() & new.links.keys():
         link, new_link = old.links[name], new.links[name]

@@ -14,7 +14,7 @@ _COARSE = 512
 
 
 def packed(mesh: Triangles, most: int) -> tuple[bytes, MeshFacts]:
-    """Return about `most` triangles with shared corners, as `scene.Triangles` needs them."""
+    """Return about `most` triangles with shared corners, as `scene.PageMesh` needs them."""
     cells = _FINE if len(mesh.faces) <= most else _COARSE
     while True:
         points, faces = _clustered(mesh, cells)

@@ -50,8 +50,8 @@ class PinocchioRobot(NamedTuple):
     """Mimic relations by names of followers."""
     rotors: Array
     """The part of the rotors in the mass matrix: Pinocchio's `armature` can't couple two joints."""
-    numbers: Mapping[str, Array]
-    """The attributes of <dynamics> that Pinocchio leaves out, at each coordinate of the velocity."""
+    dynamics: Mapping[str, Array]
+    """The attributes `OF_DYNAMICS` at each coordinate of the velocity; `armature` is Pinocchio's own array."""
 
 
 def read(
@@ -163,7 +163,7 @@ class Reference:
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
         """The names of the independent joints. Ball joints come last, and turn about `motion.TURN_AXIS`."""
-        self.rotors, self.numbers = robot.rotors, robot.numbers
+        self.rotors, self.dynamics = robot.rotors, robot.dynamics
         balls = [joint for joint in self.model.joints if joint.shortname() == "JointModelSpherical"]
         self._balls, self._scalars = [joint.idx_v + k for joint in balls for k in range(3)], len(axes) - len(balls)
         self.projection, self._offset = self._mimic(robot, self.axes)
@@ -255,7 +255,7 @@ class Reference:
 
     def mechanisms(self, positions: Array) -> Array:
         """Return the efforts that mechanisms take at all coordinates."""
-        return self.numbers["spring_stiffness"] * (positions - self.numbers["spring_reference"])
+        return self.dynamics["spring_stiffness"] * (positions - self.dynamics["spring_reference"])
 
     @staticmethod
     def _solved(mass: Array, efforts: Array) -> Array:
