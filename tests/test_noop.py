@@ -533,7 +533,7 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     names = imported("-m", "urdfsync", *BUILD)
     assert names[1] == f"{IN_STEP}\n"
     ours = {f"urdfsync.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "record")}
-    ours |= {"urdfsync", "urdfsync.noop", "urdfsync.dependencies", "urdfsync.streams"}
+    ours |= {"urdfsync", "urdfsync.noop", "urdfsync.dependencies", "urdfsync.streams", "urdfsync.version"}
     light = {"__future__", "atexit", "errno", "gc", "runpy", "time"}
     assert names[0] - anyway <= ours | light
 

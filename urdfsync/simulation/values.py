@@ -13,8 +13,10 @@ from urdfsync.spelling import nearest
 
 _LIKENESS = 0.8
 _SCALAR = re.compile(
-    r'''-?\s*(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|true|false|"(?:[^"\\]|\\.)*"''', re.ASCII | re.DOTALL
+    r"""(?:-\s*)?(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|true|false|"(?:\\.|[^"\\])*+(?P<end>"|\\?\Z)""",
+    re.ASCII | re.DOTALL,
 )
+"""A number, a truth value or a text; without `end`, the quotation mark of a text is missing."""
 _VECTOR = re.compile(r"\{\s*0\s*(?:,\s*0\s*)*\}")
 """A vector in a text in which each scalar or inner vector is a 0."""
 
@@ -95,7 +97,8 @@ def _modifier(name: str, value: str | dict[str, Any]) -> str:
 def _is_literal(value: str) -> bool:
     """Whether a text is a finite number, a truth value, a text, or a vector of these."""
     numbers = [match["number"] for match in _SCALAR.finditer(value) if match["number"]]
-    rest, count = _SCALAR.sub("0", value.strip()), 1
+    # a text without end becomes none, and yet matches: looking for its end at each quotation mark would take minutes
+    rest, count = _SCALAR.sub(lambda scalar: "0" if scalar["end"] in (None, '"') else '"', value.strip()), 1
     while count:  # from the inside outwards
         rest, count = _VECTOR.subn("0", rest)
     return rest == "0" and all(math.isfinite(float(number)) for number in numbers)

@@ -15,10 +15,16 @@ from urdfsync.engine.sources.exchange import Problem
 from urdfsync.files import text_digest
 from urdfsync.urdf.parse.xml import ParseError, parse
 
-_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_COMMENT = re.compile(rb"<!--.*?(?:-->|\Z)", re.DOTALL)
+"""A comment, also one without end: looking for the end of each would take minutes."""
 
 SourcePlace = tuple[str, int]
 """A file, and a line in it."""
+
+
+def _lines_of(comment: re.Match[bytes]) -> bytes:
+    """Return the line ends of a comment; without an end it stays, for the parser to refuse."""
+    return b"\n" * comment[0].count(b"\n") if comment[0].endswith(b"-->") else comment[0]
 
 
 class TranslationError(Exception):
@@ -62,7 +68,7 @@ class Files:
         """
         content = self.read(path, place)
         if has_any_comments:
-            content = _COMMENT.sub(lambda comment: b"\n" * comment[0].count(b"\n"), content)
+            content = _COMMENT.sub(_lines_of, content)
         try:
             document = parse(content)
         except ParseError as error:
