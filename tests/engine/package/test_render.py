@@ -67,7 +67,7 @@ def test_a_step_that_cannot_be_interrupted_ends_with_the_process(tmp_path: Path,
     """Loops and calls look at the clock; what Jinja and Python do in one step does not."""
     (tmp_path / "endless.jinja").write_text(text)
     program = (
-        "import pathlib; from urdfsync.engine import render; render.MAX_SECONDS, render.GRACE = 1.0, 0.2\n"
+        "import pathlib; from urdfsync.engine.package import render; render.MAX_SECONDS, render.GRACE = 1.0, 0.2\n"
         "render.Renderer([pathlib.Path(), pathlib.Path('none')]).render('endless.jinja', {})"
     )
     ended = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=False, timeout=60)
