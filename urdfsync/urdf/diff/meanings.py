@@ -50,8 +50,8 @@ def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opti
     sides = [
         _RobotVersion({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
         for robot, imports in (
-            (renamed(old.snapshot, renames), _with_hulls(old.imports, new.imports)),
-            (new.snapshot, _with_hulls(new.imports, old.imports)),
+            (renamed(old.snapshot, renames), _with_hulls(old.imports, new.imports, options)),
+            (new.snapshot, _with_hulls(new.imports, old.imports, options)),
         )
     ]
     for difference in find_differences(old, new, *comparable(old.snapshot, new.snapshot, renames)):
@@ -60,15 +60,15 @@ def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opti
 
 
 def _with_hulls(
-    imports: Mapping[str, Import] | None, others: Mapping[str, Import] | None
+    imports: Mapping[str, Import] | None, others: Mapping[str, Import] | None, options: Options
 ) -> Mapping[str, Import] | None:
     """Return imports with a hull each: their own, else that of another version's file, else a point.
 
     A mesh has a hull where it collides in a floating robot. But values of both versions are mixed here, and the last
-    build may have had another `base`.
+    build may have had another `base`. A fixed robot needs no hulls.
     """
-    if imports is None:
-        return None
+    if imports is None or options.base != "floating":
+        return imports
     complete = dict(imports)
     for key, file in imports.items():
         if lookup.HULL not in file.facts:
