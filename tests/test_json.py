@@ -301,7 +301,7 @@ def checked() -> CheckResult:
 
 def test_check(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
-    monkeypatch.setattr("urdfsync.checks.run.check_robots", lambda *_: iter([checked()]))
+    monkeypatch.setattr("urdfsync.commands.check.check_robots", lambda *_: iter([checked()]))
     document = printed(execute, folder, "check", "--physics")
     assert json.loads(json.dumps(document, allow_nan=False)) == document
     assert tell_all(document, "check", absent=())

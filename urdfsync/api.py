@@ -40,28 +40,16 @@ Place: TypeAlias = Config | Path | str | None
 """A configuration, or its file; None for the nearest `urdfsync.toml` in the working folder or above."""
 
 
-def ignore(_result: object) -> None:
-    """Do nothing with a result."""
-
-
 class Results(list[R]):
     """The results of a call, one for each robot, in the order of the configuration.
 
     `str` and notebooks show the results as the command does.
     """
 
-    def __init__(
-        self,
-        results: Iterable[R],
-        lines: Callable[[R], Iterable[StyledLine]],
-        on_result: Callable[[R], object] = ignore,
-    ) -> None:
-        """`lines` returns the text of a result; `on_result` gets each result as soon as it is known."""
-        super().__init__()
+    def __init__(self, results: Iterable[R], lines: Callable[[R], Iterable[StyledLine]]) -> None:
+        """`lines` returns the text of a result."""
+        super().__init__(results)
         self._lines = lines
-        for result in results:
-            self.append(result)
-            on_result(result)
 
     def __str__(self) -> str:
         return "\n".join(map(str, self._shown()))
@@ -102,23 +90,17 @@ def load(config: Place = None) -> Config:
     return configuration.load(Path(config) if config else configuration.find(configuration.working_folder()))
 
 
-def build(
-    *robots: str,
-    config: Place = None,
-    merge: bool = False,
-    on_result: Callable[[Result], object] = ignore,
-    **given: Any,
-) -> Results[Result]:
+def build(*robots: str, config: Place = None, merge: bool = False, **given: Any) -> Results[Result]:
     """Bring packages in step with their sources, as `urdfsync build` does.
 
     `robots` are names, sources or outputs; without any, all robots are built. With `merge`, changes are merged into
     edited files. `given` are fields of `BuildOptions`, such as `dry` for a dry run. A robot that can't be built has
-    `failed` and `diagnostics`; the others are built. `on_result` gets each result as soon as it is known. Raises
-    UrdfsyncError for a bad configuration, and for an unknown robot.
+    `failed` and `diagnostics`; the others are built. Raises UrdfsyncError for a bad configuration, and for an unknown
+    robot.
     """
     loaded = load(config)
     built = build_and_check(loaded, loaded.select(robots), BuildOptions(merges=merge, **given))
-    return Results(built, build_lines, on_result)
+    return Results(built, build_lines)
 
 
 def build_and_check(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
@@ -141,13 +123,7 @@ def status(*robots: str, **given: Any) -> Results[Result]:
     return Results(build(*robots, dry=True, **given), lambda result: text(status_section(result)))
 
 
-def diff(
-    *sources: str,
-    against: str | None = None,
-    config: Place = None,
-    on_result: Callable[[Comparison], object] = ignore,
-    **given: Any,
-) -> Results[Comparison]:
+def diff(*sources: str, against: str | None = None, config: Place = None, **given: Any) -> Results[Comparison]:
     """Return the changes of sources since the last build, or since the version `against`: a git revision, else a file.
 
     `sources` are files or robots; without any, all sources are compared. Of two files that are not both sources of
@@ -155,28 +131,26 @@ def diff(
     configuration. Raises UrdfsyncError if there is nothing to compare. If a version can't be read, the `result` of its
     comparison has `failed`.
     """
-    from urdfsync.versions import comparison, report
+    from urdfsync.versions.report import to_section
 
-    folder, options = configuration.working_folder(), BuildOptions(**given)
+    compared = compare(sources, against, config, BuildOptions(**given))
+    return Results(compared, lambda each: text(to_section(each, verbose=False)))
+
+
+def compare(sources: Sequence[str], against: str | None, config: Place, options: BuildOptions) -> Iterator[Comparison]:
+    """Yield what `diff` returns, each comparison as soon as it is known."""
+    from urdfsync.versions import comparison
+
+    folder = configuration.working_folder()
     is_near = any((place / configuration.FILE_NAME).is_file() for place in (folder, *folder.parents))
     loaded = load(config) if is_near or config or not sources else None
     older = comparison.older_of_pair(sources, loaded, folder) if against is None else None
     chosen_sources, other = (sources[1:], older) if older else (sources, against)
-    pairs = list(comparison.select_sources(chosen_sources, other, loaded, folder))
-    compared = (
-        comparison.compare_sources(chosen, other, known, options, folder, is_pair=older is not None)
-        for known, chosen in pairs
-    )
-    all_compared = (each for group in compared for each in group)
-    return Results(all_compared, lambda each: text(report.to_section(each, verbose=False)), on_result)
+    for known, chosen in list(comparison.select_sources(chosen_sources, other, loaded, folder)):
+        yield from comparison.compare_sources(chosen, other, known, options, folder, is_pair=older is not None)
 
 
-def edits(
-    *paths: str,
-    config: Place = None,
-    on_result: Callable[[RobotEdits], object] = ignore,
-    **given: Any,
-) -> Results[RobotEdits]:
+def edits(*paths: str, config: Place = None, **given: Any) -> Results[RobotEdits]:
     """Return the user's edits in packages: all edits, or those in `paths`, which are robots, files or folders.
 
     Raises ConfigError for a path that belongs to no robot.
@@ -185,7 +159,7 @@ def edits(
     from urdfsync.output.edits import to_section
 
     loaded, options = load(config), BuildOptions(dry=True, **given)
-    return Results(find_edits(paths, loaded, options), lambda each: text(to_section(each, verbose=False)), on_result)
+    return Results(find_edits(paths, loaded, options), lambda each: text(to_section(each, verbose=False)))
 
 
 def check(
@@ -194,7 +168,6 @@ def check(
     tool: str | None = None,
     trusted: bool = False,
     progress: Progress = no_progress,
-    on_result: Callable[[CheckResult], object] = ignore,
     **given: Any,
 ) -> Results[CheckResult]:
     """Check the packages on disk, as `urdfsync check` does; `result.status` is the verdict.
@@ -209,7 +182,7 @@ def check(
     loaded = load(config)
     chosen, tools = loaded.select(robots), compilers.choose(loaded, tool, trusted=trusted)
     checked = run.check_robots(loaded, chosen, CheckOptions(tools=tools, **given), progress)
-    return Results(checked, lambda result: text(to_section(result, verbose=False)), on_result)
+    return Results(checked, lambda result: text(to_section(result, verbose=False)))
 
 
 def simulate(

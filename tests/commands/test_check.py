@@ -51,7 +51,7 @@ class Checker:
 @pytest.fixture
 def checker(project: Path, monkeypatch: pytest.MonkeyPatch) -> Checker:
     found = Checker()
-    monkeypatch.setattr("urdfsync.checks.run.check_robots", found.check)
+    monkeypatch.setattr("urdfsync.commands.check.check_robots", found.check)
     return found
 
 
@@ -110,7 +110,7 @@ def test_an_interruption_leaves_what_was_found(
         yield RIGHT
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("urdfsync.checks.run.check_robots", interrupted)
+    monkeypatch.setattr("urdfsync.commands.check.check_robots", interrupted)
     assert cli.main(["check"]) == 130
     streams = capsys.readouterr()
     assert streams.out.startswith("ladder: right")

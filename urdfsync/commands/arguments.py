@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, NoReturn, TypeAlias, TypeVar, cast, get_args
+from typing import Any, NamedTuple, NoReturn, TypeAlias, TypeVar, get_args
 
 import msgspec
 
@@ -220,6 +220,28 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
     return robots
 
 
+class Configured(NamedTuple):
+    """The configuration of a command, with the robots that its arguments name."""
+
+    config: Config
+    robots: Sequence[RobotConfig]
+    reads: Reads
+    """The files of the configuration."""
+
+
+def load_robots(args: argparse.Namespace, console: Console) -> Configured:
+    """Load the configuration, and select the robots that the arguments name; warn of settings without effect."""
+    with Reads() as reads:
+        config = load(args.config)
+        return Configured(config, select_robots(args, config, console), reads)
+
+
+def remember(configured: Configured, console: Console) -> None:
+    """Let the next command skip this configuration, unless the command told something about it, or left robots out."""
+    if configured.robots == configured.config.robots and not console.has_warned:
+        remember_configuration(configured.config, configured.reads)
+
+
 def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, RobotConfig]:
     """Return the configuration and the one robot that the arguments name; warn of settings without effect."""
     loaded = load(args.config)
@@ -234,20 +256,14 @@ def call(
     console: Console,
     **given: Any,
 ) -> Returned:
-    """Warn of settings without effect, then call a function of the API for the chosen robots.
+    """Warn of settings without effect, then call a function of the API for the chosen robot.
 
     The fields of `kind` are set by arguments of the same names, or by `given`.
     """
-    with Reads() as reads:
-        loaded = load(args.config)
-        robots = select_robots(args, loaded, console)
+    loaded = load(args.config)
+    robots = select_robots(args, loaded, console)
     given = {"progress": console.progress, **chosen(kind, args), **given, "config": loaded}
-    if not robots:  # an empty share; the API takes no names for all robots
-        return cast("Returned", [])
-    value = function(*(robot.name for robot in robots), **given)
-    if kind is BuildOptions and robots == loaded.robots and not console.has_warned:
-        remember_configuration(loaded, reads)
-    return value
+    return function(*(robot.name for robot in robots), **given)
 
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:

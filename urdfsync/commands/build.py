@@ -5,12 +5,10 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Iterator, Sequence
-from functools import partial
 from pathlib import Path
 
-from urdfsync.api import build
+from urdfsync.api import build_and_check
 from urdfsync.commands import arguments
-from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.build_section import show_result
@@ -48,8 +46,12 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots one by one, and show each result at once."""
     if args.shard and not args.check:
         raise arguments.UsageError(args.parser, "`--shard` needs `--check`: one process at a time may build")
-    given = {"dry": args.dry_run or args.check, "merge": args.merge}
-    results = arguments.call(build, BuildOptions, args, console, on_result=partial(show_result, console), **given)
+    configured, results = arguments.load_robots(args, console), list[Result]()
+    request = arguments.request(args, console, dry=args.dry_run or args.check, merges=args.merge)
+    for result in build_and_check(configured.config, configured.robots, request):
+        show_result(console, result)
+        results.append(result)
+    arguments.remember(configured, console)
     console.count_robots()
     console.tell(_next_steps(results))
     return console.end(exit_code(results, args.check))

@@ -6,10 +6,11 @@ import argparse
 import os
 from pathlib import Path
 
-from urdfsync.api import check
+from urdfsync.checks import compilers
 from urdfsync.checks.compilers import BOTH, COMPILERS
 from urdfsync.checks.report import closing_lines, to_section
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, Judgement, exit_code
+from urdfsync.checks.run import check_robots
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
 from urdfsync.diagnostics import UrdfsyncError
@@ -65,19 +66,18 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, "`--log` takes one robot, on this machine")
     if args.remote_write and not args.remote_cache:
         raise arguments.UsageError(args.parser, "`--remote-write` needs `--remote-cache`")
-    results = list[CheckResult]()
     write_report = prepare_page(args, console, args.report) if args.report else None
     judgement, fault = _judge(args, console) if args.log else (None, None)
-
-    def show(result: CheckResult) -> None:
-        if judgement:
-            result.log = judgement
-        results.append(result)
-        show_result(console, result)
-
+    configured, results = arguments.load_robots(args, console), list[CheckResult]()
+    tools = compilers.choose(configured.config, args.tool, trusted=args.trusted)
+    chosen = arguments.chosen(CheckOptions, args)
+    options = CheckOptions(tools=tools, curves=args.report is not None, **chosen)
     try:
-        extra = {"tool": args.tool, "trusted": args.trusted, "curves": args.report is not None}
-        arguments.call(check, CheckOptions, args, console, on_result=show, **extra)
+        for result in check_robots(configured.config, configured.robots, options, console.progress):
+            if judgement:
+                result.log = judgement
+            results.append(result)
+            show_result(console, result)
     finally:
         console.tell(closing_lines(results))
     if write_report:

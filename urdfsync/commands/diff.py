@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from functools import partial
-from typing import TYPE_CHECKING
 
-from urdfsync.api import diff, edits, load
+import msgspec
+
+from urdfsync.api import compare, load
 from urdfsync.commands import arguments
+from urdfsync.config import Config
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
@@ -15,9 +16,6 @@ from urdfsync.output.build_section import show
 from urdfsync.output.console import Console, line
 from urdfsync.versions import report
 from urdfsync.versions.comparison import Comparison, exit_code
-
-if TYPE_CHECKING:
-    from urdfsync.engine.edits import RobotEdits
 
 
 def add(commands: arguments.Commands) -> None:
@@ -52,15 +50,17 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Show what changed in each source, or what the user edited."""
     if args.patch:
         return _write_patch(args, console)
-    given = {"config": args.config, "wait": args.wait, "progress": console.progress}
-    if not args.sources:
-        given["config"] = config = load(args.config)
+    options = BuildOptions(wait=args.wait, progress=console.progress)
+    config = None if args.sources else load(args.config)
+    if config:
         console.announce(len(config.robots))
     if args.edits:
-        edited = edits(*args.sources, **given, on_result=partial(_show_edits, console))
-        return console.end(Exit.ERROR if any(each.failed for each in edited) else Exit.IN_STEP)
-    compared = diff(*args.sources, **given, against=args.against, on_result=partial(_show_changes, console))
-    return console.end(exit_code(compared))
+        return _show_edits(args, console, config or load(args.config), options)
+    comparisons = list[Comparison]()
+    for comparison in compare(args.sources, args.against, config or args.config, options):
+        show(console, comparison, report.to_section, comparison.result)
+        comparisons.append(comparison)
+    return console.end(exit_code(comparisons))
 
 
 def _write_patch(args: argparse.Namespace, console: Console) -> int:
@@ -81,11 +81,13 @@ def _write_patch(args: argparse.Namespace, console: Console) -> int:
     return console.end(Exit.ERROR if any(patch.failed for patch in patches) else Exit.IN_STEP)
 
 
-def _show_changes(console: Console, compared: Comparison) -> None:
-    show(console, compared, report.to_section, compared.result)
+def _show_edits(args: argparse.Namespace, console: Console, config: Config, options: BuildOptions) -> int:
+    """Show the user's edits of each robot."""
+    from urdfsync.engine.edits import find_edits  # the merge takes a while to load
+    from urdfsync.output.edits import to_section
 
-
-def _show_edits(console: Console, edited: RobotEdits) -> None:
-    from urdfsync.output.edits import to_section  # the merge takes a while to load
-
-    show(console, edited, to_section)
+    has_failed = False
+    for edited in find_edits(args.sources, config, msgspec.structs.replace(options, dry=True)):
+        show(console, edited, to_section)
+        has_failed |= edited.failed
+    return console.end(Exit.ERROR if has_failed else Exit.IN_STEP)

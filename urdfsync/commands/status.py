@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from urdfsync.api import status
 from urdfsync.commands import arguments
-from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.result import exit_code
+from urdfsync.engine.build import build
+from urdfsync.engine.result import Result, exit_code
 from urdfsync.output.build_section import show
 from urdfsync.output.console import Console
 from urdfsync.output.status import status_section
@@ -27,7 +26,9 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Show the files of each robot's package."""
-    results = arguments.call(
-        status, BuildOptions, args, console, on_result=lambda result: show(console, result, status_section, result)
-    )
+    configured, results = arguments.load_robots(args, console), list[Result]()
+    for result in build(configured.config, configured.robots, arguments.request(args, console, dry=True)):
+        show(console, result, status_section, result)
+        results.append(result)
+    arguments.remember(configured, console)
     return console.end(exit_code(results, check=True))
