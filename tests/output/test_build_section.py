@@ -123,7 +123,7 @@ def test_a_check_says_how_far_the_package_agrees(arm: Path, execute: Execute, mo
     def check(*_: object) -> Iterator[CheckResult]:
         yield wrong
 
-    monkeypatch.setattr("urdfsync.checks.run.check_robots", check)
+    monkeypatch.setattr("urdfsync.commands.check.check_robots", check)
     text = markdown(execute, "check")
     assert "<li>joint elbow: torque differs from Pinocchio 3.4 by 1 N·m" in text
     assert row("rigid bodies", "differ (joint elbow), to 1.0e-01", "joint elbow, effort") in text
@@ -135,7 +135,7 @@ def test_a_check_says_how_far_the_package_agrees(arm: Path, execute: Execute, mo
 def test_a_check_of_a_package_out_of_step_says_so(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     gap = "nothing was compiled: there is no compiler"
     result = CheckResult("arm", "Arm", in_step=False, gaps=(gap,), folder="modelica/Arm")
-    monkeypatch.setattr("urdfsync.checks.run.check_robots", lambda *_: iter([result]))
+    monkeypatch.setattr("urdfsync.commands.check.check_robots", lambda *_: iter([result]))
     advice = "the package is out of step; run <code>urdfsync build</code>"
     _head, rest = markdown(execute, "check").split("\n", 1)
     assert rest == f"<ul>\n<li>{gap}</li>\n<li>{advice}</li>\n</ul>\n"

@@ -79,6 +79,10 @@ class Reads:
             self.complete = False  # the file changed between two reads, and its stat values did not
         self.hashes[entry] = self.hashes.get(entry) or sha256
 
+    def files(self) -> list[str]:
+        """Return the paths of the files that were read, or looked for in vain."""
+        return [path for kind, path in self.entries if kind == PATH]
+
     def renew(self, written: Mapping[str, str | None], package: str) -> None:
         """Renew the facts of written files, and of the folders around them; add lists of new folders of the package.
 
@@ -227,12 +231,6 @@ def note_content(path: str | os.PathLike[str], content: bytes) -> None:
     reads, entry = _current.get(), (PATH, os.fspath(path))
     if reads is not None and entry in reads.hashes:
         reads.add_hash(entry, hash_content(content))
-
-
-def recorded_files() -> list[str]:
-    """Return the paths of the files that the present work has read, or has looked for in vain."""
-    reads = _current.get()
-    return [path for kind, path in reads.entries if kind == PATH] if reads else []
 
 
 def find_unmerged(index: str | os.PathLike[str]) -> set[str]:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.reads import Reads
 from urdfsync.engine.decide.decision import decide_package
 from urdfsync.engine.decide.settle import settle, with_choices
 from urdfsync.engine.decide.united import with_meanings
@@ -18,15 +19,16 @@ from urdfsync.engine.stage.writes import Plan, stage
 
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
     """Decide which files one build of a robot writes. Raises UrdfsyncError for all faults."""
-    inputs = inspect(config, robot, options)
-    if inputs.source.is_missing:
-        name, package, stale = robot.name, robot.target.package, inputs.source.stale
-        result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
-        return Plan(result, inputs.store.hashes())
-    generation = generate_robot(inputs)
-    inputs = with_meanings(inputs, generation)
-    decision = decide_package(inputs, generation)
-    if options.choices:
-        inputs = with_choices(inputs, settle(inputs, generation, decision))
+    with Reads() as reads:
+        inputs = inspect(config, robot, options)
+        if inputs.source.is_missing:
+            name, package, stale = robot.name, robot.target.package, inputs.source.stale
+            result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
+            return Plan(result, inputs.store.hashes())
+        generation = generate_robot(inputs)
+        inputs = with_meanings(inputs, generation)
         decision = decide_package(inputs, generation)
-    return stage(inputs, generation, decision)
+        if options.choices:
+            inputs = with_choices(inputs, settle(inputs, generation, decision))
+            decision = decide_package(inputs, generation)
+    return stage(inputs, generation, decision, reads)

@@ -51,7 +51,7 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
     misfits: tuple[Misfit, ...] = ()
     """Unknown names and syntax errors in the user's files."""
     names: Mapping[str, str] = {}
-    """New names by old names, from before the choices; empty if no edit and no text in `aside` needs them."""
+    """New names by old names, from before the choices (see `Triage.names`)."""
     outdated: frozenset[str] = frozenset()
     """Hashes of confirmed texts that use numbers of parts from before this export."""
 

@@ -44,6 +44,8 @@ class Differences(msgspec.Struct, frozen=True):
     """For each name that another element has now: the new name of the element that had this name before."""
     has_exchanges: bool
     """Whether an element has the former name of another element."""
+    undeclared: Mapping[ElementKey, str]
+    """The renames without the declarations that are not made yet: the user may delete a declaration."""
     unused: frozenset[str] = frozenset()
     """The parts of the model that no template uses."""
 
@@ -62,7 +64,9 @@ class Differences(msgspec.Struct, frozen=True):
 def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
     """Compare the last complete build of a robot with the present build."""
     last, now, package = inputs.last, generation.now.snapshot, generation.package
-    matching = _find_matching(inputs, now)
+    declared = pending(inputs)
+    matching = _find_matching(inputs, now, declared)
+    undeclared = match_with_last(inputs, now, {}).renames if declared else matching.renames
     unused = frozenset[str]()
     if not inputs.options.removes:
         target, options = inputs.robot.target, inputs.robot.options
@@ -76,7 +80,8 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         others = {name: f"{name}{GONE}" for _, name in displaced(renames)}
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
-    differences = Differences(matching, news, respelled, {}, {}, last.record.former, others, has_exchanges, unused)
+    names = last.record.former, others
+    differences = Differences(matching, news, respelled, {}, {}, *names, has_exchanges, undeclared, unused)
     if differences.is_structural:
         identifiers = _find_identifiers(inputs, now, differences)
         former = {old: identifiers.get(new, new) for old, new in last.record.former.items()} | identifiers
@@ -86,12 +91,12 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
     return differences
 
 
-def _find_matching(inputs: Inputs, now: Snapshot) -> Matching:
+def _find_matching(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
     """Match the elements of the last complete build with the present elements.
 
     A stranger may have written the recorded model: names count as exchanged only if the records on disk confirm it.
     """
-    declared, last = pending(inputs), inputs.last
+    last = inputs.last
     matching = match_with_last(inputs, now, declared)
     if last.version is None or not matching.renames:
         return matching

@@ -33,7 +33,7 @@ class Triage(NamedTuple):
     doubts: Mapping[str, Doubt]
     renumbered: Renumbered
     names: Mapping[str, str]
-    """New names by old names; empty if no edit and no text in `aside` needs them."""
+    """New names by old names; empty if no edit, no text in `aside` and no use of an exchanged name needs them."""
 
 
 def triage(inputs: Inputs, generation: Generation, differences: Differences) -> Triage:
@@ -45,8 +45,8 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
     doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, renumbered, decided)}
     actions = tuple(_adjust(inputs, package, action, doubts) for action in decided)
     names: Mapping[str, str] = {}
-    needing = DISPUTED | {Reason.KEEP} if differences.other_elements else DISPUTED
-    if inputs.last.aside or any(one.reason in needing and one.role is not Role.IMPORT for one in actions):
+    is_disputed = any(one.reason in DISPUTED and one.role is not Role.IMPORT for one in actions)
+    if differences.other_elements or inputs.last.aside or is_disputed:
         names = renamed_names(inputs, generation, differences)
     if differences.other_elements or renumbered:
         actions = tuple(_with_other_names(inputs, package, actions, names, renumbered))

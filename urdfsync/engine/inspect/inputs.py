@@ -21,12 +21,14 @@ from urdfsync.engine.inspect import parents
 from urdfsync.engine.inspect.last_build import LastBuild, option_values
 from urdfsync.engine.inspect.package_files import Folder, PackageFiles
 from urdfsync.engine.inspect.parents import Parents
-from urdfsync.engine.inspect.users_files import UsersFiles, find_users_files
+from urdfsync.engine.inspect.users_files import UsersFiles, find_users_files, saved_facts
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources import source
 from urdfsync.engine.sources.source import Source
 from urdfsync.files import Templates, digest, shown
 from urdfsync.git.unmerged import find_unmerged
+from urdfsync.modelica.files import text_of
+from urdfsync.state.notes import Use
 from urdfsync.state.record import FileRecord, Generator, Record
 from urdfsync.state.store import Store
 from urdfsync.version import __version__
@@ -121,6 +123,20 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         names = {folder.name for folder in (self.robot.folder, former) if folder}
         names |= {old for old, new in self.last.record.former.items() if new in names}
         return find_users_files(self.config, self.robot, names, former)
+
+    @cached_property
+    def unsaved_uses(self) -> Mapping[str, Use]:
+        """Names that mean other parts now, in files that the user has not saved since a build noted them, by path."""
+        return {path: use for path, use in self.last.notes.uses.items() if use.facts == saved_facts(Path(path))}
+
+    def users_text(self, path: Path) -> str:
+        """Return the text of the configuration, or of a user's file; empty for an unreadable file."""
+        if path in self.users_files.all:
+            return text_of(self.users_files.all[path])
+        try:
+            return text_of(self.files.read(self.files.key(path)) or b"")
+        except OutputError:
+            return ""
 
 
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:

@@ -10,6 +10,7 @@ import msgspec
 
 from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.dependencies import reads
+from urdfsync.dependencies.facts import Facts
 from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_that_use, modelica_files
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
@@ -67,6 +68,14 @@ class UsersFiles(msgspec.Struct, frozen=True, dict=True):
                 place = path.parent if path.name == "package.mo" else path
                 places_by_name.setdefault(class_of_file(path), set()).add(place)
         return {name: places.pop() for name, places in places_by_name.items() if len(places) == 1}
+
+
+def saved_facts(path: Path) -> Facts:
+    """Return stat values that differ after the user has saved a file, even with the same text."""
+    try:
+        return reads.read_stat(path)
+    except OSError:
+        return (0,)
 
 
 def find_users_files(

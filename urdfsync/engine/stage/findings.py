@@ -17,14 +17,13 @@ import msgspec
 
 from urdfsync.changes import Changes
 from urdfsync.config import Config
-from urdfsync.dependencies import reads
-from urdfsync.dependencies.reads import walk_files
+from urdfsync.dependencies.reads import Reads, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Snapshot
 from urdfsync.domain.advice import brings_back
 from urdfsync.engine.actions import Actions, Reason
 from urdfsync.engine.decide.decision import Decision
-from urdfsync.engine.decide.differences import GONE, Differences
+from urdfsync.engine.decide.differences import GONE
 from urdfsync.engine.decide.package_names import (
     class_of,
     elements_by_identifier,
@@ -32,12 +31,12 @@ from urdfsync.engine.decide.package_names import (
     known_names,
     new_name,
     new_names,
-    renamed_names,
 )
 from urdfsync.engine.decide.unused import tell_unused
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs, orphaned_robots
 from urdfsync.engine.inspect.package_files import key_of
+from urdfsync.engine.inspect.users_files import saved_facts
 from urdfsync.engine.stage.judgements import find_jumps, judge
 from urdfsync.files import shown
 from urdfsync.state.notes import Use
@@ -61,7 +60,7 @@ _MAYBE = "?"
 """Stands for the new name of a part if the old name may still mean this part."""
 
 
-def find_lasting(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
+def find_lasting(inputs: Inputs, generation: Generation, decision: Decision, reads: Reads) -> list[Diagnostic]:
     """Return the findings that a build repeats if nobody changes a file, except those of `tell_uses`."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
     changes, file = decision.differences.changes, shown(inputs.robot.source)
@@ -74,7 +73,7 @@ def find_lasting(inputs: Inputs, generation: Generation, decision: Decision) -> 
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
-    findings += _unmerged(inputs)
+    findings += _unmerged(inputs, reads)
     findings += () if inputs.has_moved else _twin(inputs)
     findings += tell_unused(decision.differences.unused, (), file, generation.reading)
     return list(map(inputs.source.locate, findings))
@@ -143,7 +142,7 @@ def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: U
     return "change or remove this use"
 
 
-def _unmerged(inputs: Inputs) -> Iterator[Diagnostic]:
+def _unmerged(inputs: Inputs, reads: Reads) -> Iterator[Diagnostic]:
     """Yield a warning for each file that git could not merge: of the package, or read by this build.
 
     A build reads the user's models outside of the package, too, but they change no file. If git could not merge two
@@ -152,7 +151,7 @@ def _unmerged(inputs: Inputs) -> Iterator[Diagnostic]:
     if not (unmerged := inputs.unmerged_paths):
         return
     found = {str(inputs.files.path(key)) for key in inputs.unmerged}
-    for path in (str(inputs.config.file), *reads.recorded_files()):
+    for path in (str(inputs.config.file), *reads.files()):
         real = os.path.realpath(path)
         if not path.endswith(".mo") and not unmerged.isdisjoint((real, *map(str, Path(real).parents))):
             found.add(path)
@@ -240,45 +239,43 @@ def orphaned_state(config: Config) -> list[Diagnostic]:
 
 def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, Use]:
     """Return the names in each file that mean another part now, names from earlier builds included."""
-    differences = decision.differences
-    uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
+    differences, uses = decision.differences, dict(inputs.unsaved_uses)
     if not decision.is_complete:
         return uses
     own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
     files = [*inputs.users_files.mentioning, *own]
-    if files and (names := _other_names(inputs, generation, differences)):
+    if files and (names := _other_names(inputs, generation, decision)):
         for path in files:
             earlier = uses[str(path)].names if str(path) in uses else {}
             used = {name: names.get(new, new) for name, new in earlier.items()}
-            used = {name: names[name] for name in _lines(path, names) if name not in earlier} | used
+            used = {name: names[name] for name in _lines(inputs, path, names) if name not in earlier} | used
             uses.pop(str(path), None)
             if used := {name: new for name, new in used.items() if name != new}:
-                uses[str(path)] = Use(_facts(path), used)
+                uses[str(path)] = Use(saved_facts(path), used)
     elements = {**{name: _MAYBE for _, name in differences.matching.doubts}, **differences.other_elements}
     options = msgspec.to_builtins(inputs.robot.options).values()  # its keys are names of options
     if used := {name: elements[name] for value in options for name in _texts(value) if name in elements}:
-        uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)
+        uses[str(inputs.config.file)] = Use(saved_facts(inputs.config.file), used)
     return uses
 
 
-def _other_names(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, str]:
+def _other_names(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, str]:
     """Return names of the package that mean, or may mean, other parts than in the last build.
 
     The value of a name is the new name of the part that had this name before.
     """
-    doubts, renamed = differences.matching.doubts, dict[str, str]()
-    if differences.other_elements:
-        renamed = renamed_names(inputs, generation, differences)
+    doubts = decision.differences.matching.doubts
+    renamed = decision.names if decision.differences.other_elements else {}
     now = known_names(generation.package) if doubts or renamed else ()
     elements = elements_by_identifier(inputs.domain, generation.now.snapshot, inputs.robot.target) if doubts else {}
     doubtful = {name: _MAYBE for name in now if elements.get(identifier_of(name, elements)) in doubts}
     return {**doubtful, **{name: new for name, new in renamed.items() if name in now}}
 
 
-def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
+def tell_uses(inputs: Inputs, uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
     """Yield a warning for the first use of each name in a file."""
     for path, use in uses.items():
-        lines = _lines(Path(path), use.names)
+        lines = _lines(inputs, Path(path), use.names)
         for name, line in sorted(lines.items(), key=lambda item: item[1]):
             new = use.names[name]
             message = f"`{name}` names another part now; the former part is called `{new}`"
@@ -291,22 +288,11 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
             yield Diagnostic(Severity.WARNING, "other-part", message, shown(Path(path)), line, hint=hint)
 
 
-def _facts(path: Path) -> tuple[int, ...]:
-    try:
-        return reads.read_stat(path)
-    except OSError:
-        return (0,)
-
-
-def _lines(path: Path, names: Mapping[str, str]) -> dict[str, int]:
+def _lines(inputs: Inputs, path: Path, names: Mapping[str, str]) -> dict[str, int]:
     """Return the first line in which a file uses each name; declarations do not count."""
     from urdfsync.merge.renames import find_uses_of  # the lexer takes a while to load
-    from urdfsync.modelica.files import text_of
 
-    try:
-        text = text_of(reads.read_file(path))
-    except OSError:
-        return {}
+    text = inputs.users_text(path)
     if path.suffix == ".mo":
         places = find_uses_of(text, names)
     else:

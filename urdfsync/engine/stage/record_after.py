@@ -11,9 +11,7 @@ from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.edit_origins import EDITED
-from urdfsync.engine.decide.renames import match_with_last
 from urdfsync.engine.decide.rules import files_after
-from urdfsync.engine.declared import pending
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import hash_of, option_values
@@ -85,9 +83,7 @@ def _open_record(
     # a decision about an earlier export does not answer a question, not in the next build either
     outdated = decision.outdated.union(question.mine for question in asked.values())
     confirmed |= old.confirmed.difference(outdated)
-    renames = decision.differences.renames
-    if pending(inputs):  # the user may delete a declaration
-        renames = match_with_last(inputs, generation.now.snapshot, {}).renames
+    renames = decision.differences.undeclared
     new = msgspec.structs.replace(
         old,
         files=files,

@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.engine.actions import Action, Actions
 from urdfsync.engine.decide.decision import Decision
@@ -50,8 +51,11 @@ class Plan(msgspec.Struct, frozen=True):
     """The result of the next plan, if nobody changes a file after this build; None if it is not certain."""
 
 
-def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
-    """Return the plan with all its writes. A dry run gets the same plan, so it reports the same as a build."""
+def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Reads) -> Plan:
+    """Return the plan with all its writes. A dry run gets the same plan, so it reports the same as a build.
+
+    `reads` has all that the steps before have read.
+    """
     store, robot, options = inputs.store, inputs.robot, inputs.options
     actions, files = _actions_after(decision.actions, inputs.settled), _file_changes(inputs, generation, decision)
     is_writing = bool(files) or any(action.writes for action in actions)
@@ -69,7 +73,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         needed, state = _state_changes(inputs, generation, decision, record, index.values(), is_writing=is_writing)
     writes = Writes(before=(*needed, *copies), files=tuple(files.values()), record=tuple(state))
     uses = find_uses(inputs, generation, decision)
-    lasting = [*find_lasting(inputs, generation, decision), *tell_uses(uses)]
+    lasting = [*find_lasting(inputs, generation, decision, reads), *tell_uses(inputs, uses)]
     news = [*find_news(inputs, generation, decision), *tell_aside(inputs, actions, index, texts)]
     result = msgspec.structs.replace(
         _result(inputs, decision, actions, conflicts, is_writing=is_writing),
