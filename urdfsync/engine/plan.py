@@ -9,9 +9,9 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.reads import Reads
 from urdfsync.engine.decide.decision import decide_package
 from urdfsync.engine.decide.settle import settle, with_choices
-from urdfsync.engine.decide.united import with_meanings
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inspect.inputs import inspect
+from urdfsync.engine.inspect.united import with_meanings
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.engine.stage.writes import Plan, stage
@@ -26,7 +26,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
             result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
             return Plan(result, inputs.store.hashes())
         generation = generate_robot(inputs)
-        inputs = with_meanings(inputs, generation)
+        inputs = with_meanings(inputs, generation.package)
         decision = decide_package(inputs, generation)
         if options.choices:
             inputs = with_choices(inputs, settle(inputs, generation, decision))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
@@ -75,7 +74,7 @@ def find_conflict(
 
     `bases` are all texts that may be the base, best first; `names` has new names by old names.
     """
-    from urdfsync.merge import merge
+    from urdfsync.merge.texts import merge, over_bases
 
     is_modelica = action.path.endswith(".mo")
     merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
@@ -89,24 +88,6 @@ def find_conflict(
         rejected = "two branches recorded different bases, which give different merges"
     base = bases[0] if bases else None
     return Conflict(action.path, base, mine, generated, first, origin=action.origin, rejected=rejected)
-
-
-def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:
-    """Move the edits of a file to its last and its first base; return both bases with their edited texts.
-
-    Git may have recorded bases of several branches, so a difference between two bases is no edit. The result leaves out
-    a base if the edits contradict it.
-    """
-    from urdfsync.merge import merge
-
-    edited = []
-    for way in dict.fromkeys([tuple(bases), tuple(reversed(bases))]):
-        text: str | None = mine
-        for base, other in itertools.pairwise(way):
-            text = None if text is None else merge(base, text, other, is_modelica=is_modelica).text
-        if text is not None and way:
-            edited.append((way[-1], text))
-    return edited
 
 
 def only_names_changed(conflict: Conflict, names: Mapping[str, str]) -> bool:

@@ -7,15 +7,11 @@ these commits tell the meaning of the names at that time.
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
 
-from urdfsync import git
-from urdfsync.dependencies import reads
-from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.domain import ElementKey, Role, Snapshot, Version
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide.conflicts import find_conflict
@@ -24,22 +20,15 @@ from urdfsync.engine.decide.package_names import elements_by_identifier, identif
 from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.decide.renumbered import Names, Renumbered, find_numbers
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.commits import CommittedBuild, find_commits
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import NO_MODEL, hash_of
 from urdfsync.engine.inspect.package_files import text_hash
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
-from urdfsync.state import bases, statefile
 from urdfsync.state.record import FileRecord, as_read
 
-if TYPE_CHECKING:
-    from urdfsync.git.revisions import Revision
-
-_MOST = 50
-"""The greatest number of branches that are searched, and the most commits that were checked out last."""
-_BACK = 10
-"""The greatest number of commits that are searched, counted back from HEAD."""
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
 
@@ -71,10 +60,9 @@ def find_doubts(
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
     # if both branches changed one element, the united record has no model
     has_model = inputs.last.version is not None or record.is_united
-    if unconfirmed and has_model and (top := git.find_top(inputs.config.root)) is not None:
-        reads.depend_on_commits(top)
+    if unconfirmed and has_model:
         edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
-        for commit in _commits(inputs):
+        for commit in find_commits(inputs):
             doubts |= _look(inputs, generation, commit, edits)
     return {path: doubt for path, doubt in doubts.items() if doubt}
 
@@ -117,33 +105,6 @@ def _is_back(inputs: Inputs, generation: Generation, action: Action) -> bool:
     return all(inputs.last.has_written(package.hash(path)) for path in own)
 
 
-def _commits(inputs: Inputs) -> Iterator[Revision]:
-    """Yield the commits that an edit may come from: merged ones, and recent ones if this machine has built here."""
-    import pygit2  # takes 55 ms, which most builds save
-
-    from urdfsync.git.revisions import Revision, open_repository
-
-    root = inputs.config.root
-    try:
-        repository = open_repository(root)
-    except SourceError:  # the repository can't be read: for example, it belongs to another user
-        return
-    if repository is None or repository.is_empty or repository.head_is_unborn:
-        return
-    names = ["MERGE_HEAD", *(str(parent) for parent in repository.head.peel(pygit2.Commit).parent_ids)]
-    if inputs.last.notes.model:
-        names += [f"HEAD~{number}" for number in range(2, _BACK)]
-        # after a squash, the branch may be deleted: look at the commits that were checked out last
-        recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
-        names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *(str(entry.oid_new) for entry in recent)]
-        names += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
-    for name in dict.fromkeys(names):
-        try:
-            yield Revision(root, name)
-        except SourceError:  # there is no such commit
-            continue
-
-
 class _Edit(NamedTuple):
     """An edit of a generated text, as lines without their indents."""
 
@@ -173,16 +134,17 @@ def _lines(text: str) -> Counter[str]:
     return Counter(line.strip() for line in text.splitlines() if line.strip())
 
 
-def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mapping[Action, _Edit]) -> dict[str, Doubt]:
+def _look(
+    inputs: Inputs, generation: Generation, commit: CommittedBuild, edits: Mapping[Action, _Edit]
+) -> dict[str, Doubt]:
     """Return a doubt for each edit that a commit has in its file, if the file's element was renamed since."""
-    state = inputs.store.path(inputs.last.name)
+    texts = commit.texts([action.path for action in edits])
+    of_commit = {action: text for action in edits if (text := texts.get(action.path))}
+    shared = {action: lines for action, text in of_commit.items() if (lines := edits[action].shared(text))}
+    if not shared:  # true for most commits; reading the model of a large robot would take a while
+        return {}
+    record = commit.record
     try:
-        contents = commit.contents([state, *(inputs.files.path(action.path) for action in edits)])
-        texts = {action: contents.get(inputs.files.path(action.path), b"").decode(errors="replace") for action in edits}
-        shared = {action: lines for action, text in texts.items() if text and (lines := edits[action].shared(text))}
-        if not shared:  # true for most commits; reading the model of a large robot would take a while
-            return {}
-        record, _ = statefile.loads(contents[state].decode(errors="replace"), commit.label(state))
         if record is None or record.is_united or not record.snapshot or record.snapshot == inputs.last.record.snapshot:
             return {}
         snapshot = as_read(record.snapshot, inputs.domain.model)
@@ -192,7 +154,7 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
         if not (matching.renames or matching.doubts or numbers):
             return {}
         known = inputs.domain.features(snapshot)
-    except (KeyError, SourceError, StateError, *NO_MODEL):
+    except NO_MODEL:
         return {}
     formers, moved = {(key[0], new): key[1] for key, new in matching.renames.items()}, dict(matching.doubts)
     for key in known:
@@ -205,9 +167,9 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
     doubts = dict[str, Doubt]()
     for action, lines in shared.items():
         recorded = record.files.get(action.path)
-        if recorded is None or text_hash(texts[action]) in recorded.hashes:
+        if recorded is None or text_hash(texts[action.path]) in recorded.hashes:
             continue  # the file is unedited in this commit
-        if part := _moved_part(inputs, generation, commit, action, texts[action], recorded, numbers):
+        if part := _moved_part(inputs, generation, commit, action, texts[action.path], recorded, numbers):
             doubts[action.path] = Doubt(action.owner, part=part)
         elif element := _element(action):
             if (doubt := moved.get(element)) is None:
@@ -223,7 +185,7 @@ def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mappi
 def _moved_part(
     inputs: Inputs,
     generation: Generation,
-    commit: Revision,
+    commit: CommittedBuild,
     action: Action,
     edited: str,
     recorded: FileRecord,
@@ -235,13 +197,7 @@ def _moved_part(
         return ""
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
-    sha256 = recorded.hashes[0]
-    file = inputs.store.base_file(inputs.last.name, sha256[0])
-    try:
-        base = bases.loads(commit.contents([file]).get(file, b"")).get(sha256)
-    except SourceError:  # the clone lacks the content
-        base = None
-    if base is None:  # the edit is unknown
+    if (base := commit.base(recorded.hashes[0])) is None:  # the edit is unknown
         return next(iter(renumbered.components(action)))
     generated = generation.package.content(inputs.folder.path(action.path)).decode()
     mine, names = inputs.files.text(action.path) or "", renumbered.names(action, words_in(base))

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import DISPUTED, Action, Reason
-from urdfsync.engine.decide import united
+from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Reason
 from urdfsync.engine.decide.conflicts import PREFERENCES, Conflict, Verdicts, find_conflict, only_names_changed, resolve
 from urdfsync.engine.decide.differences import GONE, Differences
 from urdfsync.engine.decide.misfits import look_for_misfits
@@ -21,9 +19,13 @@ from urdfsync.engine.decide.renames import describe_doubt
 from urdfsync.engine.decide.triage import Triage
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.package_files import PackageFiles
+from urdfsync.modelica import markers
 
-if TYPE_CHECKING:
-    pass
+_IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
+"""Reasons for which a generated file stays."""
+_SETTLED = frozenset({Reason.MERGE, Reason.FORGET}) | ORPHANS
+"""Reasons for which a build writes a file's meaning."""
 
 
 def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differences: Differences) -> Verdicts:
@@ -36,7 +38,7 @@ def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differe
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
     actions, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
     needed = keep_needed(PackageAfter(inputs, package, actions, texts), triaged.origins)
-    return Verdicts(*united.write_meanings(inputs.files, needed, texts), conflicts)
+    return Verdicts(*_write_meanings(inputs.files, needed, texts), conflicts)
 
 
 def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: Triage) -> Conflict:
@@ -58,7 +60,7 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: T
         is_own = action.owner == doubt.element
         rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
     elif branches := files.left_by_git.get(key):
-        merge = msgspec.structs.replace(branches, contradictions=(united.describe(branches.contradictions, mine),))
+        merge = msgspec.structs.replace(branches, contradictions=(_describe_branches(branches.contradictions, mine),))
         return Conflict(action.path, base, mine, generated, merge, origin=action.origin, is_of_branches=True)
     if rejected:
         texts = base, mine, generated, None
@@ -132,3 +134,27 @@ def _without_misfits(
             changed = {"refused": {**conflict.refused, side: reason}} if side else {"merge": merge, "rejected": reason}
             sound[key] = msgspec.structs.replace(conflict, **changed)
     return sound
+
+
+def _describe_branches(contradictions: Sequence[str], text: str) -> str:
+    """Return a clause that names the elements about which two branches contradict each other in a file's text."""
+    elements = [element for element in dict.fromkeys(contradictions) if element]
+    both = f"both branches changed {' and '.join(elements) or 'the same lines'}"
+    if not markers.find_markers(text):  # git's merge driver failed, or somebody took one side
+        return f"git has not merged it, since {both}: `git add` it to keep this text"
+    return f"git's markers are in it, since {both}"
+
+
+def _write_meanings(
+    files: PackageFiles, actions: Iterable[Action], merged: Mapping[str, str]
+) -> tuple[tuple[Action, ...], dict[str, str]]:
+    """Return actions that write the meanings of files that git merged, and all merged texts, by key."""
+    settled, texts = list[Action](), dict(merged)
+    for action in actions:
+        if action.is_left_by_git and action.reason in _IN_STEP:
+            reason = Reason.UPDATE if action.reason is Reason.UNCHANGED else Reason.MERGE
+            action = msgspec.structs.replace(action, reason=reason)
+        if action.is_left_by_git and action.reason in _SETTLED and action.path not in merged:
+            texts[action.path] = files.text(action.path) or ""
+        settled.append(action)
+    return tuple(settled), texts

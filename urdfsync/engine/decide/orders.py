@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Choice, Reason
-from urdfsync.engine.decide import united
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.parents import SharedFile, merge_order
+from urdfsync.engine.inspect.united import can_join
 from urdfsync.engine.package.generate import Package
 from urdfsync.modelica.markers import find_markers, join_sides
 from urdfsync.modelica.names import is_identifier
@@ -113,7 +113,7 @@ def _order_reason(old: str | None, new: str, *, is_recorded: bool) -> Reason:
 def _order_text(inputs: Inputs, key: str, old: str) -> str:
     """Return the lines on disk; where git has left both sides of a merge that may stand together, both."""
     is_united = inputs.last.record.is_united
-    is_joined = find_markers(old) and united.can_join(inputs.files.path(key), old, is_united=is_united)
+    is_joined = find_markers(old) and can_join(inputs.files.path(key), old, is_united=is_united)
     return join_sides(old) if is_joined else old
 
 

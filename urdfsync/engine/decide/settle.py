@@ -13,7 +13,7 @@ import msgspec
 from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Choice, Reason, UsersChoice
-from urdfsync.engine.decide.conflicts import Conflict, over_bases
+from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.package_names import names_of
 from urdfsync.engine.generation import Generation
@@ -226,7 +226,7 @@ class _Choices:
 
     def _merge_into(self, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
         """Merge the edit of another element's file into a text of the element `new`; None for a contradiction."""
-        from urdfsync.merge import merge  # imports the parser
+        from urdfsync.merge.texts import merge, over_bases  # imports the parser
         from urdfsync.modelica.lexer import words_in
 
         inputs, generation = self._inputs, self._generation

@@ -10,7 +10,6 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DISPUTED, Action, Reason
-from urdfsync.engine.decide import united
 from urdfsync.engine.decide.conflicts import find_conflict
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.edit_origins import find_doubts
@@ -71,10 +70,10 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
         # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
         old = last.package.artifacts.get(path) if last.package else None
         add(key, old.role if old else role_of(path), old.owner if old else "", None)
-    for key, record in united.find_left_records(inputs, find_unknown(inputs, files)).items():
+    for key in inputs.left_records.keys() & set(find_unknown(inputs, files) if inputs.left_records else ()):
         role = role_of(inputs.folder.path(key))
         if not last.is_chosen(key, on_disk := inputs.files.on_disk(key, role)):
-            files[key] = File(role, "", record, on_disk, None)
+            files[key] = File(role, "", inputs.left_records[key], on_disk, None)
     return files
 
 

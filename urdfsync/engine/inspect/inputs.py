@@ -81,6 +81,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """Hash of the program and the templates; this machine's notes are valid only for this hash."""
     damage: Diagnostic | None = None
     """A warning if lines of the recorded state can't be read."""
+    left_records: Mapping[str, FileRecord] = {}
+    """The records of files that one branch edited and the other branch deleted, by key.
+
+    Git leaves such a file in the working tree, but the united record does not list it.
+    """
     settled: Settled = msgspec.field(default_factory=Settled)
     """The user's choices, if `files` and `last` already include the choices."""
 

@@ -6,7 +6,7 @@ import itertools
 import os
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -17,12 +17,10 @@ from urdfsync.dependencies import reads
 from urdfsync.dependencies.places import named, real
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.domain import Role
-from urdfsync.engine.actions import ORPHANS, Action, Reason
-from urdfsync.engine.decide.conflicts import over_bases
-from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import LastBuild
-from urdfsync.engine.inspect.package_files import PackageFiles, encode, text_hash
+from urdfsync.engine.inspect.package_files import encode, text_hash
+from urdfsync.engine.package.generate import Package
 from urdfsync.git.revisions import Revision
 from urdfsync.git.unmerged import find_git_folder
 from urdfsync.modelica import markers
@@ -37,10 +35,6 @@ if TYPE_CHECKING:
 _UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
 """The references under which git keeps the commit that it is merging into HEAD."""
 
-_IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
-"""Reasons for which a generated file stays."""
-_SETTLED = frozenset({Reason.MERGE, Reason.FORGET}) | ORPHANS
-"""Reasons for which a build writes a file's meaning."""
 _Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
 """Changed lines and their replacements. The order of lines does not count: a diff can cut added blocks in several
 ways."""
@@ -55,13 +49,14 @@ class Sides(NamedTuple):
     theirs: str
 
 
-def with_meanings(inputs: Inputs, generation: Generation) -> Inputs:
+def with_meanings(inputs: Inputs, package: Package) -> Inputs:
     """Return the inputs; each file that still is git's merge of two branches, or what git left of it, has its meaning.
 
     If nobody edited the versions, the meaning is our version. Otherwise it is a merge by elements without
     contradictions.
     """
-    files, last, package, folder = inputs.files, inputs.last, generation.package, inputs.folder
+    files, last, folder = inputs.files, inputs.last, inputs.folder
+    inputs = msgspec.structs.replace(inputs, left_records=_find_left_records(inputs))
     contents: dict[str, bytes] = {}
     left: dict[str, Merge | None] = {}
     generated = {folder.key(path): package.hash(path) for path in package.artifacts}
@@ -112,7 +107,7 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | Merge:
 
     The second way ignores differences between exports: these are no contradictions between people.
     """
-    from urdfsync.merge.texts import merge_branches  # imports the parser
+    from urdfsync.merge.texts import merge_branches, over_bases  # imports the parser
 
     recorded = last.files[key].hashes if key in last.files else ()
     bases = [base for sha256 in recorded if (base := last.base(sha256)) is not None]
@@ -121,30 +116,6 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | Merge:
     merges = [merge_branches(*texts) for texts in versions]
     merge = min(merges, key=lambda one: len(one.contradictions))
     return merge if merge.text is None else merge.text
-
-
-def describe(contradictions: Sequence[str], text: str) -> str:
-    """Return a clause that names the elements about which two branches contradict each other in a file's text."""
-    elements = [element for element in dict.fromkeys(contradictions) if element]
-    both = f"both branches changed {' and '.join(elements) or 'the same lines'}"
-    if not markers.find_markers(text):  # git's merge driver failed, or somebody took one side
-        return f"git has not merged it, since {both}: `git add` it to keep this text"
-    return f"git's markers are in it, since {both}"
-
-
-def write_meanings(
-    files: PackageFiles, actions: Iterable[Action], merged: Mapping[str, str]
-) -> tuple[tuple[Action, ...], dict[str, str]]:
-    """Return actions that write the meanings of files that git merged, and all merged texts, by key."""
-    settled, texts = list[Action](), dict(merged)
-    for action in actions:
-        if action.is_left_by_git and action.reason in _IN_STEP:
-            reason = Reason.UPDATE if action.reason is Reason.UNCHANGED else Reason.MERGE
-            action = msgspec.structs.replace(action, reason=reason)
-        if action.is_left_by_git and action.reason in _SETTLED and action.path not in merged:
-            texts[action.path] = files.text(action.path) or ""
-        settled.append(action)
-    return tuple(settled), texts
 
 
 def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
@@ -218,11 +189,8 @@ def find_sides(file: Path, text: str) -> Sides | None:
         return None  # as without a repository: it is damaged or shallow
 
 
-def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileRecord]:
-    """Return the records of files that one branch edited and the other branch deleted, by key.
-
-    Git leaves such a file in the working tree, but the united record does not list this file.
-    """
+def _find_left_records(inputs: Inputs) -> dict[str, FileRecord]:
+    """Return the records of files of the package that one branch edited and the other branch deleted, by key."""
     top = git.find_top(inputs.config.root) or ""
     folder = find_git_folder(top)
     if not any((folder / name).exists() for name in (*_UNDER_WAY, "SQUASH_MSG")):
@@ -230,18 +198,19 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
     import pygit2
 
     reads.depend_on_commits(top)
-    wanted = {os.path.relpath(real(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
+    inside = f"{os.path.relpath(real(inputs.robot.folder), top).replace(os.sep, '/')}/"
     found = dict[str, FileRecord]()
     try:
         for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():
             left = ours or theirs
-            if not (base and left and left.path in wanted) or (ours and theirs):
+            if not (base and left and left.path.startswith(inside)) or (ours and theirs):
                 continue
+            key = inputs.folder.key(left.path.removeprefix(inside))
             for name in ("HEAD",) if ours else _UNDER_WAY:
                 state = _read(name, inputs.store.path(inputs.last.name))
                 record = statefile.loads(state, name)[0] if state else None
-                if record and (file := record.files.get(wanted[left.path])):
-                    found[wanted[left.path]] = file
+                if record and (file := record.files.get(key)):
+                    found[key] = file
     except (SourceError, StateError, pygit2.GitError, KeyError, OSError):
         return found  # as in `find_sides`
     return found

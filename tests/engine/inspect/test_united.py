@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync.engine.decide.united import Sides, find_sides
+from urdfsync.engine.inspect.united import Sides, find_sides
 
 pytestmark = NEEDS_GIT
 
