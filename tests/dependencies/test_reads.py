@@ -104,10 +104,10 @@ def test_the_build_of_another_robot_may_make_the_folder_around_both(tmp_path: Pa
         reads.is_folder(own)
     own.mkdir(parents=True)
     (own / "package.mo").write_text("package Own end Own;")
-    found.renew({str(own / "package.mo"): "hash"}, str(own))
+    found = found.renewed({str(own / "package.mo"): "hash"}, str(own))
     assert found.complete
     (tmp_path / "Theirs").mkdir()
-    found.renew({str(own / "package.mo"): "hash"}, str(own))
+    found = found.renewed({str(own / "package.mo"): "hash"}, str(own))
     assert not found.complete
 
 

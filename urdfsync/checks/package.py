@@ -21,7 +21,7 @@ from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.generation import Generation, generate_robot, generated_texts
 from urdfsync.engine.inspect.inputs import Inputs, inspect
-from urdfsync.engine.inspect.users_files import find_users_files
+from urdfsync.engine.inspect.users_files import read_users_files
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package.generate import Package
 from urdfsync.files import normalised, shown
@@ -185,7 +185,7 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
 
 def users_files(config: Config, robot: RobotConfig) -> Mapping[Path, bytes]:
     """Return the user's models outside of robots' packages that may use this robot's package."""
-    return find_users_files(config, robot, [robot.folder.name]).mentioning
+    return read_users_files(config, robot, [robot.folder.name]).mentioning
 
 
 class UsersModels(msgspec.Struct, frozen=True):

@@ -32,7 +32,10 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
 
 
 def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | None:
-    """Return an error if a robot has a command in an untrusted folder. Raises ConfigError."""
+    """Return an error if a robot has a command in an untrusted folder. Reads the user's file of trusted folders.
+
+    Raises ConfigError if this file can't be read.
+    """
     import shlex  # takes 2 ms, and few robots have a command
 
     message = f"robot `{robot.name}`: its `command` was not run: {shlex.join(robot.command)}"

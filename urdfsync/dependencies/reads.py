@@ -83,12 +83,18 @@ class Reads:
         """Return the paths of the files that were read, or looked for in vain."""
         return [path for kind, path in self.entries if kind == PATH]
 
-    def renew(self, written: Mapping[str, str | None], package: str) -> None:
-        """Renew the facts of written files, and of the folders around them; add lists of new folders of the package.
+    def renewed(self, written: Mapping[str, str | None], package: str) -> Reads:
+        """Return the list with new facts of written files and of folders around them, and with new folders.
 
-        `written` has the hash of each file by path, None for a deleted file. The list becomes incomplete if anybody
+        `written` has the hash of each file by path, None for a deleted file. The new list is incomplete if anybody
         else has changed one of these files or folders since the plan looked at it, or if it lacks a new folder.
         """
+        after = Reads()
+        after.entries, after.hashes, after.complete = dict(self.entries), dict(self.hashes), self.complete
+        after._renew(written, package)
+        return after
+
+    def _renew(self, written: Mapping[str, str | None], package: str) -> None:
         before, inside = dict(self.entries), _names_by_folder(written)
         for path, sha256 in written.items():
             self.entries[PATH, path] = look(PATH, path)

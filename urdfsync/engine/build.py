@@ -28,12 +28,12 @@ from urdfsync.diagnostics import (
     findings_of,
 )
 from urdfsync.engine import remembered
+from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
-from urdfsync.engine.stage.findings import orphaned_state
-from urdfsync.engine.stage.writes import Plan
+from urdfsync.engine.stage.writes import Plan, shared_change
 from urdfsync.files import shown
 from urdfsync.processes import machine
 from urdfsync.state import notes
@@ -66,7 +66,7 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
             result = known.get(robot.name) or builder.build(robot)
-            notes = config.without_ignored([*([] if count else orphaned_state(config)), *builder.notes])
+            notes = config.without_ignored([*([] if count else read_stray_states(config)), *builder.notes])
             builder.notes = []
             yield msgspec.structs.replace(result, diagnostics=(*notes, *robot.without_ignored(result.diagnostics)))
 
@@ -130,7 +130,10 @@ class _Builder:
         for _ in range(_ATTEMPTS):
             with Reads() as self._reads:
                 self._recover()
-                plan = self.pool.plan(robot) if self.pool else plan_robot(self._config, robot, self._options)
+                if self.pool:
+                    plan = self.pool.plan(robot, self._reads)
+                else:
+                    plan = plan_robot(self._config, robot, self._options, self._reads)
             if self._options.dry:
                 if self._is_current(plan):
                     return self._finish(robot, plan, {})
@@ -141,7 +144,7 @@ class _Builder:
             if not self._is_current(plan):
                 continue
             files = PackageFiles(self._config, robot)
-            shared = [change for file in plan.shared if (change := file.change(files)) is not None]
+            shared = [change for file in plan.shared if (change := shared_change(file, files)) is not None]
             writes = msgspec.structs.replace(plan.writes, files=(*shared, *plan.writes.files))
             applied = self._transactions.apply(robot.name, writes, plan.emptied)
             self.notes += applied.diagnostics
@@ -159,14 +162,14 @@ class _Builder:
         """
         if plan.notes:
             written = {**written, **notes.save(self._state_folder, robot.name, plan.notes)}
-        if written:  # most plans write nothing, and have read hundreds of files
-            self._reads.renew(written, str(robot.folder))
-        result = msgspec.structs.replace(plan.result, reads=FactList.of(self._reads))
+        # most plans write nothing, and have read hundreds of files
+        reads = self._reads.renewed(written, str(robot.folder)) if written else self._reads
+        result = msgspec.structs.replace(plan.result, reads=FactList.of(reads))
         if plan.writes:
             next_result = None if self._options.dry else plan.next_result
         else:  # without `renews`, a plan writes less than the next one may
             next_result = result if self._options.renews and not result.writes else None
-        if next_result and self._reads.complete:
+        if next_result and reads.complete:
             next_result = msgspec.structs.replace(next_result, reads=result.reads)
             remembered.remember(self._config, robot, self._keys.key(robot), next_result)
         return result

@@ -16,7 +16,7 @@ from urdfsync.engine.decide.decision import decide_package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inspect.inputs import Inputs, inspect
 from urdfsync.engine.inspect.package_files import CLASS_FOLDER
-from urdfsync.engine.inspect.united import with_meanings
+from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
 from urdfsync.merge import edits as merge_edits
 
@@ -61,7 +61,7 @@ def find_edited(
     Raises UrdfsyncError. `actions` are the package's actions; if it is None, this decides on them.
     """
     if actions is None:
-        inputs = with_meanings(inputs, generation.package)
+        inputs = with_git_merges(inputs, generation.package)
         actions = decide_package(inputs, generation).actions
     files = inputs.files
     for action in actions:

@@ -69,7 +69,7 @@ def generate_robot(inputs: Inputs) -> Generation:
         version = Version(snapshot, imported.imports)
         package = generate(domain, version, robot.target, robot.options, inputs.templates)
         if last.notes.program == inputs.program and not options.full:
-            package.skip(last.notes.texts)
+            package.take_noted(last.notes.texts, last.base)
     for path in package.artifacts:
         package.hash(path)  # renders the text, if it is new: a fault of a template is told here
     return Generation(version, reading, tuple(findings), imported, package)

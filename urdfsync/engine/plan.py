@@ -11,24 +11,26 @@ from urdfsync.engine.decide.decision import decide_package
 from urdfsync.engine.decide.settle import settle, with_choices
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inspect.inputs import inspect
-from urdfsync.engine.inspect.united import with_meanings
+from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.engine.stage.writes import Plan, stage
 
 
-def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
-    """Decide which files one build of a robot writes. Raises UrdfsyncError for all faults."""
-    with Reads() as reads:
-        inputs = inspect(config, robot, options)
-        if inputs.source.is_missing:
-            name, package, stale = robot.name, robot.target.package, inputs.source.stale
-            result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
-            return Plan(result, inputs.store.hashes())
-        generation = generate_robot(inputs)
-        inputs = with_meanings(inputs, generation.package)
+def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions, reads: Reads) -> Plan:
+    """Decide which files one build of a robot writes. Raises UrdfsyncError for all faults.
+
+    `reads` is the open list of all that the steps read.
+    """
+    inputs = inspect(config, robot, options)
+    if inputs.source.is_missing:
+        name, package, stale = robot.name, robot.target.package, inputs.source.stale
+        result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
+        return Plan(result, inputs.store.hashes())
+    generation = generate_robot(inputs)
+    inputs = with_git_merges(inputs, generation.package)
+    decision = decide_package(inputs, generation)
+    if options.choices:
+        inputs = with_choices(inputs, settle(inputs, generation, decision))
         decision = decide_package(inputs, generation)
-        if options.choices:
-            inputs = with_choices(inputs, settle(inputs, generation, decision))
-            decision = decide_package(inputs, generation)
     return stage(inputs, generation, decision, reads)

@@ -47,23 +47,23 @@ class Pool:
         self._total, self._most = len(robots), most
         self._waiting, self._futures = deque(robots), dict[str, Future[_Planned]]()
 
-    def plan(self, robot: RobotConfig) -> Plan:
-        """Plan one robot. Raises UrdfsyncError for all faults."""
+    def plan(self, robot: RobotConfig, reads: Reads) -> Plan:
+        """Plan one robot; `reads` is the list of this process. Raises UrdfsyncError for all faults."""
         if robot not in self._waiting and robot.name not in self._futures:
-            return plan_robot(self._config, robot, self._options)
+            return plan_robot(self._config, robot, self._options, reads)
         options = msgspec.structs.replace(self._options, progress=no_progress, executor="")
         try:
             try:
-                plan, reads = self._plan_ahead(robot, options)
+                plan, worker_reads = self._plan_ahead(robot, options)
             except BrokenExecutor:  # one worker died, perhaps with another robot, and all workers ended
                 with workers(1) as alone:
-                    plan, reads = alone.submit(plan_in_worker, self._config, robot, options).result()
+                    plan, worker_reads = alone.submit(plan_in_worker, self._config, robot, options).result()
         except Exception as error:  # libraries raise many kinds of errors for a lost worker
             reason = "a process that planned it ended unexpectedly, perhaps because memory ran out"
             raise OutputError.of(
                 "lost-process", f"robot `{robot.name}`: {reason}", hint="try again with `--jobs 1`"
             ) from error
-        include(reads)
+        include(worker_reads)
         if isinstance(plan, Exception):
             raise plan
         return plan
@@ -85,7 +85,7 @@ def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) ->
     """Plan in a worker; return the plan and all files that the worker read."""
     with Reads() as reads:
         try:
-            plan: Plan | UrdfsyncError | OSError = plan_robot(config, robot, options)
+            plan: Plan | UrdfsyncError | OSError = plan_robot(config, robot, options, reads)
         except (UrdfsyncError, OSError) as error:
             plan = error
         except Exception as error:  # noqa: BLE001 - an uncaught error would look like the end of a worker

@@ -21,9 +21,9 @@ from urdfsync.dependencies.reads import Reads, depend_on
 from urdfsync.dependencies.record import DependencyRecord
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
+from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
-from urdfsync.engine.stage.findings import orphaned_state
 from urdfsync.files import digest, shown
 from urdfsync.state.transaction import DRAFT, PLANNED
 
@@ -137,7 +137,7 @@ def remember_configuration(config: Config, reads: Reads) -> None:
     with reads:
         for name in (PLANNED, DRAFT):
             depend_on(folder / name)
-        strays = orphaned_state(config)
+        strays = read_stray_states(config)
     if not strays:
         keys = RecordKeys(config, BuildOptions())
         noop.remember(str(config.file), reads, {robot.name: keys.key(robot) for robot in config.robots})

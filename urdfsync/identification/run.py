@@ -101,7 +101,7 @@ class Measured:
         if sum(block.size for _, block, _ in self._stored) + rows.size < _STORED or not self._stored:
             self._stored.append((times, rows, is_free))
 
-    def delay(self) -> float:
+    def find_delay(self) -> float:
         """Return the delay of the efforts in s with which the model, as it is, explains most."""
         from scipy.optimize import minimize_scalar
 
@@ -215,7 +215,7 @@ def _doubts(joints: Sequence[JointFit]) -> Iterator[Diagnostic]:
 def judge(config: Config, robot: RobotConfig, log: Path, options: IdentifyOptions, progress: Progress) -> Judgement:
     """Return how far the records of a robot are from a log. Raises UrdfsyncError."""
     measured = Measured(read_records(config, robot, options.wait).regressor(), log, options, progress)
-    target = signals.target_at(measured.delay())
+    target = signals.target_at(measured.find_delay())
     fits = measured.joint_fits(measured.evidence, target, np.zeros(measured.parameters + len(measured.axes)))
     return Judgement(shown(log), measured.seconds, fits)
 

@@ -28,7 +28,7 @@ _ESCAPES = str.maketrans({**{char: f"\\{char}" for char in "[]\\"}, "{": "{{", "
 def document(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) -> str:
     """Return a log of one run with all findings; `code` is the exit code.
 
-    A finding without a file is a notification about the run.
+    A finding without a file is a notification about the run. Looks for `.git`, and reads the page of all findings.
     """
     of_robots = ((*section.findings, *filter(None, [section.verdict])) for section in sections)
     told = dict.fromkeys([*findings, *(finding for group in of_robots for finding in group)])

@@ -19,7 +19,7 @@ from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inspect.inputs import Inputs, inspect
-from urdfsync.engine.inspect.united import with_meanings
+from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package.generate import Package
 from urdfsync.engine.result import DisputedFile
@@ -82,7 +82,7 @@ def gather(
         raise UrdfsyncError(*compared.result.diagnostics)
     inputs = inspect(config, robot, options)
     generation = generate_robot(inputs)
-    inputs = with_meanings(inputs, generation.package)
+    inputs = with_git_merges(inputs, generation.package)
     compared, older = _with_older(compared, inputs, generation.now, shown_before)
     changes, result = compared.result.changes or Changes(), compared.result
     decision = decide_package(inputs, generation)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide.conflicts import find_conflict, resolve
-from urdfsync.engine.decide.rules import File, decide, decide_file, files_after, put_off
+from urdfsync.engine.decide.rules import File, decide, decide_file, file_records_after, put_off
 from urdfsync.engine.inspect.package_files import CLASS_FOLDER, ClassFolder
 from urdfsync.state.record import FileRecord
 
@@ -126,7 +126,7 @@ def test_a_base_that_two_branches_recorded_otherwise(mine: str, generated: str |
     file = File(Role.MODEL, record=FileRecord(("ours", "theirs")), on_disk=mine, generated=generated)
     actions = decide({"A.mo": file}, {})
     assert [action.reason for action in actions] == [kind]
-    for record in files_after(actions, {"A.mo": file.record}, is_complete=True).values():
+    for record in file_records_after(actions, {"A.mo": file.record}, is_complete=True).values():
         assert not record.is_ambiguous
         again = decide({"A.mo": msgspec.structs.replace(file, record=record)}, {})
         assert kind is not Reason.ORPHAN or [action.reason for action in again] == [kind], "it is not deleted later"
@@ -177,7 +177,7 @@ WAITING = {
 @pytest.mark.parametrize("moves", [False, True])
 def test_what_waits_for_a_conflict(moves: bool) -> None:
     actions = [action for action, _ in WAITING.values()]
-    decided = put_off(actions, {"Number.mo", "Renamed.mo", "Follows.mo"}, {"Renamed.mo"}, moves)
+    decided = put_off(actions, {"Number.mo", "Renamed.mo", "Follows.mo"}, {"Renamed.mo"}, has_moved=moves)
     waiting = {action.path for action in decided if action.is_waiting}
     assert waiting == {
         path for path, (_, waits) in WAITING.items() if waits or (moves and path not in ("Conflict.mo", "Kept.mo"))
@@ -216,5 +216,5 @@ def test_an_untouched_file_that_moves_takes_no_place_of_the_users() -> None:
 def test_while_something_is_open_files_count_that_are_as_generated() -> None:
     files = {reason.name: reason for reason in (Reason.UNCHANGED, Reason.UPDATE, Reason.KEEP)}
     actions = [Action(path, reason, Role.MODEL, base="old", generated="new") for path, reason in files.items()]
-    records = files_after(actions, dict.fromkeys(files, FileRecord(("old",))), is_complete=False)
+    records = file_records_after(actions, dict.fromkeys(files, FileRecord(("old",))), is_complete=False)
     assert [path for path, record in records.items() if record.hashes == ("new",)] == ["UNCHANGED", "UPDATE"]

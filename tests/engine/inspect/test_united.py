@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync.engine.inspect.united import Sides, find_sides
+from urdfsync.engine.inspect.united import Sides, read_sides
 
 pytestmark = NEEDS_GIT
 
@@ -84,7 +84,7 @@ def test_what_git_left_is_known_in_every_style(unite: Unite, style: str, attribu
     file = unite(OURS, THEIRS, f"merge.conflictStyle={style}", attributes=attributes)
     text = file.read_bytes().decode()
     assert (text == LEFT) == (style == "merge" and not attributes)
-    assert find_sides(file, text) == SIDES
+    assert read_sides(file, text) == SIDES
 
 
 @pytest.mark.parametrize(
@@ -108,9 +108,9 @@ def test_what_git_left_is_known_in_every_style(unite: Unite, style: str, attribu
 )
 def test_what_somebody_has_begun_to_settle_is_his(unite: Unite, old: str, new: str) -> None:
     file = unite()
-    assert find_sides(file, LEFT) == SIDES
+    assert read_sides(file, LEFT) == SIDES
     assert old in LEFT
-    assert find_sides(file, LEFT.replace(old, new)) is None
+    assert read_sides(file, LEFT.replace(old, new)) is None
 
 
 def test_a_clean_merge_is_known_until_somebody_changes_it(unite: Unite) -> None:
@@ -118,36 +118,36 @@ def test_a_clean_merge_is_known_until_somebody_changes_it(unite: Unite) -> None:
     file = unite(OURS, theirs)
     text = file.read_text()
     assert text == OURS.replace("\n27\n", "\n")
-    assert find_sides(file, text) == Sides(BASE, OURS, theirs)
-    assert find_sides(file, text.replace("our 9", "mine")) is None
-    assert find_sides(file, text.replace("our 9", "9")) is None
+    assert read_sides(file, text) == Sides(BASE, OURS, theirs)
+    assert read_sides(file, text.replace("our 9", "mine")) is None
+    assert read_sides(file, text.replace("our 9", "9")) is None
 
 
 def test_both_sides_of_a_conflict_are_a_merge(unite: Unite) -> None:
     ours, theirs = (BASE.replace("\n17\n", f"\n17\n{line}\n") for line in ("our line", "their line"))
     file = unite(ours, theirs)
     text = BASE.replace("\n17\n", "\n17\nour line\ntheir line\n")
-    assert find_sides(file, text) == Sides(BASE, ours, theirs)
-    assert find_sides(file, text.replace("their line\n", "")) is None
+    assert read_sides(file, text) == Sides(BASE, ours, theirs)
+    assert read_sides(file, text.replace("their line\n", "")) is None
 
 
 def test_a_file_that_both_added(unite: Unite) -> None:
     file = unite("a\nours\n", "a\ntheirs\n", base="")
-    assert find_sides(file, file.read_text()) == Sides("", "a\nours\n", "a\ntheirs\n")
+    assert read_sides(file, file.read_text()) == Sides("", "a\nours\n", "a\ntheirs\n")
 
 
 def test_sides_are_known_as_long_as_git_has_them(unite: Unite, tmp_path: Path) -> None:
     file = tmp_path / "models/a.mo"
-    assert find_sides(file, LEFT) is None, "no repository"
+    assert read_sides(file, LEFT) is None, "no repository"
     unite()
-    assert find_sides(file.with_name("other.mo"), LEFT) is None
+    assert read_sides(file.with_name("other.mo"), LEFT) is None
     git = ["git", "-c", "user.name=a", "-c", "user.email=b"]
     subprocess.run([*git, "add", "."], cwd=tmp_path, check=True)
-    assert find_sides(file, LEFT) == SIDES, "as it was staged"
+    assert read_sides(file, LEFT) == SIDES, "as it was staged"
     subprocess.run([*git, "commit", "-qm", "merge"], cwd=tmp_path, check=True)
-    assert find_sides(file, LEFT) == SIDES, "the last commit"
+    assert read_sides(file, LEFT) == SIDES, "the last commit"
     subprocess.run([*git, "commit", "-qm", "next", "--allow-empty"], cwd=tmp_path, check=True)
-    assert find_sides(file, LEFT) is None, "an older one"
+    assert read_sides(file, LEFT) is None, "an older one"
 
 
 @pytest.mark.parametrize("damage", ["index", "objects", "HEAD"])
@@ -157,7 +157,7 @@ def test_a_repository_that_is_damaged_tells_nothing(unite: Unite, tmp_path: Path
         shutil.rmtree(tmp_path / ".git/objects")
     else:
         (tmp_path / ".git" / damage).write_bytes(b"DIRC\0\0")
-    assert find_sides(file, file.read_text()) is None
+    assert read_sides(file, file.read_text()) is None
 
 
 def test_a_shallow_clone_of_a_merge_tells_nothing(unite: Unite, tmp_path: Path) -> None:
@@ -165,4 +165,4 @@ def test_a_shallow_clone_of_a_merge_tells_nothing(unite: Unite, tmp_path: Path) 
     clone = tmp_path / "clone"
     subprocess.run(["git", "clone", "-q", "--depth=1", tmp_path.as_uri(), str(clone)], check=True)
     file = clone / "models/a.mo"
-    assert find_sides(file, file.read_text()) is None
+    assert read_sides(file, file.read_text()) is None

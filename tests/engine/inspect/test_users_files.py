@@ -127,7 +127,7 @@ def test_large_files_are_looked_at_one_after_the_other(project: Path) -> None:
             file.truncate(5_000_000)
     tracemalloc.start()
     try:
-        found = users_files.find_users_files(loaded, loaded.robots[0], ["Ladder"])
+        found = users_files.read_users_files(loaded, loaded.robots[0], ["Ladder"])
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()

@@ -72,19 +72,18 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     files, package, differences = inputs.files, generation.package, compare_with_last(inputs, generation)
     triaged = triage(inputs, generation, differences)
     merged = merge_edits(inputs, generation, triaged, differences)
-    own = _find_own(inputs, merged.actions)
-    followed = follow(inputs, package, merged, own, differences.former)
-    actions = [action for action in followed.actions if action.reason is not Reason.UNKNOWN]
+    users_classes = _find_users_classes(inputs, merged.actions)
+    followed = follow(inputs, package, merged, users_classes, differences.former)
+    actions = followed.actions
     orders = decide_orders(inputs, package, differences, actions)
     _refuse_markers(files, actions, (key for key, text in orders.texts.items() if find_markers(text)))
-    numbers: Collection[str] = ()
+    value_only_keys: Collection[str] = ()
     # if names were exchanged, each build would move edits again
     if any(action.is_conflict for action in actions) and not (differences.has_exchanges or triaged.renumbered):
         after = PackageAfter(inputs, package, actions, followed.texts)
-        numbers = _renumbered(after, differences.changes, followed.conflicts)
-    known = {action.path for action in (*actions, *orders.actions)}
-    unknown = [action for action in own if action.path not in known]
-    all_actions = Actions(put_off((*actions, *orders.actions, *unknown), numbers, triaged.origins, inputs.has_moved))
+        value_only_keys = _find_value_only(after, differences.changes, followed.conflicts)
+    both = (*actions, *orders.actions)
+    all_actions = Actions(put_off(both, value_only_keys, triaged.origins, has_moved=inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     texts = {**orders.texts, **followed.texts}
     of_parts = [action for action in all_actions if action.is_conflict and triaged.renumbered.components(action)]
@@ -103,8 +102,8 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     )
 
 
-def _find_own(inputs: Inputs, actions: Iterable[Action]) -> list[Action]:
-    """Return an action for each of the user's own files in the package, which changes nothing."""
+def _find_users_classes(inputs: Inputs, actions: Iterable[Action]) -> list[Action]:
+    """Return an action for each of the user's own classes in the package, which changes nothing."""
     known, files = {action.path for action in actions}, inputs.files
     return [
         Action(key, Reason.UNKNOWN, Role.MODEL, mine=files.hash(key, Role.MODEL) if files.can_read(key) else None)
@@ -112,7 +111,7 @@ def _find_own(inputs: Inputs, actions: Iterable[Action]) -> list[Action]:
     ]
 
 
-def _renumbered(after: PackageAfter, changes: Changes | None, conflicts: Mapping[str, Conflict]) -> frozenset[str]:
+def _find_value_only(after: PackageAfter, changes: Changes | None, conflicts: Mapping[str, Conflict]) -> frozenset[str]:
     """Return the records in which only numbers change, including records in conflict."""
     inputs, keys, by_element = after.inputs, set(), changes.by_element() if changes else {}
     for action in after.actions:
@@ -124,8 +123,9 @@ def _renumbered(after: PackageAfter, changes: Changes | None, conflicts: Mapping
                 keys.add(action.path)
         elif action.reason is Reason.CONFLICT and (base := conflicts[action.path].base) is not None:
             # the record of a whole robot owns no change: a number in its tables may be structural
-            own = by_element.get(action.owner, ())
-            is_parameter = own and all(change.change_class.rank <= ChangeClass.PARAMETER.rank for change in own)
+            of_element = by_element.get(action.owner, ())
+            ranks = [change.change_class.rank for change in of_element]
+            is_parameter = ranks and max(ranks) <= ChangeClass.PARAMETER.rank
             if is_parameter and numbers_only(base, conflicts[action.path].generated):
                 keys.add(action.path)
     return frozenset(keys)

@@ -20,7 +20,7 @@ from urdfsync.engine.decide.package_names import elements_by_identifier, identif
 from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.decide.renumbered import Names, Renumbered, find_numbers
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inspect.commits import CommittedBuild, find_commits
+from urdfsync.engine.inspect.commits import CommittedBuild
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import NO_MODEL, hash_of
 from urdfsync.engine.inspect.package_files import text_hash
@@ -62,7 +62,7 @@ def find_doubts(
     has_model = inputs.last.version is not None or record.is_united
     if unconfirmed and has_model:
         edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
-        for commit in find_commits(inputs):
+        for commit in inputs.commits:
             doubts |= _look(inputs, generation, commit, edits)
     return {path: doubt for path, doubt in doubts.items() if doubt}
 

@@ -91,7 +91,9 @@ class _Package(PackageAfter):
     """The package after a build; resolves the names in it."""
 
     def __init__(self, after: PackageAfter) -> None:
-        super().__init__(after.inputs, after.package, after.actions, after.merged, is_open=after.is_open)
+        super().__init__(
+            after.inputs, after.package, after.actions, after.merged, conflicts_empty=after.conflicts_empty
+        )
         self._readings, self._differences = dict[bytes, ShortText](), dict[str, EditedStatements]()
 
     def class_name(self, path: str) -> ClassName:
@@ -107,10 +109,16 @@ class _Package(PackageAfter):
         former = inputs.last.target.package if inputs.last.target.package != target.package else ""
         folder, around = inputs.files.path(inputs.folder), {**self.around, **parents}
         return StoredClasses(
-            target.package, folder, self, around, self._find, lambda content: self._reading(content).stored, former
+            target.package,
+            folder,
+            self,
+            around,
+            self._look_for_class,
+            lambda content: self._reading(content).stored,
+            former,
         )
 
-    def _find(self, name: str) -> Path | None:
+    def _look_for_class(self, name: str) -> Path | None:
         """Return the folder or file of a top-level class outside of the package; None if there is none."""
         robot = self.inputs.robot
         if own := find_own_library(name, robot.target.package):

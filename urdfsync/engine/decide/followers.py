@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
 
 def follow(
-    inputs: Inputs, package: Package, verdicts: Verdicts, own: Sequence[Action], renamed: Mapping[str, str]
+    inputs: Inputs, package: Package, verdicts: Verdicts, users_classes: Sequence[Action], renamed: Mapping[str, str]
 ) -> Verdicts:
-    """Let the user's files follow renames that their bases do not show; `own` are actions on classes of his own.
+    """Let the user's files follow renames that their bases do not show; `users_classes` are actions on these.
 
     They follow as the user allows merges; else they conflict, and the new text is proposed.
     """
-    after = PackageAfter(inputs, package, (*verdicts.actions, *own), verdicts.texts, is_open=True)
+    after = PackageAfter(inputs, package, (*verdicts.actions, *users_classes), verdicts.texts, conflicts_empty=True)
     users = {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
     keys = {
         action.path
@@ -87,6 +87,6 @@ def _find_followers(
     if not texts:
         return {}
     merged = {**after.merged, **texts}
-    followed = PackageAfter(after.inputs, after.package, after.actions, merged, is_open=after.is_open)
+    followed = PackageAfter(after.inputs, after.package, after.actions, merged, conflicts_empty=after.conflicts_empty)
     lost = {one.key for one in find_misfits(followed) if one.use and one.use.part in names.get(one.key, ())}
     return {key: found[key] for key in texts.keys() - lost}

@@ -33,12 +33,12 @@ def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differe
     package, actions = generation.package, triaged.actions
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {one.path: _conflict(inputs, generation, one, triaged) for one in disputed}
-    conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, triaged.origins)
+    conflicts = _reject_unfit_merges(PackageAfter(inputs, package, actions, {}), conflicts, triaged.origins)
     names = {name: new for (_, name), new in differences.renames.items()} | dict(triaged.names)
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
     actions, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
     needed = keep_needed(PackageAfter(inputs, package, actions, texts), triaged.origins)
-    return Verdicts(*_write_meanings(inputs.files, needed, texts), conflicts)
+    return Verdicts(*_write_git_merges(inputs.files, needed, texts), conflicts)
 
 
 def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: Triage) -> Conflict:
@@ -95,45 +95,48 @@ def _names_since_undo(
     return names
 
 
-def _without_misfits(
+def _reject_unfit_merges(
     after: PackageAfter, conflicts: Mapping[str, Conflict], origins: Collection[str]
 ) -> dict[str, Conflict]:
-    """Return the conflicts; leave out merges that would use unknown names.
+    """Return the conflicts, in which merges that would use unknown names are rejected, each with its reason.
 
-    First this tries clean merges, then merges with contradictions decided for each side. `after` has no merges yet.
+    This looks at packages as they would be, and decides nothing: first with all clean merges, then with contradictions
+    decided for each side. `after` has no merges yet.
     """
-    sound, before, actions = dict(conflicts), None, after.actions
-    files_after = functools.partial(PackageAfter, after.inputs, after.package)
+    judged, before, actions = dict(conflicts), None, after.actions
+    package_after = functools.partial(PackageAfter, after.inputs, after.package)
     for side in (None, *PREFERENCES):
         tried = {
             key: text
-            for key, one in sound.items()
+            for key, one in judged.items()
             # a merge of branches gets its new names only when it moves
             if not (one.is_of_branches and one.origin)
             if (text := one.merged(side)) is not None and (side is None or one.merged(None) is None)
         }
         if not tried:
             continue
-        planned, merged = resolve(actions, sound, merging=True, choice=side)
-        planned = keep_needed(files_after(planned, merged), origins)
-        misfits = look_for_misfits(files_after(planned, merged, is_open=True), merged.keys())
+        planned, merged = resolve(actions, judged, merging=True, choice=side)
+        planned = keep_needed(package_after(planned, merged), origins)
+        misfits = look_for_misfits(package_after(planned, merged, conflicts_empty=True), merged.keys())
         if misfits and before is None:
             # names in a folder without its `package.mo` are not looked up: the faults there would seem to be new
             restored = {one.path for one in actions if one.reason is Reason.RESTORE and one.base == one.generated}
             waiting = [msgspec.structs.replace(one, is_waiting=one.path not in restored) for one in actions]
             paths = {one.origin or one.path for one in conflicts.values()}
-            before = {(one.key, one.fault) for one in look_for_misfits(files_after(waiting, {}), paths)}
+            before = {(one.key, one.fault) for one in look_for_misfits(package_after(waiting, {}), paths)}
         for key in {one.key for one in misfits} & tried.keys():
-            conflict = sound[key]
-            own = (one for one in misfits if one.key == key)
-            new = next((one.finding for one in own if (conflict.origin or key, one.fault) not in (before or ())), None)
+            conflict = judged[key]
+            of_file = (one for one in misfits if one.key == key)
+            new = next(
+                (one.finding for one in of_file if (conflict.origin or key, one.fault) not in (before or ())), None
+            )
             if new is None or tried[key] == conflict.mine:
                 continue
             reason = f"in the merge, {new.message} (line {new.line})"
             merge = conflict.merge and conflict.merge.rejected
             changed = {"refused": {**conflict.refused, side: reason}} if side else {"merge": merge, "rejected": reason}
-            sound[key] = msgspec.structs.replace(conflict, **changed)
-    return sound
+            judged[key] = msgspec.structs.replace(conflict, **changed)
+    return judged
 
 
 def _describe_branches(contradictions: Sequence[str], text: str) -> str:
@@ -145,7 +148,7 @@ def _describe_branches(contradictions: Sequence[str], text: str) -> str:
     return f"git's markers are in it, since {both}"
 
 
-def _write_meanings(
+def _write_git_merges(
     files: PackageFiles, actions: Iterable[Action], merged: Mapping[str, str]
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
     """Return actions that write the meanings of files that git merged, and all merged texts, by key."""

@@ -58,14 +58,14 @@ class PackageAfter(Mapping[str, bytes]):
         actions: Sequence[Action],
         merged: Mapping[str, str],
         *,
-        is_open: bool = False,
+        conflicts_empty: bool = False,
     ) -> None:
         """`package` is the generated package, `merged` has texts that the build writes, by key.
 
-        If `is_open`, files in conflict count as empty.
+        If `conflicts_empty`, files in conflict count as empty.
         """
         self.inputs, self.package, self.actions = inputs, package, actions
-        self.merged, self.is_open = merged, is_open
+        self.merged, self.conflicts_empty = merged, conflicts_empty
         self._contents, self._generated = dict[str, bytes](), set[bytes]()
 
     @cached_property
@@ -85,7 +85,7 @@ class PackageAfter(Mapping[str, bytes]):
             if not action.is_waiting and key in merged:
                 is_edited = text_hash(merged[key]) != action.generated
                 found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
-            elif action.is_conflict and self.is_open:
+            elif action.is_conflict and self.conflicts_empty:
                 found[inputs.folder.path(key)] = file._replace(text="")
             elif action.keeps_text:
                 is_forgotten = action.reason is Reason.FORGET

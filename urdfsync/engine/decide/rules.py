@@ -99,33 +99,33 @@ def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[s
 
 
 def put_off(
-    actions: Iterable[Action], numbers_only: Collection[str], origins: Collection[str], moves: bool
+    actions: Iterable[Action], value_only_keys: Collection[str], origins: Collection[str], *, has_moved: bool
 ) -> tuple[Action, ...]:
     """Let structural changes of a robot wait while one of its files is in conflict.
 
-    A build still writes files that keep the package valid: records with changed numbers (`numbers_only`), imported
+    A build still writes files that keep the package valid: records with changed numbers (`value_only_keys`), imported
     files, and restored files. `origins` are the old files of renamed elements; these files wait. If the package
-    `moves`, all files wait. If all conflicts are only about numbers, no file waits.
+    `has_moved`, all files wait. If all conflicts are only about numbers, no file waits.
     """
     actions = tuple(actions)
-    if all(action.path in numbers_only and not moves for action in actions if action.is_conflict):
+    if all(action.path in value_only_keys and not has_moved for action in actions if action.is_conflict):
         return actions
 
     def waits(action: Action) -> bool:
         if not action.writes:
             return False
-        if moves or action.origin is not None or action.path in origins:
+        if has_moved or action.origin is not None or action.path in origins:
             return True
         if action.role is Role.IMPORT:
             return action.reason is Reason.DELETE
         if action.reason is Reason.RESTORE:
             return action.role is Role.ORDER or action.base != action.generated
-        return action.reason not in (Reason.UPDATE, Reason.MERGE) or action.path not in numbers_only
+        return action.reason not in (Reason.UPDATE, Reason.MERGE) or action.path not in value_only_keys
 
     return tuple(msgspec.structs.replace(action, is_waiting=True) if waits(action) else action for action in actions)
 
 
-def files_after(
+def file_records_after(
     actions: Iterable[Action], recorded: Mapping[str, FileRecord], *, is_complete: bool
 ) -> dict[str, FileRecord]:
     """Return the records of a package's files after a build.

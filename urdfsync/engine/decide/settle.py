@@ -17,7 +17,7 @@ from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.package_names import names_of
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inspect.inputs import Former, Inputs, Settled
+from urdfsync.engine.inspect.inputs import Inputs, Replaced, Settled
 from urdfsync.engine.inspect.package_files import encode, text_hash, with_line_ends
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
@@ -156,7 +156,7 @@ class _Choices:
         key, last, settled = action.origin or action.path, self._inputs.last, self.settled
         mine, former = self._inputs.files.read_on_disk(key), last.files.get(key, FileRecord())
         if mine is not None and (choice is not Choice.UNDO or content != mine):  # otherwise nothing changes
-            settled.before[key] = Former(mine, former, last.bases(former))
+            settled.before[key] = Replaced(mine, former, last.bases(former))
         settled.contents[key], settled.bases[key] = content, record
         changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
         settled.actions[key] = msgspec.structs.replace(action, **changes)

@@ -58,7 +58,7 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         on_disk = inputs.files.on_disk(key, role)
-        record = last.file(key, role, on_disk, generated)
+        record = last.effective_record(key, role, on_disk, generated)
         files[key] = File(role, owner, record, on_disk, generated)
 
     for path, artifact in generation.package.artifacts.items():

@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import msgspec
 
 from urdfsync import git
+from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import reads
+from urdfsync.dependencies.places import real
 from urdfsync.diagnostics import SourceError, StateError
-from urdfsync.engine.inspect.inputs import Inputs
-from urdfsync.engine.inspect.package_files import PackageFiles
+from urdfsync.engine.inspect.package_files import Folder, PackageFiles, key_of
+from urdfsync.git.revisions import Revision, open_repository
+from urdfsync.git.unmerged import find_git_folder
 from urdfsync.state import bases, statefile
-from urdfsync.state.record import Record
+from urdfsync.state.record import FileRecord, Record
 from urdfsync.state.store import Store
 
-if TYPE_CHECKING:
-    from urdfsync.git.revisions import Revision
-
+UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
+"""The references under which git keeps the commit that it is merging into HEAD."""
 _MOST = 50
 """The greatest number of branches that are searched, and the most commits that were checked out last."""
 _BACK = 10
@@ -66,16 +68,18 @@ class CommittedBuild(msgspec.Struct, frozen=True, dict=True):
             return {}
 
 
-def find_commits(inputs: Inputs) -> Iterator[CommittedBuild]:
-    """Yield the commits that an edit may come from: merged ones, and recent ones if this machine has built here."""
-    if (top := git.find_top(inputs.config.root)) is None:
+def read_commits(
+    root: Path, files: PackageFiles, store: Store, name: str, *, has_built: bool
+) -> Iterator[CommittedBuild]:
+    """Yield the commits that an edit may come from: merged ones, and recent ones if this machine `has_built` here.
+
+    `name` is the robot's name in the last build.
+    """
+    if (top := git.find_top(root)) is None:
         return
     reads.depend_on_commits(top)
     import pygit2  # takes 55 ms, which most builds save
 
-    from urdfsync.git.revisions import Revision, open_repository
-
-    root = inputs.config.root
     try:
         repository = open_repository(root)
     except SourceError:  # the repository can't be read: for example, it belongs to another user
@@ -83,14 +87,58 @@ def find_commits(inputs: Inputs) -> Iterator[CommittedBuild]:
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
     names = ["MERGE_HEAD", *(str(parent) for parent in repository.head.peel(pygit2.Commit).parent_ids)]
-    if inputs.last.notes.model:
+    if has_built:
         names += [f"HEAD~{number}" for number in range(2, _BACK)]
         # after a squash, the branch may be deleted: look at the commits that were checked out last
         recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
         names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *(str(entry.oid_new) for entry in recent)]
         names += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
-    for name in dict.fromkeys(names):
+    for commit in dict.fromkeys(names):
         try:
-            yield CommittedBuild(Revision(root, name), inputs.files, inputs.store, inputs.last.name)
+            yield CommittedBuild(Revision(root, commit), files, store, name)
         except SourceError:  # there is no such commit
             continue
+
+
+def read_left_records(config: Config, robot: RobotConfig, store: Store, name: str) -> dict[str, FileRecord]:
+    """Return the records of files that one branch edited and the other deleted, by key.
+
+    Git leaves such a file in the working tree, but the united record does not list it. `name` is the robot's name in
+    the last build.
+    """
+    top = git.find_top(config.root) or ""
+    folder = find_git_folder(top)
+    if not any((folder / file).exists() for file in (*UNDER_WAY, "SQUASH_MSG")):
+        return {}  # importing pygit2 takes 55 ms
+    import pygit2
+
+    reads.depend_on_commits(top)
+    inside = f"{os.path.relpath(real(robot.folder), top).replace(os.sep, '/')}/"
+    found = dict[str, FileRecord]()
+    try:
+        for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():
+            left = ours or theirs
+            if not (base and left and left.path.startswith(inside)) or (ours and theirs):
+                continue
+            key = Folder(key_of(robot.folder, config.root)).key(left.path.removeprefix(inside))
+            for commit in ("HEAD",) if ours else UNDER_WAY:
+                state = read_text(commit, store.path(name))
+                record = statefile.loads(state, commit)[0] if state else None
+                if record and (file := record.files.get(key)):
+                    found[key] = file
+    except (SourceError, StateError, pygit2.GitError, KeyError, OSError):
+        return found  # as without a repository: it is damaged or shallow
+    return found
+
+
+def read_text(revision: str, file: Path) -> str | None:
+    """Return the text of a file in a commit, with line feeds; None if the commit lacks it."""
+    try:
+        return plain(Revision(file.parent, revision).read(file).decode())
+    except (SourceError, UnicodeDecodeError):
+        return None
+
+
+def plain(text: str) -> str:
+    """Return the text with line feeds as line ends."""
+    return text.replace("\r\n", "\n")

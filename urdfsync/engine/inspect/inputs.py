@@ -14,14 +14,15 @@ from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.places import real
 from urdfsync.dependencies.reads import unrecorded
-from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
+from urdfsync.engine.inspect.commits import CommittedBuild, read_commits, read_left_records
 from urdfsync.engine.inspect.last_build import LastBuild, option_values
-from urdfsync.engine.inspect.package_files import Folder, PackageFiles
+from urdfsync.engine.inspect.package_files import Folder, PackageFiles, key_of
 from urdfsync.engine.inspect.parents import Parents
-from urdfsync.engine.inspect.users_files import UsersFiles, find_users_files, saved_facts
+from urdfsync.engine.inspect.users_files import UsersFiles, read_saved_facts, read_users_files
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources import source
 from urdfsync.engine.sources.source import Source
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     from urdfsync.merge import Merge
 
 
-class Former(NamedTuple):
+class Replaced(NamedTuple):
     """A replaced text, and its base."""
 
     text: bytes
@@ -54,7 +55,7 @@ class Settled(msgspec.Struct):
     bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
     texts: dict[str, str] = msgspec.field(default_factory=dict)
     """Texts of the bases in `bases`, by hash."""
-    before: dict[str, Former] = msgspec.field(default_factory=dict)
+    before: dict[str, Replaced] = msgspec.field(default_factory=dict)
     """Texts before the choices."""
     names: Mapping[str, str] = {}
     """New names by old names, before the choices."""
@@ -63,7 +64,7 @@ class Settled(msgspec.Struct):
 
 
 class Inputs(msgspec.Struct, frozen=True, dict=True):
-    """All inputs that a build reads before it parses the source."""
+    """All inputs of a build. Files of the package and of the user, bases and commits are read when asked for."""
 
     config: Config
     robot: RobotConfig
@@ -81,11 +82,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """Hash of the program and the templates; this machine's notes are valid only for this hash."""
     damage: Diagnostic | None = None
     """A warning if lines of the recorded state can't be read."""
-    left_records: Mapping[str, FileRecord] = {}
-    """The records of files that one branch edited and the other branch deleted, by key.
-
-    Git leaves such a file in the working tree, but the united record does not list it.
-    """
     settled: Settled = msgspec.field(default_factory=Settled)
     """The user's choices, if `files` and `last` already include the choices."""
 
@@ -122,17 +118,28 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return frozenset(map(self.folder.key, inside))
 
     @cached_property
+    def left_records(self) -> Mapping[str, FileRecord]:
+        """The records of files that one branch edited and the other deleted, by key, while git merges the branches."""
+        return read_left_records(self.config, self.robot, self.store, self.last.name)
+
+    @cached_property
+    def commits(self) -> tuple[CommittedBuild, ...]:
+        """The commits that an edit of unknown origin may come from."""
+        has_built = bool(self.last.notes.model)
+        return (*read_commits(self.config.root, self.files, self.store, self.last.name, has_built=has_built),)
+
+    @cached_property
     def users_files(self) -> UsersFiles:
         """The user's models outside of the package, and which of them mention the package's present or former names."""
         former = self.files.path(self.last.folder) if self.has_moved else None
         names = {folder.name for folder in (self.robot.folder, former) if folder}
         names |= {old for old, new in self.last.record.former.items() if new in names}
-        return find_users_files(self.config, self.robot, names, former)
+        return read_users_files(self.config, self.robot, names, former)
 
     @cached_property
     def unsaved_uses(self) -> Mapping[str, Use]:
         """Names that mean other parts now, in files that the user has not saved since a build noted them, by path."""
-        return {path: use for path, use in self.last.notes.uses.items() if use.facts == saved_facts(Path(path))}
+        return {path: use for path, use in self.last.notes.uses.items() if use.facts == read_saved_facts(Path(path))}
 
     def users_text(self, path: Path) -> str:
         """Return the text of the configuration, or of a user's file; empty for an unreadable file."""
@@ -156,7 +163,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         record = None
     if record is None:  # the folder may have the package of a robot that is no longer configured
         with unrecorded():  # this build gives the robot a record, and the next one does not look
-            name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
+            name = next((name for name, place in read_orphaned_robots(store, config) if place == folder), name)
         record = store.load(name)[0] if name != robot.name else None
     damage, notes = damage or store.find_damaged_base(name), store.notes(name)
     if options.adopts and record and (record.snapshot is not None or record.is_united):
@@ -181,7 +188,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     return Inputs(config, robot, options, *read, program, damage)
 
 
-def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
+def read_orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
     """Yield robots with a record but no configuration, and the key of their folder; None for an unreadable record."""
     # a robot counts if its record file exists: if the disk ignores case, `arm` and `Arm` share one
     names = store.names()
@@ -193,3 +200,18 @@ def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | N
             except UrdfsyncError:
                 record = None
             yield name, record.folder if record else None
+
+
+def read_stray_states(config: Config) -> list[Diagnostic]:
+    """Return a note if robots with recorded state are missing in the configuration."""
+    store = Store(config.root)
+    built = set(store.names())
+    heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}
+    stray = [name for name, folder in read_orphaned_robots(store, config) if folder not in heirs]
+    if not stray:
+        return []
+    listed = ", ".join(f"`{name}`" for name in stray)
+    message = f"the recorded state of {listed} exists, but the configuration has no such robot"
+    folder = shown(store.folder / "robots")
+    hint = f"add the robot again, or delete {folder}/{stray[0]}.* and its package"
+    return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]

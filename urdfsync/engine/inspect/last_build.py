@@ -72,8 +72,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """The recorded files by key, without files that a build may not touch."""
         return {key: file for key, file in self.record.files.items() if self._files.is_inside(key)}
 
-    def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
-        """Return the record of a file on disk.
+    def effective_record(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
+        """Return the recorded bases of a file; the text on disk itself if a build once wrote it.
 
         A text that urdfsync once wrote is urdfsync's own even if the record differs: an overtaken build wrote the text,
         or git restored it. A text that the user confirmed, such as by `--undo`, is his.
@@ -81,8 +81,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
             return record
-        is_own = self.has_written(on_disk) and not self.is_chosen(key, on_disk)
-        return FileRecord((on_disk,)) if is_own else record
+        is_generated = self.has_written(on_disk) and not self.is_chosen(key, on_disk)
+        return FileRecord((on_disk,)) if is_generated else record
 
     def has_written(self, sha256: str) -> bool:
         """Whether a build once wrote the text with this hash, or a choice restores it as generated."""

@@ -1,4 +1,4 @@
-"""The files of one robot's package during one build. Each file is read once."""
+"""The files of one robot's package during one build. A file is hashed once, and read when its text is asked for."""
 
 from __future__ import annotations
 
@@ -99,6 +99,10 @@ class PackageFiles:
         self._tree_of: dict[str, Tree | None] = {}  # by folder
         self._states: dict[str, FileState | None] = {}
         """State of each file, by absolute path."""
+        self._texts: dict[str, str | None] = {}
+        """The texts on disk that were read, by key: one build decides and merges by the same text."""
+        self._classes: dict[str, frozenset[str]] = {}
+        """The Modelica files on disk below each folder that was listed."""
 
     def laid_over(self, contents: Mapping[str, bytes | None], left_by_git: Mapping[str, Merge | None]) -> PackageFiles:
         """Return the same files with other contents (see `overlay`)."""
@@ -134,16 +138,21 @@ class PackageFiles:
 
     def text(self, key: str) -> str | None:
         """Return a file as text. Raises OutputError as `read`, and for other encodings than UTF-8."""
+        if key not in self.overlay and key in self._texts:
+            return self._texts[key]
         content = self.read(key)
         if key not in self.overlay:
             self._states.setdefault(self._place(key), None if content is None else _state_of(content))
         try:
-            return None if content is None else content.decode()
+            text = None if content is None else content.decode()
         except UnicodeDecodeError as error:
             line = error.object.count(b"\n", 0, error.start) + 1
             hint, place = "save it as UTF-8, then try again", shown(self.path(key))
             message = "the file is not UTF-8, which Modelica demands"
             raise OutputError.of("no-text", message, place, line, hint=hint) from None
+        if key not in self.overlay:
+            self._texts[key] = text
+        return text
 
     def any_text(self, key: str) -> str:
         """Return the text of a file, which may be the user's, for a search; empty for an unreadable file."""
@@ -221,10 +230,13 @@ class PackageFiles:
         from urdfsync.modelica.files import modelica_files
 
         folder = folder.removesuffix("/")
-        place = str(self.path(folder))  # strings are faster than paths: there are thousands of files
-        found = {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
+        if folder not in self._classes:
+            place = str(self.path(folder))  # strings are faster than paths: there are thousands of files
+            paths = modelica_files(Path(place))
+            self._classes[folder] = frozenset(folder + path[len(place) :].replace(os.sep, "/") for path in paths)
+        found = self._classes[folder]
         laid = {key for key in self.overlay if key.startswith(f"{folder}/") and key.endswith(".mo")}
-        return (found - laid) | {key for key in laid if self.overlay[key] is not None}
+        return {*(found - laid), *(key for key in laid if self.overlay[key] is not None)}
 
     def has_class(self, folder: str, name: str) -> bool:
         """Return whether a folder has a file or a folder for this class. Unlike `classes`, links count."""

@@ -16,11 +16,8 @@ import msgspec
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.reads import file_type, is_file, is_folder, read_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.engine.inspect.package_files import PackageFiles, encode
-from urdfsync.files import digest, shown
-from urdfsync.modelica.markers import join_sides
+from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY, within
-from urdfsync.state.transaction import FileChange
 
 
 class SharedFile(msgspec.Struct, frozen=True):
@@ -38,17 +35,6 @@ class SharedFile(msgspec.Struct, frozen=True):
     """Lines of a `package.order` that urdfsync may remove."""
     joins: bool = False
     """Whether both sides of git's merge of a `package.order` stay."""
-
-    def change(self, files: PackageFiles) -> FileChange | None:
-        """Return the change that the file on disk needs; None without a change."""
-        content = files.read(files.key(self.path))
-        if self.content is not None:
-            return FileChange(self.path, self.content, None) if content is None else None
-        old = None if content is None else content.decode(errors="surrogateescape")
-        new = merge_order(join_sides(old) if old and self.joins else old, self.names, self.owned)
-        if new == (old or ""):
-            return None
-        return FileChange(self.path, encode(new) if new else None, None if content is None else digest(content))
 
 
 class Parents(msgspec.Struct, frozen=True):
@@ -107,7 +93,7 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
         shared.append(SharedFile(folder / "package.mo", text.encode()))
         if folder.parent != output and is_ordered(folder.parent):
             shared.append(SharedFile(folder.parent / "package.order", None, (folder.name,)))
-    findings = _find_missing_uses(output / parts[0] / "package.mo", uses) if len(parts) > 1 else ()
+    findings = _read_missing_uses(output / parts[0] / "package.mo", uses) if len(parts) > 1 else ()
     return Parents(tuple(shared), is_ordered(robot.folder.parent), findings)
 
 
@@ -118,7 +104,7 @@ def _refusal(
     return OutputError.of(code, message, shown(config.file), line, hint=hint)
 
 
-def _find_missing_uses(top: Path, uses: Sequence[tuple[str, str]]) -> tuple[Diagnostic, ...]:
+def _read_missing_uses(top: Path, uses: Sequence[tuple[str, str]]) -> tuple[Diagnostic, ...]:
     """Return a warning if libraries are missing in the `uses` annotation of the user's top-level `package.mo`."""
     name, text = top.parent.name, read_file(top).decode(errors="replace") if is_file(top) else None
     if text is None:

@@ -10,30 +10,24 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import msgspec
-
 from urdfsync import git
 from urdfsync.dependencies import reads
 from urdfsync.dependencies.places import named, real
-from urdfsync.diagnostics import SourceError, StateError
+from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Role
+from urdfsync.engine.inspect.commits import UNDER_WAY, plain, read_text
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import LastBuild
 from urdfsync.engine.inspect.package_files import encode, text_hash
 from urdfsync.engine.package.generate import Package
 from urdfsync.git.revisions import Revision
-from urdfsync.git.unmerged import find_git_folder
 from urdfsync.modelica import markers
-from urdfsync.state import statefile
-from urdfsync.state.record import NEVER_WRITTEN, FileRecord, role_of
+from urdfsync.state.record import NEVER_WRITTEN, role_of
 
 if TYPE_CHECKING:
     import pygit2
 
     from urdfsync.merge import Merge
-
-_UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
-"""The references under which git keeps the commit that it is merging into HEAD."""
 
 _Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
 """Changed lines and their replacements. The order of lines does not count: a diff can cut added blocks in several
@@ -49,14 +43,12 @@ class Sides(NamedTuple):
     theirs: str
 
 
-def with_meanings(inputs: Inputs, package: Package) -> Inputs:
-    """Return the inputs; each file that still is git's merge of two branches, or what git left of it, has its meaning.
+def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
+    """Return the inputs, in which each file that git merged, or left unmerged, has the text that both branches meant.
 
-    If nobody edited the versions, the meaning is our version. Otherwise it is a merge by elements without
-    contradictions.
+    If nobody edited the versions, this is our version. Otherwise it is a merge by elements without contradictions.
     """
     files, last, folder = inputs.files, inputs.last, inputs.folder
-    inputs = msgspec.structs.replace(inputs, left_records=_find_left_records(inputs))
     contents: dict[str, bytes] = {}
     left: dict[str, Merge | None] = {}
     generated = {folder.key(path): package.hash(path) for path in package.artifacts}
@@ -67,8 +59,11 @@ def with_meanings(inputs: Inputs, package: Package) -> Inputs:
         on_disk = files.on_disk(key, role)
         if on_disk == text and key not in inputs.unmerged:
             continue  # most files are in step
-        is_edited = isinstance(on_disk, str) and on_disk not in (text, *last.file(key, role, on_disk, text).hashes)
-        found = _find_meaning(inputs, key, is_edited=is_edited) if is_edited or key in inputs.unmerged else None
+        is_edited = isinstance(on_disk, str) and on_disk not in (
+            text,
+            *last.effective_record(key, role, on_disk, text).hashes,
+        )
+        found = _find_meant_text(inputs, key, is_edited=is_edited) if is_edited or key in inputs.unmerged else None
         if isinstance(found, str) and text_hash(found) == files.hash(key, role):
             continue  # the file has its meaning already, and only `git add` is missing
         if isinstance(found, str):
@@ -78,21 +73,21 @@ def with_meanings(inputs: Inputs, package: Package) -> Inputs:
     return inputs.laid_over(contents, left) if left else inputs
 
 
-def _find_meaning(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merge | None:
+def _find_meant_text(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merge | None:
     """Return a file's meaning, or the merge of two branches that contradict each other; None for other files."""
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
     has_markers, is_unmerged = bool(markers.find_markers(text)), key in inputs.unmerged
     if not (has_markers or is_unmerged or last.files.get(key, NEVER_WRITTEN).is_ambiguous):
         return None
-    if is_unmerged and not has_markers and (left := _find_left_side(file, _plain(text))):
-        if _is_chosen(inputs, key, _plain(text)):
+    if is_unmerged and not has_markers and (left := _read_left_side(file, plain(text))):
+        if _is_chosen(inputs, key, plain(text)):
             return None  # `git add` is missing
         return text if _are_generated(last, [left[1]]) else _merge_edits(last, key, left[0])
     if not (has_markers or is_edited):
         return None
-    sides = find_sides(file, text)
+    sides = read_sides(file, text)
     if sides is None and has_markers:
-        ours, theirs = markers.read_sides(_plain(text))
+        ours, theirs = markers.read_sides(plain(text))
         # both sides are generated texts, so no edit is lost
         return ours if _are_generated(last, (ours, theirs)) else None
     if sides and _are_generated(last, (sides.ours, sides.theirs)):
@@ -133,7 +128,7 @@ def can_join(file: Path, text: str, *, is_united: bool) -> bool:
         Revision(file.parent, "HEAD")
     except SourceError:
         return is_united
-    return find_sides(file, text) is not None
+    return read_sides(file, text) is not None
 
 
 def _is_chosen(inputs: Inputs, key: str, text: str) -> bool:
@@ -147,17 +142,17 @@ def _is_chosen(inputs: Inputs, key: str, text: str) -> bool:
     aside = last.aside.get(inputs.folder.path(key))
     if aside is None or aside.after != text_hash(text):
         return False
-    former = _plain((inputs.store.aside_text(last.name, aside.file) or b"").decode(errors="replace"))
+    former = plain((inputs.store.aside_text(last.name, aside.file) or b"").decode(errors="replace"))
     if former == text:
         return False  # an earlier `--keep` looks the same
     try:
         staged = _staged(Revision(file.parent, "HEAD").repository, file, former)
         return any(former in sides[1:] or _is_untouched(former, sides) for sides in staged)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
-        return False  # as in `find_sides`
+        return False  # as in `read_sides`
 
 
-def _find_left_side(file: Path, text: str) -> tuple[Sides, str] | None:
+def _read_left_side(file: Path, text: str) -> tuple[Sides, str] | None:
     """Return the versions of an unmerged file that has the text of one of them, and the text of the other.
 
     A merge driver that fails leaves ours.
@@ -168,11 +163,11 @@ def _find_left_side(file: Path, text: str) -> tuple[Sides, str] | None:
         staged = _staged(Revision(file.parent, "HEAD").repository, file, text)
         found = next((sides for sides in staged if text in sides[1:]), None)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
-        return None  # as in `find_sides`
+        return None  # as in `read_sides`
     return (found, found.theirs if text == found.ours else found.ours) if found else None
 
 
-def find_sides(file: Path, text: str) -> Sides | None:
+def read_sides(file: Path, text: str) -> Sides | None:
     """Return the versions of a file that git merged, in the present merge or in the last merge.
 
     Return None if there are none, or if somebody has changed the file since the merge.
@@ -180,40 +175,13 @@ def find_sides(file: Path, text: str) -> Sides | None:
     import pygit2
 
     reads.depend_on_commits(git.find_top(file.parent))
-    text = _plain(text)
+    text = plain(text)
     try:
         repository = Revision(file.parent, "HEAD").repository
         candidates = itertools.chain(_staged(repository, file, text), _committed(repository, file))
         return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
         return None  # as without a repository: it is damaged or shallow
-
-
-def _find_left_records(inputs: Inputs) -> dict[str, FileRecord]:
-    """Return the records of files of the package that one branch edited and the other branch deleted, by key."""
-    top = git.find_top(inputs.config.root) or ""
-    folder = find_git_folder(top)
-    if not any((folder / name).exists() for name in (*_UNDER_WAY, "SQUASH_MSG")):
-        return {}  # importing pygit2 takes 55 ms
-    import pygit2
-
-    reads.depend_on_commits(top)
-    inside = f"{os.path.relpath(real(inputs.robot.folder), top).replace(os.sep, '/')}/"
-    found = dict[str, FileRecord]()
-    try:
-        for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():
-            left = ours or theirs
-            if not (base and left and left.path.startswith(inside)) or (ours and theirs):
-                continue
-            key = inputs.folder.key(left.path.removeprefix(inside))
-            for name in ("HEAD",) if ours else _UNDER_WAY:
-                state = _read(name, inputs.store.path(inputs.last.name))
-                record = statefile.loads(state, name)[0] if state else None
-                if record and (file := record.files.get(key)):
-                    found[key] = file
-    except (SourceError, StateError, pygit2.GitError, KeyError, OSError):
-        return found  # as in `find_sides`
-    return found
 
 
 def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:
@@ -223,7 +191,7 @@ def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Si
     for base, ours, theirs in repository.index.conflicts or ():
         entries = [entry for entry in (ours, theirs) if entry and entry.path == path]
         blobs = (repository[entry.id].read_raw() if entry else b"" for entry in (base, ours, theirs))
-        texts = [_plain(blob.decode(errors="replace")) for blob in blobs]
+        texts = [plain(blob.decode(errors="replace")) for blob in blobs]
         if ours and theirs and entries:
             if base is None:  # if renames of both branches end here, the index may have git's merge of two other files
                 texts[1:] = (next(_read_side(file, one, number == 0), one) for number, one in enumerate(texts[1:]))
@@ -238,8 +206,8 @@ def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Si
 def _read_side(file: Path, merged: str, is_ours: bool) -> Iterator[str]:
     """Yield the texts of a file in the commits of one side; the markers in git's merge may name their branch."""
     label = re.search(r"(?m)^>{7,} ([^\s:]+)", merged)
-    for name in ("HEAD",) if is_ours else (*_UNDER_WAY, label[1] if label else ""):
-        if (text := _read(name, file)) is not None:
+    for name in ("HEAD",) if is_ours else (*UNDER_WAY, label[1] if label else ""):
+        if (text := read_text(name, file)) is not None:
             yield text
 
 
@@ -247,27 +215,15 @@ def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
     """Yield the versions in the two commits that git is merging, and in the parents of the last merge."""
     import pygit2
 
-    for names in (*(("HEAD", name) for name in _UNDER_WAY), ("HEAD^1", "HEAD^2")):
-        ours, theirs = (_read(name, file) for name in names)
+    for names in (*(("HEAD", name) for name in UNDER_WAY), ("HEAD^1", "HEAD^2")):
+        ours, theirs = (read_text(name, file) for name in names)
         if ours is None or theirs is None:
             continue
         commits = [repository.revparse_single(name).peel(pygit2.Commit) for name in names]
         ancestor = repository.merge_base(commits[0].id, commits[1].id)
         # the base of a merge is the common ancestor; the base of a cherry-pick is the commit's parent
         for base in dict.fromkeys([str(ancestor or ""), f"{names[1]}^"]):
-            yield Sides(_read(base, file) or "", ours, theirs)
-
-
-def _read(revision: str, file: Path) -> str | None:
-    """Return the text of a file in a commit; None if the commit lacks it."""
-    try:
-        return _plain(Revision(file.parent, revision).read(file).decode())
-    except (SourceError, UnicodeDecodeError):
-        return None
-
-
-def _plain(text: str) -> str:
-    return text.replace("\r\n", "\n")
+            yield Sides(read_text(base, file) or "", ours, theirs)
 
 
 def _is_untouched(text: str, sides: Sides) -> bool:

@@ -70,7 +70,7 @@ class UsersFiles(msgspec.Struct, frozen=True, dict=True):
         return {name: places.pop() for name, places in places_by_name.items() if len(places) == 1}
 
 
-def saved_facts(path: Path) -> Facts:
+def read_saved_facts(path: Path) -> Facts:
     """Return stat values that differ after the user has saved a file, even with the same text."""
     try:
         return reads.read_stat(path)
@@ -78,7 +78,7 @@ def saved_facts(path: Path) -> Facts:
         return (0,)
 
 
-def find_users_files(
+def read_users_files(
     config: Config, robot: RobotConfig, names: Iterable[str], former_folder: Path | None = None
 ) -> UsersFiles:
     """Return the user's Modelica files, and those that mention a name of a robot's package.

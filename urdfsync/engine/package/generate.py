@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
@@ -37,11 +37,16 @@ class Package:
         self._texts: dict[str, bytes] = {}
         self._hashes: dict[str, str] = {}
         self._data_hashes: dict[str, str] = {}
+        self._stored: Callable[[str], str | None] = lambda _: None
 
     def content(self, path: str) -> bytes:
         """Return the text of one file. Raises ConfigError for a template that can't be used."""
         if path not in self._texts:
-            self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._name)
+            stored = self._stored(self._hashes[path]) if path in self._hashes else None
+            if stored is None:
+                self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._name)
+            else:
+                self._texts[path] = stored.encode()
         return self._texts[path]
 
     def hash(self, path: str) -> str:
@@ -65,11 +70,12 @@ class Package:
         template = self.artifacts[path].template
         return next((a.path for a in self.artifacts.values() if (a.owner, a.template) == (owner, template)), None)
 
-    def skip(self, noted: Mapping[str, tuple[str, str]]) -> None:
-        """Use the noted hashes of texts that this machine has rendered with the same program: most are not read.
+    def take_noted(self, noted: Mapping[str, tuple[str, str]], stored: Callable[[str], str | None]) -> None:
+        """Take the noted hashes of texts that this machine has rendered with the same program, and render them no more.
 
-        `noted` is a result of `notes`.
+        `noted` is a result of `notes`. `stored` returns the text with a hash, from any machine; None if there is none.
         """
+        self._stored = stored
         for path in self.artifacts:
             data_hash, text_hash = noted.get(path, ("", ""))
             if data_hash == self._data_hash(path):

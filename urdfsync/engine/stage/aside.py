@@ -14,7 +14,7 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.settle import known_bases
-from urdfsync.engine.inspect.inputs import Former, Inputs
+from urdfsync.engine.inspect.inputs import Inputs, Replaced
 from urdfsync.engine.inspect.package_files import PackageFiles, encode
 from urdfsync.engine.package.generate import Package
 from urdfsync.files import digest, shown, text_digest
@@ -42,7 +42,7 @@ def put_aside(
         key = inputs.last.folder.key(path)  # the package may have moved since
         is_unsaved = _is_as_written(inputs.files, key, aside)
         if key in moved and is_unsaved and (text := inputs.store.aside_text(inputs.last.name, aside.file)) is not None:
-            former = Former(text, FileRecord(aside.bases), aside.texts)
+            former = Replaced(text, FileRecord(aside.bases), aside.texts)
             replaced.setdefault(moved[key], _follow(inputs, former, moved[key], decision.names))
         elif is_unsaved or not contents:
             index[path] = aside
@@ -97,7 +97,7 @@ def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
     return (state.text_sha256 if state else None) == aside.after
 
 
-def _follow(inputs: Inputs, former: Former, key: str, names: Mapping[str, str]) -> Former:
+def _follow(inputs: Inputs, former: Replaced, key: str, names: Mapping[str, str]) -> Replaced:
     """Return a text and its base for the file's new path: with new names, and a new `within` clause."""
     from urdfsync.merge.renames import rename, without_clashes  # imports the parser
     from urdfsync.modelica.layout import with_within
@@ -106,12 +106,12 @@ def _follow(inputs: Inputs, former: Former, key: str, names: Mapping[str, str]) 
     if base is not None:
         base, text = rename(base, text, without_clashes(names, text))
     class_name = (inputs.robot.target.package, *class_parts(inputs.folder.path(key)))
-    return Former(encode(with_within(text, ".".join(class_name))), *known_bases(base))
+    return Replaced(encode(with_within(text, ".".join(class_name))), *known_bases(base))
 
 
 def _replaced(
     inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
-) -> Iterator[tuple[str, Former]]:
+) -> Iterator[tuple[str, Replaced]]:
     """Yield the key and the former text of each replaced or deleted file; leave out texts that this machine generated.
 
     A `package.order` is saved only if git has united two states: then a build may remove the user's lines.
@@ -133,15 +133,15 @@ def _replaced(
         text = files.read(place) if is_moving else files.read_on_disk(key)
         if text is None:  # somebody has just deleted it
             continue
-        former = Former(text, record, last.bases(record))
+        former = Replaced(text, record, last.bases(record))
         if is_moving:
             former = _follow(inputs, former, key, decision.names)
         if former.text != contents[key]:
-            yield key, Former(former.text, *_bases_given_back(inputs, package, action, former))
+            yield key, Replaced(former.text, *_bases_given_back(inputs, package, action, former))
 
 
 def _bases_given_back(
-    inputs: Inputs, package: Package, action: Action, former: Former
+    inputs: Inputs, package: Package, action: Action, former: Replaced
 ) -> tuple[FileRecord, Mapping[str, str]]:
     """Return the bases of a text after `--undo`."""
     # with the old base, the next build would merge the text again, unless only this command merges; or would take it

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from urdfsync.changes import Changes
-from urdfsync.config import Config
 from urdfsync.dependencies.reads import Reads, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Snapshot
@@ -34,13 +33,11 @@ from urdfsync.engine.decide.package_names import (
 )
 from urdfsync.engine.decide.unused import tell_unused
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inspect.inputs import Inputs, orphaned_robots
-from urdfsync.engine.inspect.package_files import key_of
-from urdfsync.engine.inspect.users_files import saved_facts
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.users_files import read_saved_facts
 from urdfsync.engine.stage.judgements import find_jumps, judge
 from urdfsync.files import shown
 from urdfsync.state.notes import Use
-from urdfsync.state.store import Store
 
 if TYPE_CHECKING:
     from urdfsync.engine.decide.fit import Misfit
@@ -81,7 +78,7 @@ def find_lasting(inputs: Inputs, generation: Generation, decision: Decision, rea
 
 def find_news(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
     """Return the findings about changes since the last complete build."""
-    findings = [*_left_behind(inputs, decision.actions), *([inputs.damage] if inputs.damage else [])]
+    findings = [*_look_left_behind(inputs, decision.actions), *([inputs.damage] if inputs.damage else [])]
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
@@ -160,7 +157,7 @@ def _unmerged(inputs: Inputs, reads: Reads) -> Iterator[Diagnostic]:
         yield Diagnostic(Severity.WARNING, UNMERGED, message, shown(Path(path)), hint=hint)
 
 
-def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
+def _look_left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """Return a warning if files stay in the package's former folder."""
     files, old, new = inputs.files, inputs.files.path(inputs.last.folder), inputs.files.path(inputs.folder)
     if not inputs.has_moved or any(action.is_waiting for action in actions):
@@ -222,23 +219,11 @@ def _changed_connectors(inputs: Inputs, generation: Generation, changes: Changes
             yield Diagnostic(Severity.NOTE, CONNECTORS, message, *place, hint=connector_change.hint)
 
 
-def orphaned_state(config: Config) -> list[Diagnostic]:
-    """Return a note if robots with recorded state are missing in the configuration."""
-    store = Store(config.root)
-    built = set(store.names())
-    heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}
-    stray = [name for name, folder in orphaned_robots(store, config) if folder not in heirs]
-    if not stray:
-        return []
-    listed = ", ".join(f"`{name}`" for name in stray)
-    message = f"the recorded state of {listed} exists, but the configuration has no such robot"
-    folder = shown(store.folder / "robots")
-    hint = f"add the robot again, or delete {folder}/{stray[0]}.* and its package"
-    return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]
-
-
 def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, Use]:
-    """Return the names in each file that mean another part now, names from earlier builds included."""
+    """Return the names in each file that mean another part now, names from earlier builds included.
+
+    Reads the texts and stat values of the user's files that this may concern.
+    """
     differences, uses = decision.differences, dict(inputs.unsaved_uses)
     if not decision.is_complete:
         return uses
@@ -251,11 +236,11 @@ def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dic
             used = {name: names[name] for name in _lines(inputs, path, names) if name not in earlier} | used
             uses.pop(str(path), None)
             if used := {name: new for name, new in used.items() if name != new}:
-                uses[str(path)] = Use(saved_facts(path), used)
+                uses[str(path)] = Use(read_saved_facts(path), used)
     elements = {**{name: _MAYBE for _, name in differences.matching.doubts}, **differences.other_elements}
     options = msgspec.to_builtins(inputs.robot.options).values()  # its keys are names of options
     if used := {name: elements[name] for value in options for name in _texts(value) if name in elements}:
-        uses[str(inputs.config.file)] = Use(saved_facts(inputs.config.file), used)
+        uses[str(inputs.config.file)] = Use(read_saved_facts(inputs.config.file), used)
     return uses
 
 

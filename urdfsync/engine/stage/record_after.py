@@ -11,7 +11,7 @@ from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.edit_origins import EDITED
-from urdfsync.engine.decide.rules import files_after
+from urdfsync.engine.decide.rules import file_records_after
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import hash_of, option_values
@@ -36,7 +36,7 @@ def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> 
     confirmed = frozenset(merged[action.path] for action in merges)
     if not decision.is_complete:
         return _open_record(inputs, generation, decision, judged, confirmed)
-    files = files_after(decision.actions, inputs.last.files, is_complete=True)
+    files = file_records_after(decision.actions, inputs.last.files, is_complete=True)
     users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
     edited = (one for one in decision.actions if one.reason in users and one.mine)
     is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
@@ -71,7 +71,7 @@ def _open_record(
     """
     old, imports, inside = inputs.last.record, generation.imported.imports, inputs.folder.key("")
     # record renewed files, but none in a former folder
-    files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
+    files = {} if inputs.has_moved else file_records_after(decision.actions, old.files, is_complete=False)
     files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
     renewed = dict(old.open.imports) if old.open else {}
     for key, entry in imports.items():

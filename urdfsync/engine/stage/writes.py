@@ -16,8 +16,8 @@ from urdfsync.engine.decide.edit_origins import EDITED
 from urdfsync.engine.decide.package_after import PackageAfter
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs, Settled
-from urdfsync.engine.inspect.package_files import encode
-from urdfsync.engine.inspect.parents import SharedFile
+from urdfsync.engine.inspect.package_files import PackageFiles, encode
+from urdfsync.engine.inspect.parents import SharedFile, merge_order
 from urdfsync.engine.package.generate import Package
 from urdfsync.engine.result import Result
 from urdfsync.engine.stage.aside import put_aside, tell_aside
@@ -25,7 +25,8 @@ from urdfsync.engine.stage.findings import UNMERGED, find_lasting, find_news, fi
 from urdfsync.engine.stage.foresight import foresee_actions
 from urdfsync.engine.stage.record_after import notes_after, record_after
 from urdfsync.engine.stage.saved_conflicts import SavedConflicts, save_conflicts
-from urdfsync.files import shown
+from urdfsync.files import digest, shown
+from urdfsync.modelica.markers import join_sides
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.notes import Notes
 from urdfsync.state.record import Record
@@ -54,7 +55,7 @@ class Plan(msgspec.Struct, frozen=True):
 def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Reads) -> Plan:
     """Return the plan with all its writes. A dry run gets the same plan, so it reports the same as a build.
 
-    `reads` has all that the steps before have read.
+    `reads` lists all that the steps have read so far.
     """
     store, robot, options = inputs.store, inputs.robot, inputs.options
     actions, files = _actions_after(decision.actions, inputs.settled), _file_changes(inputs, generation, decision)
@@ -254,3 +255,15 @@ def _base_changes(
         after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
         if is_whole or after != texts:
             yield from store.save(store.base_file(inputs.robot.name, digit), bases.dumps(after))
+
+
+def shared_change(file: SharedFile, files: PackageFiles) -> FileChange | None:
+    """Return the change of a file around the package as it is on disk now; None without a change."""
+    content = files.read(files.key(file.path))
+    if file.content is not None:
+        return FileChange(file.path, file.content, None) if content is None else None
+    old = None if content is None else content.decode(errors="surrogateescape")
+    new = merge_order(join_sides(old) if old and file.joins else old, file.names, file.owned)
+    if new == (old or ""):
+        return None
+    return FileChange(file.path, encode(new) if new else None, None if content is None else digest(content))

@@ -55,12 +55,12 @@ def read_companions(companions: Iterable[Companion], options: Options) -> Compan
         if companion.option == "catalogue":
             stated = stated._replace(rows=_read_rows(companion, options))
         else:
-            loops, motors, axes = _read_yaml(companion)
+            loops, motors, axes = _parse_yaml(companion)
             stated = stated._replace(loops=loops, motors=motors, axes=axes)
     return stated
 
 
-def _read_yaml(
+def _parse_yaml(
     companion: Companion,
 ) -> tuple[list[tuple[str, str, str, str, CompanionLine]], list[tuple[str, CompanionLine]], Any]:
     """Return the loops, the motors and the joints of several axes in a YAML."""
