@@ -57,7 +57,7 @@ GRIPPER = robot(
         axis="1 0 0",
         inside=[
             mimic("shoulder", 0.1, 0.02),
-            dynamics(2, 0.4, armature=0.3, spring_stiffness=30, spring_reference=-0.1),
+            every_number(2, 0.4, armature=0.3, spring_stiffness=30, spring_reference=-0.1),
         ],
     ),
 )
