@@ -15,7 +15,8 @@ from urdfsync.domain.experiment import Aspect, Compared, Probe, Quantity, Trial
 from urdfsync.urdf.physics import probe
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MECHANISMS
-from urdfsync.urdf.second.reading import MOVES, OF_DYNAMICS, TURNS, SecondElement, SecondReading
+from urdfsync.urdf.second.dynamics import OF_DYNAMICS
+from urdfsync.urdf.second.reading import MOVES, TURNS, SecondElement, SecondReading
 
 _STEP, _STOP = 0.02, 1.0  # s
 _STROKE = 0.2  # Motion of an axis, in rad or m.
