@@ -389,10 +389,10 @@ def test_wrong_laws_are_seen_beside_sound_ones(quantity: Quantity, modelica_libr
 WRONG_NUMBERS: Mapping[tuple[str, ...], Sequence[tuple[str, str, str]]] = {
     ("limp", "hoist", "rail", "slip"): [
         ("Functions/limitedEffort.mo", "fading = 0.05", "fading = 0.06"),
-        ("Records/TranslationalDynamics.mo", "= friction", "= 2*friction"),
+        ("Records/JointDynamics.mo", "Force breakaway(min = 0) = friction", "Force breakaway(min = 0) = 2*friction"),
     ],
     ("brush", "limp", "bend"): [
-        ("Records/RotationalDynamics.mo", "stribeckSpeed = 0.05", "stribeckSpeed = 0.06"),
+        ("Records/JointDynamics.mo", "stribeckSpeed = 0.05", "stribeckSpeed = 0.06"),
         ("Records/RotationalTransmission.mo", "stiffness = 1e4", "stiffness = 1.1e4"),
     ],
     (): [],

@@ -94,7 +94,7 @@ def _declarations(k: int, model: str, joint: SecondElement, laws: str) -> Iterat
     if joint.friction in ("stiction", "lugre"):
         dry = joint.number("dynamics.friction")
         changed.append(f"breakaway = {_BREAKAWAY * dry!r}")
-        yield f"UrdfSync.Records.{kind}Dynamics default{k}(friction = {dry!r})"
+        yield f"UrdfSync.Records.JointDynamics.{kind}Dynamics default{k}(friction = {dry!r})"
         light = _BREAKAWAY * dry if is_pushed else light
     if changed:
         own.append(f"parameters(dynamics({', '.join(changed)}))")
