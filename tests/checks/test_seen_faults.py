@@ -18,7 +18,8 @@ from support.urdfs import dynamics, every_number, joint, limit, link, links, mim
 
 from urdfsync.domain import Target
 from urdfsync.domain.experiment import Aspect, Deviation, Quantity
-from urdfsync.urdf.robot import LOSSES, SENSOR_KINDS
+from urdfsync.urdf.model.numbers import camel
+from urdfsync.urdf.robot import SENSOR_KINDS, Dynamics
 
 pytestmark = pytest.mark.slow
 
@@ -42,15 +43,19 @@ EACH_SENSOR = "".join(
     for kind, model in SENSOR_KINDS.items()
 )
 """A sensor of each kind, each at a place of its own."""
-PULLED = {"spring_stiffness": 30.0, "spring_reference": 0.25}
-PULL = (
-    '<gazebo reference="grip"><springStiffness>200</springStiffness><springReference>-0.05</springReference></gazebo>'
-)
+PULL = '<gazebo reference="elbow"><springStiffness>20</springStiffness><springReference>-0.5</springReference></gazebo>'
 SPEED_UP = limit(0.2, 2, 3, 90).replace("/>", ' drake:acceleration="5"/>')
 SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, every_number(0.5, 0.4, **PULLED)]),
+    joint(
+        "shoulder",
+        "revolute",
+        "base",
+        "upper",
+        axis="0 1 0",
+        inside=[SPEED_UP, every_number(0.5, 0.4, spring_stiffness=30)],
+    ),
     joint(
         "elbow",
         "continuous",
@@ -60,7 +65,12 @@ SOURCE = robot(
         inside=[dynamics(0.1, 0.2), '<limit effort="60" velocity="4"/>'],
     ),
     joint(
-        "grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-0.1, 0.15)]
+        "grip",
+        "prismatic",
+        "hand",
+        "finger",
+        axis="0 1 0",
+        inside=[mimic("shoulder", 0.1, 0.02), limit(-0.1, 0.15), every_number(5, 4, spring_stiffness=200)],
     ),
     *(GEAR, IMU, EYE, LOAD, EACH_SENSOR, PULL),
 )
@@ -80,9 +90,7 @@ B, L, F, R, S, W, G = (
     *(Aspect.SENSORS, Aspect.LIMITS, Aspect.CONTACTS),
 )
 POINT = "Contacts/Functions/point.mo"
-SHOULDER, ELBOW, GRIP, HAND = (
-    f"{place}.mo" for place in ("Joints/Shoulder", "Joints/Elbow", "Joints/Grip", "Links/Hand")
-)
+SHOULDER, ELBOW, HAND = (f"{place}.mo" for place in ("Joints/Shoulder", "Joints/Elbow", "Links/Hand"))
 PACKAGE: Mapping[str, Fault] = {
     "order of a joint's turns": Fault(B, ELBOW, "{3, 2, 1}", "{1, 2, 3}"),
     "sign of an axis": Fault(B, ELBOW, "n = parameters.axis", "n = -parameters.axis"),
@@ -91,10 +99,13 @@ PACKAGE: Mapping[str, Fault] = {
     ),
     "sign of an inertia off the diagonal": Fault(B, HAND, "I_21 = I[2, 1]", "I_21 = -I[2, 1]"),
     "rotor without its reduction": Fault(B, ELBOW, "rotorInertia*parameters.transmission.reduction^2", "rotorInertia"),
-    **{f"no {name}": Fault(L, "Joints/ShoulderParameters.mo", f"{name} = 0", f"{name} = 0*0") for name in LOSSES},
-    "sign of a spring": Fault(B, SHOULDER, "c = parameters", "c = -parameters"),
-    "reference of a spring that a joint turns": Fault(B, SHOULDER, "phi_rel0 = p", "phi_rel0 = -p"),
-    "reference of a spring that a joint shifts": Fault(B, GRIP, "s_rel0 = p", "s_rel0 = -p"),
+    **{
+        f"no {name} of the {joint}": Fault(
+            L, f"Joints/{joint.capitalize()}Parameters.mo", f"{camel(name)} = ", f"{camel(name)} = 0*"
+        )
+        for joint in ("shoulder", "grip")
+        for name in Dynamics.__struct_fields__
+    },
     "reduction": Fault(L, "Joints/ElbowParameters.mo", "reduction = 50", "reduction = 5"),
     "multiplier of a mimic": Fault(B, "Joints/GripParameters.mo", "multiplier = 0.1", "multiplier = -0.1"),
     "offset of a mimic": Fault(B, "Joints/GripParameters.mo", "offset = 0.02", "offset = 0"),
@@ -378,10 +389,10 @@ def test_wrong_laws_are_seen_beside_sound_ones(quantity: Quantity, modelica_libr
 WRONG_NUMBERS: Mapping[tuple[str, ...], Sequence[tuple[str, str, str]]] = {
     ("limp", "hoist", "rail", "slip"): [
         ("Functions/limitedEffort.mo", "fading = 0.05", "fading = 0.06"),
-        ("Records/TranslationalDynamics.mo", "= friction", "= 2*friction"),
+        ("Records/JointDynamics.mo", "Force breakaway(min = 0) = friction", "Force breakaway(min = 0) = 2*friction"),
     ],
     ("brush", "limp", "bend"): [
-        ("Records/RotationalDynamics.mo", "stribeckSpeed = 0.05", "stribeckSpeed = 0.06"),
+        ("Records/JointDynamics.mo", "stribeckSpeed = 0.05", "stribeckSpeed = 0.06"),
         ("Records/RotationalTransmission.mo", "stiffness = 1e4", "stiffness = 1.1e4"),
     ],
     (): [],

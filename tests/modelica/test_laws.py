@@ -39,7 +39,7 @@ def axis(kind: str, law: str) -> str:
     parameter Real push = 0;
     parameter Real wave = 0;
     parameter Real speed = 0;
-    parameter UrdfSync.Records.{kind}Dynamics dynamics({numbers});
+    parameter UrdfSync.Records.JointDynamics.{kind}Dynamics dynamics({numbers});
     UrdfSync.Friction.{kind}{law} friction(parameters = dynamics);
     Modelica.Mechanics.{kind}.Components.{inertia} = {INERTIA},
       {q}(start = 0, fixed = true), {w}(start = speed, fixed = true));

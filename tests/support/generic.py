@@ -21,6 +21,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reference import Configuration, Reference, read
+from urdfsync.urdf.second.dynamics import mechanism_efforts
 
 FORMS = ("GenericRobot", "ArticulatedRobot")
 """The two formulations."""
@@ -57,7 +58,7 @@ GRIPPER = robot(
         axis="1 0 0",
         inside=[
             mimic("shoulder", 0.1, 0.02),
-            dynamics(2, 0.4, armature=0.3, spring_stiffness=30, spring_reference=-0.1),
+            every_number(2, 0.4, armature=0.3, spring_stiffness=30, spring_reference=-0.1),
         ],
     ),
 )
@@ -172,7 +173,7 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
     inverse = np.linalg.pinv(reference.projection)
 
     def acceleration(p: Array, q: Array, v: Array) -> Array:
-        taken = reference.losses(v) + reference.mechanisms(at_rest(robot, p, speeds).positions)
+        taken = reference.losses(v) + mechanism_efforts(reference.dynamics, at_rest(robot, p, speeds).positions)
         load = pin.rnea(model, model.createData(), q, v, np.zeros(model.nv)) + taken
         return np.asarray(free @ np.linalg.solve(free.T @ mass_matrix(reference, q) @ free, -free.T @ load))
 

@@ -64,10 +64,9 @@ def dynamics(damping: float, friction: float, **more: float) -> str:
 
 
 def every_number(damping: float, friction: float, **more: float) -> str:
-    """The dynamics with these numbers, and with one for each further field: so tests see a new attribute at once."""
-    chosen = ("damping", "friction", "armature", "spring_stiffness", "spring_reference")
-    further = [name for name in Dynamics.__struct_fields__ if name not in chosen]
-    return dynamics(damping, friction, **{name: 0.125 * (k + 1) for k, name in enumerate(further)}, **more)
+    """The dynamics with these numbers, and with one for each other field: so tests see a new attribute at once."""
+    further = {name: 0.125 * k for k, name in enumerate(Dynamics.__struct_fields__[2:], 1)}
+    return dynamics(damping, friction, **further | more)
 
 
 def mimic(leader: str, multiplier: float | None = None, offset: float | None = None) -> str:

@@ -268,7 +268,7 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
 
 
 class Dynamics(msgspec.Struct, frozen=True, gc=False):
-    """Losses of a joint: viscous `damping`, dry `friction`; its armature, and its spring."""
+    """Losses of a joint: viscous `damping`, dry `friction`; its armature, and its mechanisms."""
 
     damping: Annotated[float, _LOSS] = 0.0
     friction: Annotated[float, _LOAD] = 0.0

@@ -4,7 +4,7 @@ partial model PartialRotational "What laws of friction between two rotational fl
   extends UrdfSync.Icons.Friction;
   extends Modelica.Mechanics.Rotational.Interfaces.PartialTwoFlanges;
 
-  parameter UrdfSync.Records.RotationalDynamics parameters
+  parameter UrdfSync.Records.JointDynamics.RotationalDynamics parameters
     "Numbers of the losses";
 
   Modelica.Units.SI.Angle phi_rel

@@ -4,7 +4,7 @@ partial model PartialTranslational "What laws of friction between two translatio
   extends UrdfSync.Icons.Friction;
   extends Modelica.Mechanics.Translational.Interfaces.PartialTwoFlanges;
 
-  parameter UrdfSync.Records.TranslationalDynamics parameters
+  parameter UrdfSync.Records.JointDynamics.TranslationalDynamics parameters
     "Numbers of the losses";
 
   Modelica.Units.SI.Position s_rel

@@ -6,10 +6,10 @@ record PlanarJoint "Numbers of a planar joint"
   parameter Modelica.Mechanics.MultiBody.Types.Axis axis = {1, 0, 0}
     "Normal of the plane: a unit vector in the joint frame";
 
-  TranslationalDynamics translation
+  JointDynamics.TranslationalDynamics translation
     "Losses of both sliding directions";
 
-  RotationalDynamics rotation
+  JointDynamics.RotationalDynamics rotation
     "Losses of the turning direction";
 
   annotation (Documentation(info="<html>

@@ -9,8 +9,8 @@ record PrismaticJoint "Numbers of a prismatic joint"
   TranslationalLimits limits
     "Limits";
 
-  TranslationalDynamics dynamics
-    "Losses, and what the drive adds to the inertia";
+  JointDynamics.TranslationalDynamics dynamics
+    "Losses, mechanisms, and what the drive adds to the inertia";
 
   TranslationalTransmission transmission
     "Gear and rotor of the drive";

@@ -9,8 +9,8 @@ record RevoluteJoint "Numbers of a revolute joint"
   RotationalLimits limits
     "Limits";
 
-  RotationalDynamics dynamics
-    "Losses, and what the drive adds to the inertia";
+  JointDynamics.RotationalDynamics dynamics
+    "Losses, mechanisms, and what the drive adds to the inertia";
 
   RotationalTransmission transmission
     "Gear and rotor of the drive";

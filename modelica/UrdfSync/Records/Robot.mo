@@ -94,11 +94,11 @@ record Robot "Numbers of a whole robot: what all robots have"
   SlidingLimits slidingLimits
     "Limits of the moving joints that slide";
 
-  RotationalDynamics turningLosses[turningJoints]
-    "Losses and springs of the moving joints that turn";
+  JointDynamics.RotationalDynamics turningLosses[turningJoints]
+    "Losses and mechanisms of the moving joints that turn";
 
-  TranslationalDynamics slidingLosses[slidingJoints]
-    "Losses and springs of the moving joints that slide";
+  JointDynamics.TranslationalDynamics slidingLosses[slidingJoints]
+    "Losses and mechanisms of the moving joints that slide";
 
   Modelica.Units.SI.Inertia turningInertias[turningJoints] = zeros(turningJoints)
     "What the drives of the joints that turn add to the inertia about their axes";

@@ -281,7 +281,7 @@ protected
     "Visuals of the links";
 
   UrdfSync.Types.JointEffort loss[n]
-    "Efforts that damping, dry friction and springs take";
+    "Efforts that damping, dry friction and mechanisms take";
 
   UrdfSync.Types.JointEffort followerLoad[nFollowers + 1]
     "Loads of the joints that follow others";
@@ -374,14 +374,13 @@ stop for it: leave all shapes out by <code>animation = false</code>. Their numbe
 <i>Losses and mimic joints.</i> The equations of motion give <code>effort</code>, torque in N.m or force in N, of each joint. The drives have to give more:
 </p>
 <pre>
-load  = effort + d*v + f_d*tanh(s*v/2) + c*(q - q_0) + sum(k*load_follower)
-                                                                  d, f_d, s: damping, dry friction, steepness
-                                                                  c, q_0: stiffness, reference of the spring
-q     = k*q_leader + c                                            of a joint that follows; k, c: multiplier, offset
-drive = load                                                      of a joint that does not follow
+load  = effort + loss + sum(k*load_follower)
+q     = k*q_leader + c                       of a joint that follows; k, c: multiplier, offset
+drive = load                                 of a joint that does not follow
 </pre>
 <p>
-The sum over the followers of a joint is the principle of virtual work. Damping and friction are those of <a href=\"modelica://UrdfSync.Friction.Rotational\">Friction</a>.
+The sum over the followers of a joint is the principle of virtual work. <code>loss</code> is what damping and dry friction take by the law of
+<a href=\"modelica://UrdfSync.Friction.Rotational\">Friction</a>, less what the <a href=\"modelica://UrdfSync.Records.JointDynamics\">mechanisms</a> of the joint give.
 </p>
 <p>
 <i>Units.</i> <code>q</code>, <code>v</code>, <code>a</code>, <code>effort</code>, <code>load</code> and <code>drive</code> hold joints that turn and joints that slide, by the metre

@@ -63,15 +63,10 @@ under load an axis creeps. <a href=\"modelica://UrdfSync.Friction\">Other laws</
 A planar joint has one component, with the same two numbers, per direction of motion.
 A <a href=\"modelica://UrdfSync.Friction.Ball\">ball</a> has damping against its relative angular velocity, and no dry friction.
 </p>
-<h4>Springs</h4>
+<h4>Mechanisms</h4>
 <p>
-Where the URDF states a <code>springStiffness</code> <code>c</code>, a spring sits between <code>support</code> and <code>axis</code>. It is relaxed at <code>springReference</code>:
-</p>
-<blockquote><pre>
-tau = -c*(phi - phi_0)
-</pre></blockquote>
-<p>
-The stiffness is in N&middot;m/rad for turning and N/m for sliding joints. A spring of a joint that follows acts back on the leader.
+Where the URDF states the number of a mechanism, such as the stiffness of a spring, the mechanism sits between <code>support</code> and <code>axis</code>. The
+<a href=\"modelica://UrdfSync.Records.JointDynamics\">records</a> of <code>dynamics</code> have its law. A mechanism of a joint that follows acts back on the leader.
 </p>
 <h4>Laws of drives</h4>
 <p>

@@ -15,7 +15,8 @@ from urdfsync.domain.experiment import Aspect, Compared, Probe, Quantity, Trial
 from urdfsync.urdf.physics import probe
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MECHANISMS
-from urdfsync.urdf.second.reading import MOVES, OF_DYNAMICS, TURNS, SecondElement, SecondReading
+from urdfsync.urdf.second.dynamics import OF_DYNAMICS
+from urdfsync.urdf.second.reading import MOVES, TURNS, SecondElement, SecondReading
 
 _STEP, _STOP = 0.02, 1.0  # s
 _STROKE = 0.2  # Motion of an axis, in rad or m.
@@ -93,7 +94,7 @@ def _declarations(k: int, model: str, joint: SecondElement, laws: str) -> Iterat
     if joint.friction in ("stiction", "lugre"):
         dry = joint.number("dynamics.friction")
         changed.append(f"breakaway = {_BREAKAWAY * dry!r}")
-        yield f"UrdfSync.Records.{kind}Dynamics default{k}(friction = {dry!r})"
+        yield f"UrdfSync.Records.JointDynamics.{kind}Dynamics default{k}(friction = {dry!r})"
         light = _BREAKAWAY * dry if is_pushed else light
     if changed:
         own.append(f"parameters(dynamics({', '.join(changed)}))")

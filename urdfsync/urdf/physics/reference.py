@@ -28,8 +28,9 @@ from urdfsync.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.robot import Mimic, Vector
 from urdfsync.urdf.second.companions import CatalogueNumbers
+from urdfsync.urdf.second.dynamics import OF_DYNAMICS, mechanism_efforts
 from urdfsync.urdf.second.gears import Gear, read_gears
-from urdfsync.urdf.second.reading import OF_DYNAMICS, SecondElement, origin
+from urdfsync.urdf.second.reading import SecondElement, origin
 
 Array = NDArray[np.float64]
 
@@ -250,12 +251,8 @@ class Reference:
 
     def load(self, data: Any, state: Configuration, a: Array) -> Array:
         """Return the efforts of all coordinates, with losses and mechanisms, for a state with accelerations `a`."""
-        own = self.losses(state.v) + self.mechanisms(state.positions)
+        own = self.losses(state.v) + mechanism_efforts(self.dynamics, state.positions)
         return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.rotors @ a + own)
-
-    def mechanisms(self, positions: Array) -> Array:
-        """Return the efforts that mechanisms take at all coordinates."""
-        return self.dynamics["spring_stiffness"] * (positions - self.dynamics["spring_reference"])
 
     @staticmethod
     def _solved(mass: Array, efforts: Array) -> Array:

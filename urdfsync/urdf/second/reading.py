@@ -22,6 +22,7 @@ from lxml import etree
 from urdfsync.domain import Companion
 from urdfsync.urdf.options import LoopFrame, Options
 from urdfsync.urdf.second.companions import PATHS, Companions, read_companions
+from urdfsync.urdf.second.dynamics import OF_DYNAMICS
 from urdfsync.urdf.second.gears import Gear, read_gears
 from urdfsync.urdf.second.plain import SHAPES, decimal, plain_root
 
@@ -38,8 +39,6 @@ _LOSSES = {
     "ball": ("damping",),
 }
 """Paths of damping and friction in the records, by type of joint."""
-OF_DYNAMICS = {"armature": "armature", "springStiffness": "spring_stiffness", "springReference": "spring_reference"}
-"""Numbers of the records of axes that records leave out if the source does, with their attributes in `<dynamics>`."""
 _SERVOS = {
     "position": "positionGain; velocityGain minPosition maxPosition minEffort maxEffort",
     "velocity": "positionGain velocityGain; minVelocity maxVelocity minPosition maxPosition minEffort maxEffort",
