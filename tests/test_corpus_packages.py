@@ -42,7 +42,17 @@ FAULTY = {
 
 SOUND = [file for file in corpus.distinct_files() if file not in FAULTY]
 SOURCES = corpus.by_source(SOUND)
-each_source = pytest.mark.parametrize("source", sampled(SOURCES, 4))
+_LONG = ("upkie", "Rhoban+placo__python_sigmaban")
+"""Sources of many meshes or versions, which take seconds."""
+each_source = pytest.mark.parametrize(
+    "source",
+    [
+        pytest.param(
+            *case.values, marks=[*case.marks, *([pytest.mark.slow] if case.values[0].startswith(_LONG) else [])]
+        )
+        for case in sampled(SOURCES, 4)
+    ],
+)
 """One robot, or all versions of one history."""
 
 

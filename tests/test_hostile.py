@@ -130,12 +130,14 @@ def _started(
 @pytest.mark.parametrize(
     ("attack", "command"),
     [
-        *(("modules", command) for command in (["status"], ["build"])),
+        ("modules", ["build"]),
         *(
             pytest.param("modules", command, marks=pytest.mark.slow)
-            for command in (["diff"], *WRITING[1:], ["record", "r0.urdf"], ["check", "r0"])
+            for command in (
+                *(["status"], ["diff"], *WRITING[1:], ["record", "r0.urdf"], ["check", "r0"]),
+                ["watch", "--settle", "10", "--sample", "10"],
+            )
         ),
-        ("modules", ["watch", "--settle", "10", "--sample", "10"]),
         ("a domain of the repository", ["build"]),
     ],
     ids=str,
