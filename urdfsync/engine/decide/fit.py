@@ -14,8 +14,6 @@ from pathlib import Path, PurePosixPath
 
 import msgspec
 
-from urdfsync.config import find_own_library
-from urdfsync.dependencies.reads import is_file
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.decide.package_after import PackageAfter, as_file, code_words
 from urdfsync.engine.decide.package_names import class_of, declared_names
@@ -113,20 +111,10 @@ class _Package(PackageAfter):
             folder,
             self,
             around,
-            self._look_for_class,
+            inputs.look_for_class,
             lambda content: self._reading(content).stored,
             former,
         )
-
-    def _look_for_class(self, name: str) -> Path | None:
-        """Return the folder or file of a top-level class outside of the package; None if there is none."""
-        robot = self.inputs.robot
-        if own := find_own_library(name, robot.target.package):
-            return own
-        for path in (robot.output / name, robot.output / f"{name}.mo"):
-            if is_file(path / "package.mo" if path.suffix != ".mo" else path):
-                return path
-        return self.inputs.users_files.tops.get(name)
 
     def _reading(self, content: bytes) -> ShortText:
         """Parse a file; in a generated file, read only the statements that matter to other files."""

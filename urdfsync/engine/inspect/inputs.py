@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import msgspec
 
 from urdfsync import registry
-from urdfsync.config import Config, RobotConfig
+from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.dependencies.places import real
-from urdfsync.dependencies.reads import unrecorded
+from urdfsync.dependencies.reads import is_file, unrecorded
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
@@ -140,6 +140,15 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     def unsaved_uses(self) -> Mapping[str, Use]:
         """Names that mean other parts now, in files that the user has not saved since a build noted them, by path."""
         return {path: use for path, use in self.last.notes.uses.items() if use.facts == read_saved_facts(Path(path))}
+
+    def look_for_class(self, name: str) -> Path | None:
+        """Return the folder or file of a top-level class outside of the package; None if there is none."""
+        if own := find_own_library(name, self.robot.target.package):
+            return own
+        for path in (self.robot.output / name, self.robot.output / f"{name}.mo"):
+            if is_file(path / "package.mo" if path.suffix != ".mo" else path):
+                return path
+        return self.users_files.tops.get(name)
 
     def users_text(self, path: Path) -> str:
         """Return the text of the configuration, or of a user's file; empty for an unreadable file."""
