@@ -51,6 +51,27 @@ def joint(
     return f'<joint name="{name}" type="{kind}">{"".join(parts)}</joint>'
 
 
+def robot_of(words: str, *, are_legs: bool = False) -> str:
+    """A robot with the links that a line names, as `tests/test_scenarios.py` explains it."""
+    elements, parent = [link("base", 9.0)], "base"
+    for *names, numbers in (part.split() for part in words.split(", ")):
+        mass, *boxes = numbers.split("/")
+        of_link = f"link_{names[-1]}" if names[-1].isdigit() else names[-1]
+        of_joint = names[0] if len(names) > 1 else of_link.replace("link_", "joint_")
+        shapes = "".join(_box(kind, *box.rpartition(":")[::2]) for kind in ("visual", "collision") for box in boxes)
+        elements.append(link(of_link, float(mass)).replace("</link>", f"{shapes}</link>"))
+        place, limits = "0 0 0" if boxes else f"{float(mass) / 10} 0 0.1", [limit(effort=10.0)]
+        elements.append(joint(of_joint, "revolute", parent, of_link, xyz=place, inside=limits))
+        parent = parent if are_legs else of_link
+    return robot(*elements)
+
+
+def _box(kind: str, name: str, size: str) -> str:
+    named = f' name="{name}"' if name else ""
+    place = f'<origin xyz="{float(size) / 2} 0 0"/>'
+    return f'<{kind}{named}>{place}<geometry><box size="{size} 0.1 0.1"/></geometry></{kind}>'
+
+
 def limit(lower: float = -3, upper: float = 3, velocity: float = 10, effort: float = 1000) -> str:
     """Limits of a joint."""
     return f'<limit lower="{lower!r}" upper="{upper!r}" velocity="{velocity!r}" effort="{effort!r}"/>'
