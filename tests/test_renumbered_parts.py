@@ -1,4 +1,4 @@
-"""CAD renumbers: an edit follows its part, or the file becomes a conflict that asks the user."""
+"""CAD renumbers, where a text is no scenario: forged records, git, real robots; see `scenarios/renumbered.txt`."""
 
 from __future__ import annotations
 
@@ -17,8 +17,7 @@ from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
 from support.renumbering import Renumbering, renumberings
-from support.replay import contents
-from support.urdfs import joint, limit, link, robot
+from support.urdfs import robot_of
 from test_unions import WAYS
 
 from urdfsync.api import load
@@ -31,26 +30,22 @@ from urdfsync.urdf.options import LeftOut
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\napproach = ["package", "record"]\n'
 LINK, JOINT = "modelica/Arm/Links/Link_{}.mo", "modelica/Arm/Joints/Joint_{}Parameters.mo"
 MINE = "\n  Real mine = 1;\n\nequation"
-
-
-def arm(*masses: float, first: int = 1, order: str = "") -> str:
-    """An arm of numbered parts; `order` has other numbers for the parts."""
-    numbers = list(order) or [str(number) for number in range(first, first + len(masses))]
-    elements, parent = [link("base", 9.0)], "base"
-    for number, mass in zip(numbers, masses, strict=True):
-        elements.append(link(f"link_{number}", mass))
-        origin = f"{mass / 10} 0 0.1"
-        limits = [limit(effort=10.0)]
-        elements.append(joint(f"joint_{number}", "revolute", parent, f"link_{number}", xyz=origin, inside=limits))
-        parent = f"link_{number}"
-    return robot(*elements)
+BUILT = "1 1.1, 2 2.2, 3 3.3"
+EXPORTS = {
+    "exchanged": "1 1.1, 3 2.2, 2 3.3",
+    "inserted": "1 1.1, 2 5.5, 3 2.2, 4 3.3",
+    "inserted at the root": "1 5.5, 2 1.1, 3 2.2, 4 3.3",
+    "removed": "1 2.2, 2 3.3",
+    "shifted": "2 1.1, 3 2.2, 4 3.3",
+    "rotated": "2 1.1, 3 2.2, 1 3.3",
+}
 
 
 @pytest.fixture
 def edited(folder: Path, execute: Execute) -> Path:
     """A folder with a built arm; the user adds a component to the second link, and changes a number of its joint."""
     Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    Path("arm.urdf").write_text(robot_of(BUILT))
     execute("build")
     edit(LINK.format(2), "\nequation", MINE)
     edit(JOINT.format(2), "effort = 10", "effort = 12")
@@ -61,547 +56,10 @@ def edited(folder: Path, execute: Execute) -> Path:
 def repository(folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Repository:
     """A repository with a built arm, which is not committed yet."""
     Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    Path("arm.urdf").write_text(robot_of(BUILT))
     repository = Repository(folder, monkeypatch)
     execute("build")
     return repository
-
-
-EXPORTS = {
-    "exchanged": (arm(1.1, 2.2, 3.3, order="132"), 3),
-    "inserted": (arm(1.1, 5.5, 2.2, 3.3), 3),
-    "inserted at the root": (arm(5.5, 1.1, 2.2, 3.3), 3),
-    "removed": (arm(2.2, 3.3), 1),
-    "shifted": (arm(1.1, 2.2, 3.3, first=2), 3),
-    "rotated": (arm(1.1, 2.2, 3.3, order="231"), 3),
-}
-
-
-@pytest.mark.parametrize(("export", "number"), EXPORTS.values(), ids=EXPORTS)
-def test_edits_go_with_their_parts(edited: Path, execute: Execute, export: str, number: int) -> None:
-    Path("arm.urdf").write_text(export)
-    told = execute("diff", code=Exit.OUT_OF_STEP).lines
-    assert f"link_2: is now link_{number}" in told[1] + told[2]
-    execute("build")
-    assert "Real mine = 1" in Path(LINK.format(number)).read_text()
-    assert "effort = 12" in Path(JOINT.format(number)).read_text()
-    texts = [path.read_text() for path in Path("modelica").rglob("*.mo")]
-    assert sum("Real mine = 1" in text or "effort = 12" in text for text in texts) == 2
-    assert execute("build", "--check").words.endswith("2 kept because you edited them")
-
-
-def test_many_names_are_told_in_one_line(edited: Path, execute: Execute) -> None:
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, first=1))
-    execute("build")
-    Path("arm.urdf").write_text(arm(5.5, 1.1, 2.2, 3.3, 4.4, 6.6))
-    Path("arm.urdf").write_text(arm(5.5, 1.1, 2.2, 3.3))
-    assert "link link_1: is now link_2" in execute("diff", code=Exit.OUT_OF_STEP).out
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, 4.4, 6.6))
-    execute("build")
-    Path("arm.urdf").write_text(arm(5.5, 1.1, 2.2, 3.3, 4.4, 6.6))
-    printed = execute("diff", code=Exit.OUT_OF_STEP)
-    assert printed.lines[1] == "  link link_1: is now link_2 (and 4 more numbers shifted by one)"
-    (found,) = execute("diff", "--format=json", code=Exit.OUT_OF_STEP).json["results"]
-    first = found["result"]["changes"]["changes"][0]
-    assert (first["path"], first["kind"], first["new"]) == (["link link_1"], "renamed", "link_2")
-
-
-def test_names_in_the_files_of_the_whole_robot_follow(edited: Path, execute: Execute) -> None:
-    Path("urdfsync.toml").write_text(f'{CONFIGURATION}on_conflict = "merge"\n')
-    run = Path("modelica/Arm/ArmRun.mo")
-    edit(run, "\nequation\n", "\n  Real seen = robot.joint_2Axis.phi + robot.joint_1Axis.phi;\n\nequation\n")
-    Path("arm.urdf").write_text(arm(1.1, 5.5, 2.2, 3.3))
-    execute("build")
-    assert "Real seen = robot.joint_3Axis.phi + robot.joint_1Axis.phi;" in run.read_text()
-
-
-@pytest.mark.parametrize(("answer", "name"), [("--merge", "link_2"), ("--keep", "link_1")])
-@pytest.mark.parametrize("is_open", [False, True])
-def test_an_edit_in_a_text_that_the_exchange_leaves_as_it_was_is_settled_once(
-    folder: Path, execute: Execute, answer: str, name: str, is_open: bool
-) -> None:
-    """Two different legs: the robot's model does not show an exchange of their names."""
-
-    def export(*names: str, mass: float = 9.0) -> None:
-        parts = zip(names, (1.1, 2.2), strict=True)
-        elements = [
-            (link(name, weight), joint(f"to_{name}", "continuous", "base", name, xyz=f"{weight} 0 0"))
-            for name, weight in parts
-        ]
-        Path("arm.urdf").write_text(robot(link("base", mass), *itertools.chain.from_iterable(elements)))
-
-    def value() -> str:
-        return str(re.findall(r"Real mine = (\w+)\.m;", Path("modelica/Arm/Arm.mo").read_text())[0])
-
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    export("link_1", "link_2")
-    execute("build")
-    edit("modelica/Arm/Arm.mo", "\nequation\n", "\n  Real mine = link_1.m;\n\nequation\n")
-    if is_open:
-        edit("modelica/Arm/Links/BaseParameters.mo", "9", "8")
-    export("link_2", "link_1", mass=7.0 if is_open else 9.0)
-    execute("build", code=Exit.CONFLICT)
-    execute("resolve", "modelica/Arm/Arm.mo", answer, code=None)
-    assert value() == name
-    if is_open:
-        execute("build", code=Exit.CONFLICT)
-        assert value() == name
-        execute("resolve", "--all", "--take")
-    assert value() == name
-    execute("build", "--check")
-
-
-def test_models_and_configuration_that_use_another_part_are_told_until_they_are_saved(
-    edited: Path, execute: Execute
-) -> None:
-    mine, lines = Path("Mine.mo"), "  Arm.Arm robot;\n  Real x = robot.link_2.body.m;\n  Arm.Links.Link_1 other;\n"
-    mine.write_text(f"model Mine\n{lines}end Mine;\n")
-    Path("urdfsync.toml").write_text(f"{CONFIGURATION}start = {{joint_2 = 0.1}}\n")
-    execute("build")
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
-    told = (
-        "Mine.mo:3: warning: `link_2` names another part now; the former part is called `link_3`",
-        "urdfsync.toml:5: warning: `joint_2` names another part now",
-    )
-    for command in ("build", "build", "status"):
-        words = execute(command, "--verbose").words
-        assert all(text in words for text in told)
-        assert "`Link_1`" not in words
-    execute("build", "--check")
-    for file in (mine, Path("urdfsync.toml")):
-        file.write_text(f"{file.read_text()}\n")
-    assert "other-part" not in execute("status", "--verbose").words
-
-
-def unclear(execute: Execute) -> None:
-    """An export after which `link_1` may be another part: `link_2` has its mass, `link_3` has its shape."""
-
-    def solid(name: str, mass: float, size: float) -> str:
-        box = f'<visual><geometry><box size="{size} {size} {size}"/></geometry></visual>'
-        return link(name, mass).replace("</link>", f"{box}</link>")
-
-    def export(*parts: tuple[float, float]) -> None:
-        names = [f"link_{number}" for number in range(1, len(parts) + 1)]
-        joints = [
-            joint(f"to_{name}", "continuous", parent, name, xyz="0 0 0", rpy="0 0 0")
-            for parent, name in itertools.pairwise(["base", *names])
-        ]
-        solids = [solid(name, *part) for name, part in zip(names, parts, strict=True)]
-        Path("arm.urdf").write_text(robot(link("base", 9.0), *solids, *joints))
-
-    export((1.1, 0.1), (2.2, 0.2), (3.3, 0.3))
-    execute("build")
-    edit(LINK.format(1), "\nequation", MINE)
-    execute("build")
-    export((1.5, 0.15), (1.1, 0.25), (5.5, 0.1))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("answer", "number"), [(["--keep"], 1), (["--moved", "link_3"], 3), (["--take"], 0)])
-def test_what_cannot_be_known_is_asked(folder: Path, execute: Execute, answer: list[str], number: int) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    unclear(execute)
-    printed = execute("diff", code=Exit.OUT_OF_STEP).words
-    assert "`link_1` may be another part now" in printed
-    assert 'link_1 = "link_2"' in printed
-    for _ in range(2):
-        words = execute("build", code=Exit.CONFLICT).words
-        assert "`link_1` may be another part now" in words
-        assert "--moved link_2 your edit belongs to the part of this name --keep it is the same part" in words
-    assert "Real mine" in Path(LINK.format(1)).read_text()
-    execute("resolve", LINK.format(1), *answer)
-    holders = [path.as_posix() for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
-    assert holders == ([LINK.format(number)] if number else [])
-    execute("build", "--check")
-    for path in {LINK.format(1), LINK.format(number or 1)}:
-        execute("resolve", path, "--undo")
-    assert [str(path) for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()] == [LINK.format(1)]
-    execute("build", "--check")
-
-
-def test_nothing_is_asked_if_nobody_edited(folder: Path, execute: Execute) -> None:
-    """But a finding names a model of the user's that uses the part."""
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    unclear(execute)
-    Path("Mine.mo").write_text("model Mine\n  Arm.Arm robot;\n  Real x = robot.link_1.body.m;\nend Mine;\n")
-    edit(LINK.format(1), MINE, "\nequation")
-    words = execute("build").words
-    assert "Mine.mo:3: warning: `link_1` may name another part now" in words
-    assert words.count("another part") == 1
-    execute("build", "--check")
-
-
-def test_an_edit_of_a_common_file_that_names_what_may_be_another_part_is_asked_about(
-    folder: Path, execute: Execute
-) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    unclear(execute)
-    edit(LINK.format(1), MINE, "\nequation")
-    edit("modelica/Arm/Arm.mo", "\nequation", "\n  Real mine = link_1.m;\n\nequation")
-    assert "It uses `link_1`, which may be another part now" in execute("build", code=Exit.CONFLICT).words
-    words = execute("resolve", "modelica/Arm/Arm.mo", "--moved", "link_2", code=Exit.ERROR).words
-    assert "this file belongs to no single part" in words
-    execute("resolve", "modelica/Arm/Arm.mo", "--keep")
-    execute("build", "--check")
-
-
-@NEEDS_GIT
-def test_a_clone_asks_nothing_about_words_in_a_remark(repository: Repository, execute: Execute) -> None:
-    """The user made the edit before the export; this machine knows that, and a clone finds out from the commits."""
-    edit("modelica/Arm/Links/package.mo", "\n  annotation", '\n  constant Real mine = 1 "Of link_2";\n\n  annotation')
-    repository.commit()
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="213"))
-    execute("build")
-    repository.commit()
-    repository.git("clone", "-q", ".", "clone")
-    execute("build", "--config", "clone/urdfsync.toml")
-
-
-@NEEDS_GIT
-def test_a_clone_asks_what_the_original_asks(repository: Repository, execute: Execute) -> None:
-    """And a second build asks the same in the same words; the answer counts in each clone."""
-    unclear(execute)
-    first, second = (execute("build", code=Exit.CONFLICT).out for _ in range(2))
-    assert first.partition("conflict  ")[2] == second.partition("conflict  ")[2] != ""
-    repository.commit()
-    repository.git("clone", "-q", ".", "clone")
-    recorded = contents(Path(".urdfsync/robots"))
-    words = execute("build", "--config", "clone/urdfsync.toml", code=Exit.CONFLICT).words
-    assert "`link_1` may be another part now" in words
-    assert contents(Path("clone/.urdfsync/robots")) == recorded
-    execute("resolve", LINK.format(1), "--keep")
-    repository.commit()
-    shutil.rmtree("clone")
-    repository.git("clone", "-q", ".", "clone")
-    execute("build", "--check", "--config", "clone/urdfsync.toml")
-
-
-def test_the_same_part_gets_what_is_new(folder: Path, execute: Execute) -> None:
-    record = LINK.format(1).replace(".mo", "Parameters.mo")
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    unclear(execute)
-    edit(record, "end Link_1Parameters;", "  // mine\nend Link_1Parameters;")
-    execute("resolve", LINK.format(1), record, "--keep", code=Exit.CONFLICT)
-    execute("resolve", record, "--merge")
-    assert "1.5" in Path(record).read_text()
-    execute("build", "--check")
-
-
-def test_an_edit_moves_into_a_file_that_is_edited_too(folder: Path, execute: Execute) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    unclear(execute)
-    edit(LINK.format(3), "\nequation", "\n  Real another = 2;\n\nequation")
-    execute("build", code=Exit.CONFLICT)
-    execute("resolve", LINK.format(1), "--moved", "link_3", code=None)
-    text = Path(LINK.format(3)).read_text()
-    assert "Real mine = 1;" in text
-    assert "Real another = 2;" in text
-    assert "Real mine" not in Path(LINK.format(1)).read_text()
-
-
-def test_an_edit_that_contradicts_the_one_there_does_not_move(folder: Path, execute: Execute) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    unclear(execute)
-    edit(LINK.format(3), "\nequation", MINE.replace("1", "2"))
-    execute("build", code=Exit.CONFLICT)
-    words = execute("resolve", LINK.format(1), "--moved", "link_3", code=Exit.ERROR).words
-    assert "your edit contradicts this file; move the edit by hand, then use --take" in words
-    assert "Real mine = 2;" in Path(LINK.format(3)).read_text()
-
-
-@pytest.mark.parametrize(("name", "message"), [
-    ("lnk_2", "the source has no link `lnk_2`; did you mean `link_2`? [wrong-rename]"),
-    ("link_1", "this file belongs to link `link_1` already; name the part that the edit belongs to: --moved NAME"),
-])  # fmt: skip
-def test_an_answer_names_another_part_that_exists(folder: Path, execute: Execute, name: str, message: str) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    unclear(execute)
-    words = execute("resolve", LINK.format(1), "--moved", name, code=Exit.ERROR).words
-    assert f"{LINK.format(1)}: error: {message}" in words
-    assert "Real mine" in Path(LINK.format(1)).read_text()
-
-
-def test_an_edit_of_a_part_that_is_gone_is_asked_about(edited: Path, execute: Execute) -> None:
-    """The second part is removed, and the third one takes its name."""
-    Path("arm.urdf").write_text(arm(1.1, 3.3))
-    words = execute("build", code=Exit.CONFLICT).words
-    assert "`link_2` is another part now, the former `link_3`" in words
-    execute("resolve", "--all", "--take")
-    assert "mine" not in Path(LINK.format(2)).read_text()
-
-
-@pytest.mark.slow
-def test_edits_change_places_once_while_a_number_conflicts(edited: Path, execute: Execute) -> None:
-    """Conflicts about numbers delay only exchanged names."""
-    record = LINK.format(1).replace(".mo", "Parameters.mo")
-    edit(record, "1.1", "1.5")
-    Path("arm.urdf").write_text(arm(1.2, 2.2, 3.3, order="132"))
-    for _ in range(3):
-        execute("build", code=Exit.CONFLICT)
-        assert "Real mine" in Path(LINK.format(2)).read_text()
-    execute("resolve", record, "--take")
-    assert "Real mine" in Path(LINK.format(3)).read_text()
-    execute("build", "--check")
-
-
-def test_a_part_that_one_export_forgot_is_the_same_part(folder: Path, execute: Execute) -> None:
-    """If it comes back with all its numbers; with others, the user is asked."""
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(arm(1.1, 2.2))
-    execute("build")
-    edit(LINK.format(2), "\nequation", MINE)
-    edit(JOINT.format(2), "effort = 10", "effort = 12")
-    edited = contents(Path("modelica"))
-    for mass, code in ((2.2, Exit.IN_STEP), (2.5, Exit.CONFLICT)):
-        Path("arm.urdf").write_text(arm(1.1))
-        execute("build")
-        Path("arm.urdf").write_text(arm(1.1, mass))
-        printed = execute("build", code=code)
-        assert ("is another part now" in printed.words) == (code is Exit.CONFLICT)
-        assert (contents(Path("modelica")) == edited) == (code is Exit.IN_STEP)
-
-
-def test_a_new_part_does_not_inherit_the_edit_of_one_that_is_gone(folder: Path, execute: Execute) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
-    execute("build")
-    edit(LINK.format(3), "\nequation", MINE)
-    Path("arm.urdf").write_text(arm(1.1, 2.2))
-    execute("build")
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 7.7))
-    assert "`link_3` is another part now" in execute("build", code=Exit.CONFLICT).words
-    execute("resolve", LINK.format(3), "--take")
-    assert "Real mine" not in Path(LINK.format(3)).read_text()
-
-
-def test_an_edit_that_cannot_move_is_asked_about(folder: Path, execute: Execute) -> None:
-    """The edit of a removed part blocks the rename."""
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
-    execute("build")
-    edit(LINK.format(2), "\nequation", MINE)
-    edit(LINK.format(3), "\nequation", "\n  Real former = 3;\n\nequation")
-    Path("arm.urdf").write_text(arm(1.1, 2.2))
-    execute("build")
-    Path("arm.urdf").write_text(arm(1.1, 9.9, 2.2))
-    words = execute("build", code=Exit.CONFLICT).words
-    assert "`link_2` is another part now" in words
-    assert "`link_3` is another part now" in words
-    execute("resolve", LINK.format(2), "--moved", code=Exit.ERROR)
-    execute("resolve", LINK.format(3), "--take", code=None)
-    execute("resolve", LINK.format(2), "--moved", code=None)
-    assert "Real mine" in Path(LINK.format(3)).read_text()
-
-
-def test_a_moved_edit_is_given_back_although_another_edit_waits_to_move_to_its_place(
-    folder: Path, execute: Execute
-) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
-    execute("build")
-    edit("modelica/Arm/Links/Link_1Parameters.mo", "mass = 1.1", "mass = 1.2")
-    for number in (1, 2):
-        edit(LINK.format(number), "\nequation", f"\n  Real mine{number} = 1;\n\nequation")
-    Path("arm.urdf").write_text(arm(2.2, 9.9, 3.3))
-    assert "`link_1` is another part now, the former `link_2`" in execute("build", code=Exit.CONFLICT).words
-    mine = Path(LINK.format(1)).read_text()
-    execute("resolve", LINK.format(1), "--moved", "link_3", code=Exit.CONFLICT)
-    assert f"{LINK.format(1)} its path is new; your edits move here" in execute("status", code=Exit.CONFLICT).words
-    assert "Real mine1" in Path(LINK.format(3)).read_text()
-    words = execute("resolve", LINK.format(2), "--undo", code=Exit.CONFLICT).words
-    assert f"{LINK.format(2)}: error: nothing to undo" in words
-    execute("resolve", LINK.format(1), "--undo", code=Exit.CONFLICT)
-    assert Path(LINK.format(1)).read_text() == mine
-    assert "Real mine2" in Path(LINK.format(2)).read_text()
-
-
-def test_a_class_made_a_folder_is_asked_about(edited: Path, execute: Execute) -> None:
-    file = Path(LINK.format(2))
-    file.with_suffix("").mkdir()
-    file.rename(file.with_suffix("") / "package.mo")
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
-    assert "`link_2` is another part now" in execute("build", code=Exit.CONFLICT).words
-    words = execute("resolve", LINK.format(2), "--moved", "link_3", code=Exit.ERROR).words
-    assert "one of the two classes is a folder; move the edit by hand, then use --keep" in words
-
-
-def test_a_model_that_extends_the_robot_uses_names_alone(edited: Path, execute: Execute) -> None:
-    Path("Mine.mo").write_text("model Mine\n  extends Arm.Arm;\nequation\n  x = joint_2Axis.phi;\nend Mine;\n")
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
-    assert "Mine.mo:4: warning: `joint_2Axis` names another part now" in execute("build").words
-
-
-@pytest.mark.slow
-@NEEDS_GIT
-def test_edits_that_git_left_with_exchanged_names_change_places_together(
-    repository: Repository, execute: Execute
-) -> None:
-    repository.commit()
-    repository.git("checkout", "-q", "-b", "export")
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
-    execute("build")
-    repository.commit()
-    repository.git("checkout", "-q", "main")
-    for number in (2, 3):
-        edit(LINK.format(number), "\nequation", MINE.replace("1", str(number)))
-    repository.commit()
-    repository.merge("export")
-    execute("build", code=Exit.CONFLICT)
-    words = execute("resolve", LINK.format(2), "--moved", "link_3", code=Exit.ERROR).words
-    assert "your edit in this file may belong to another part, too" in words
-    execute("resolve", LINK.format(2), LINK.format(3), "--moved")
-    for number, other in ((2, 3), (3, 2)):
-        assert f"Real mine = {other};" in Path(LINK.format(number)).read_text()
-        assert f"Real mine = {number};" not in Path(LINK.format(number)).read_text()
-    execute("build", "--check")
-    for number in (2, 3):
-        execute("resolve", LINK.format(number), "--undo", code=None)
-    for number in (2, 3):
-        assert f"Real mine = {number};" in Path(LINK.format(number)).read_text()
-    execute("build", "--check")
-
-
-@NEEDS_GIT
-def test_ordinary_edits_after_an_exchange_are_not_asked_about(repository: Repository, execute: Execute) -> None:
-    """An earlier commit has another edit in this place, which belonged to another part."""
-    for effort, order in (("12", ""), ("", "132"), ("15", "132")):
-        if effort:
-            edit(JOINT.format(2), "effort = 10", f"effort = {effort}")
-        Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order=order))
-        execute("build")
-        repository.commit()
-    execute("build", "--check")
-    assert "effort = 12" in Path(JOINT.format(3)).read_text()
-
-
-def test_exchanges_can_be_declared_and_count_once(folder: Path, execute: Execute) -> None:
-    """Two equal wheels; both have other masses after the export."""
-
-    def export(*masses: float) -> None:
-        wheels = [link(f"link_{number}", mass) for number, mass in enumerate(masses, 1)]
-        hubs = [joint(f"hub_{number}", "continuous", "base", f"link_{number}") for number in (1, 2)]
-        Path("arm.urdf").write_text(robot(link("base", 9.0), *wheels, *hubs))
-
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    export(1.1, 1.1)
-    execute("build")
-    edit(LINK.format(1), "\nequation", MINE)
-    export(1.5, 1.7)
-    Path("urdfsync.toml").write_text(f'{CONFIGURATION}renamed = {{link_1 = "link_2", link_2 = "link_1"}}\n')
-    for mass in (1.5, 1.5, 1.9):
-        export(mass, 1.7)
-        execute("build")
-        assert "Real mine" in Path(LINK.format(2)).read_text()
-        assert "mine" not in Path(LINK.format(1)).read_text()
-    assert "rename-done" in execute("status", "--verbose").words
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    execute("build")
-    assert "Real mine" in Path(LINK.format(2)).read_text()
-
-
-@pytest.mark.parametrize("declared", ["", 'renamed = {link_3 = "link_2"}\n'], ids=["found", "declared"])
-def test_a_renamed_part_and_the_one_that_is_gone_keep_their_own_edits(
-    edited: Path, execute: Execute, declared: str
-) -> None:
-    """Both parts are edited; the third part takes the name of the second, which is removed."""
-    edit(LINK.format(3), "\nequation", MINE.replace("mine", "third"))
-    Path("urdfsync.toml").write_text(f"{CONFIGURATION}{declared}")
-    Path("arm.urdf").write_text(arm(1.1, 3.3))
-    words = execute("build", code=Exit.CONFLICT).words
-    assert "`link_2` is another part now, the former `link_3`" in words
-    execute("resolve", "--all", "--take")
-    text = Path(LINK.format(2)).read_text()
-    assert "Real third" in text
-    assert "mine" not in text
-    execute("build", "--check")
-
-
-CHANGES = {
-    "another mass": ('mass value="3.3"', 'mass value="3.5"', LINK),
-    "another position": (f'xyz="{3.3 / 10} ', 'xyz="0.5 ', JOINT),
-}
-
-
-@pytest.mark.parametrize("more", [(), (4.4,)], ids=["three parts", "four parts"])
-@pytest.mark.parametrize(("old", "new", "file"), CHANGES.values(), ids=CHANGES)
-def test_a_part_is_gone_and_the_next_one_has_its_name_and_other_numbers(
-    folder: Path, execute: Execute, old: str, new: str, file: str, more: tuple[float, ...]
-) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, *more))
-    execute("build")
-    edit(LINK.format(2), "\nequation", MINE)
-    edit(JOINT.format(2), "effort = 10", "effort = 12")
-    export = arm(1.1, 3.3, *more)
-    assert old in export
-    Path("arm.urdf").write_text(export.replace(old, new))
-    words = execute("build", code=Exit.CONFLICT).words
-    name = Path(file.format(2)).stem.removesuffix("Parameters").lower()
-    assert f"`{name}` may be another part now: parts next to it, or like it, have other names" in words
-
-
-def test_half_an_exchange_is_declared(folder: Path, execute: Execute) -> None:
-    """The second part has taken the name of the third one: the build asks about the edit of the third part."""
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
-    execute("build")
-    edit(LINK.format(3), "\nequation", MINE)
-    Path("urdfsync.toml").write_text(f'{CONFIGURATION}renamed = {{link_2 = "link_3"}}\n')
-    Path("arm.urdf").write_text(arm(1.1, 2.5, 3.5))
-    words = execute("build", code=Exit.CONFLICT).words
-    assert "`link_3` is another part now, the former `link_2`" in words
-    Path("urdfsync.toml").write_text(f'{CONFIGURATION}renamed = {{link_2 = "link_3", link_3 = "link_2"}}\n')
-    execute("build")
-    assert ["Real mine" in Path(LINK.format(number)).read_text() for number in (2, 3)] == [True, False]
-
-
-def legs(*masses: float) -> str:
-    """Legs with a common base."""
-    elements = [link("base", 9.0)]
-    for number, mass in enumerate(masses, 1):
-        elements += [link(f"link_{number}", mass), joint(f"to_{number}", "continuous", "base", f"link_{number}")]
-    return robot(*elements)
-
-
-EXCHANGE = {"link_1": "link_2", "link_2": "link_1"}
-TWINS: dict[str, tuple[dict[str, str], list[float], int]] = {
-    "the same export": (EXCHANGE, [1.1, 1.1, 1.1], 1),
-    "another mass": (EXCHANGE, [1.1, 1.1, 4.4], 1),
-    "one leg more": ({f"link_{number}": f"link_{number + 1}" for number in (1, 2, 3)}, [1.1] * 4, 3),
-}
-
-
-@pytest.mark.parametrize(("renames", "masses", "number"), TWINS.values(), ids=TWINS)
-def test_what_is_declared_of_parts_that_look_alike_counts_once(
-    folder: Path, execute: Execute, renames: dict[str, str], masses: list[float], number: int
-) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    Path("arm.urdf").write_text(legs(1.1, 1.1, 1.1))
-    execute("build")
-    edit(LINK.format(2), "\nequation", MINE)
-    words = ", ".join(f'{old} = "{new}"' for old, new in renames.items())
-    Path("urdfsync.toml").write_text(f"{CONFIGURATION}renamed = {{{words}}}\n")
-    for last in (masses[-1], masses[-1], 5.5):
-        Path("arm.urdf").write_text(legs(*masses[:-1], last))
-        execute("build")
-        holders = [path.name for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
-        assert holders == [f"Link_{number}.mo"]
-    shutil.rmtree(".urdfsync/notes")  # another machine has the record, and no notes
-    Path("arm.urdf").write_text(legs(*masses[:-1], 6.6))
-    execute("build")
-    assert "Real mine" in Path(LINK.format(number)).read_text()
-
-
-def test_names_declared_before_the_first_build_move_nothing(folder: Path, execute: Execute) -> None:
-    legs = [link("base", 9.0), *(link(name, 1.1) for name in ("link_1", "link_2"))]
-    joints = [joint(f"to_{name}", "continuous", "base", name) for name in ("link_1", "link_2")]
-    Path("arm.urdf").write_text(robot(*legs, *joints))
-    Path("urdfsync.toml").write_text(f'{CONFIGURATION}renamed = {{link_1 = "link_2", link_2 = "link_1"}}\n')
-    execute("build")
-    edit(LINK.format(1), "\nequation", MINE)
-    for _ in range(2):
-        execute("build")
-        assert "Real mine" in Path(LINK.format(1)).read_text()
 
 
 def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, execute: Execute) -> None:
@@ -630,7 +88,7 @@ def test_a_recorded_model_that_lacks_parts_loses_no_edit(
         kept = re.sub(rf'^model \["{lost}","\w+_{number}",.*\n', "", text, flags=re.MULTILINE)
         assert kept != text
         state.write_text(kept)
-        Path("arm.urdf").write_text(EXPORTS[export][0])
+        Path("arm.urdf").write_text(robot_of(EXPORTS[export]))
         code = execute("build", code=None).code
         assert code in (Exit.IN_STEP, Exit.CONFLICT)
         assert sum("Real mine" in path.read_text() for path in Path("modelica/Arm").rglob("*.mo")) == 1
@@ -658,7 +116,7 @@ def test_one_branch_exchanges_names_and_the_other_edits(
             edit(joint_file.format(2), "\nequation", MINE)
             edit(model, "\nequation", "\n  Real mine = link_2.m;\n\nequation")
         else:
-            Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
+            Path("arm.urdf").write_text(robot_of(EXPORTS["exchanged"]))
         execute("build")
         repository.commit(branch)
     for command in WAYS[way]:

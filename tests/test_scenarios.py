@@ -171,12 +171,9 @@ class Scenario:
         self._editor(f"Path({str(shown)!r}).write_text(file.read_text()); file.write_text({text!r})")
 
     def commit(self, _: str) -> None:
-        if not Path(".git").exists():
-            if shutil.which("git") is None:
-                pytest.skip("git is not installed")
-            Repository(Path.cwd(), self._monkeypatch)
-        self.git("add -A")
-        self.git("commit -q --allow-empty -m next")
+        if shutil.which("git") is None:
+            pytest.skip("git is not installed")
+        Repository(Path.cwd(), self._monkeypatch).commit()
 
     def branch(self, rest: str) -> None:
         name, _, start = rest.partition(" ")
