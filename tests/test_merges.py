@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import re
-import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -20,9 +19,9 @@ from support.branches import export, perform
 from support.commands import Execute
 from support.files import fresh_models, models, unchanged
 from support.git import NEEDS_GIT, Repository
-from support.networks import LADDER, MODEL, R2, configure, failure, kinds, run
+from support.networks import LADDER, MODEL, configure, failure, run
 
-from urdfsync.engine.actions import Choice, Reason
+from urdfsync.engine.actions import Choice
 from urdfsync.engine.result import Result
 from urdfsync.modelica.markers import find_markers, join_sides, read_sides
 
@@ -199,43 +198,4 @@ def test_a_contradiction_is_for_people(stop: Stop, execute: Execute, case: str, 
 def test_a_contradiction_can_be_given_up(stop: Stop, execute: Execute, tmp_path: Path) -> None:
     stop("edits-that-contradict")
     assert execute("resolve", MODEL, "--take")
-    assert models() == fresh_models(tmp_path / "fresh")
-
-
-@pytest.mark.parametrize("branch", ["edits", "drops"])
-def test_a_file_that_one_branch_edits_and_the_other_drops_is_an_orphan(
-    project: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, branch: str
-) -> None:
-    export(list)
-    run()
-    repository = Repository(project, monkeypatch)
-    repository.commit()
-    for name, steps in (("edits", "note Elements/R2.mo mine"), ("drops", "drop R2")):
-        repository.git("checkout", "-q", "-b", name, "main")
-        perform(steps, run)
-        repository.commit()
-    repository.git("checkout", "-q", branch)
-    with contextlib.suppress(subprocess.CalledProcessError):
-        repository.git("merge", "-q", "drops" if branch == "edits" else "edits")
-    for _ in range(2):
-        assert kinds(run())[R2] is Reason.ORPHAN
-        assert "R2" in Path(LADDER, "Elements/package.order").read_text().split()
-    execute("resolve", R2, "--keep")
-    assert kinds(run())[R2] is Reason.UNKNOWN
-    execute("resolve", R2, "--undo")
-    repository.commit()
-    assert kinds(run())[R2] is Reason.ORPHAN, "it is recorded now"
-    execute("resolve", R2, "--take")
-    assert not Path(R2).exists()
-
-
-def test_without_a_repository_markers_between_generated_texts_are_nobodys(stop: Stop, tmp_path: Path) -> None:
-    stop("both-change-a-number")
-    shutil.rmtree(".git")
-    (path,) = marked()
-    text = Path(path).read_text()
-    Path(path).write_text(text.replace("Resistance", "Mine"))
-    assert "unresolved merge markers" in failure()
-    Path(path).write_text(text)
-    run()
     assert models() == fresh_models(tmp_path / "fresh")
