@@ -1,85 +1,28 @@
-"""A conflict about numbers of one element's record is one of that file: all else of an export is written."""
+"""Conflicts of meshes and of plain texts; `tests/scenarios/numbers.txt` has those about numbers of one element."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
-from support import urdfs
 from support.commands import Execute
-from support.files import fresh_models, models
 from support.meshes import stl
 from support.networks import edit
+from support.urdfs import robot_of
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Choice, Reason
 from urdfsync.engine.decide.conflicts import find_conflict, resolve
 
-FORE, HAND, WRIST = (
-    "modelica/Arm/Links/ForeParameters.mo",
-    "modelica/Arm/Links/Hand.mo",
-    "modelica/Arm/Joints/Wrist.mo",
-)
-ELBOW = urdfs.joint("elbow", "revolute", "base", "fore")
-
-
-def export(mass: float, *names: tuple[str, str]) -> None:
-    """Write the source: a forearm of this mass, and for each pair a joint with its link, in a chain."""
-    links, joints, parent = [urdfs.link("base", 1.0), urdfs.link("fore", mass)], [ELBOW], "fore"
-    for joint, link in names:
-        links.append(urdfs.link(link, 1.0))
-        joints.append(urdfs.joint(joint, "revolute", parent, link))
-        parent = link
-    Path("arm.urdf").write_text(urdfs.robot(*links, *joints))
-
-
-@pytest.fixture
-def conflict(folder: Path, execute: Execute) -> Path:
-    """A forearm that was weighed, which the export has made heavier while it got a hand."""
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    export(2.5)
-    execute("build")
-    edit(FORE, "2.5", "2.6")
-    export(2.75, ("wrist", "hand"))
-    said = execute("build", code=3)
-    assert "1 conflict" in said.out
-    assert "wait" not in said.out
-    return folder
-
-
-def test_structure_is_written(conflict: Path, execute: Execute) -> None:
-    assert Path(HAND).exists()
-    assert "wrist" in Path("modelica/Arm/Arm.mo").read_text()
-    assert "2.6" in Path(FORE).read_text()
-    before = models()
-    for command, code in (("status", 3), ("build --check", 3), ("build", 3)):
-        assert "1 conflict" in execute(*command.split(), code=code).out
-    assert models() == before
-
-
-@pytest.mark.parametrize(
-    "then", [(), (("wrist", "hand"),), (("gelenk", "hand"),), (("wrist", "hand"), ("knuckle", "tip"))]
-)
-def test_what_is_exported_meanwhile_is_written_and_the_end_is_a_fresh_build(
-    conflict: Path, execute: Execute, then: tuple[tuple[str, str], ...]
-) -> None:
-    if then:
-        edit(HAND, "end Hand;", "  // mine\nend Hand;")
-    export(2.875, *then)
-    execute("build", code=3)
-    execute("resolve", FORE, "--take")
-    assert execute("status").lines[0].startswith("arm: in step")
-    built = models()
-    assert {path: text.replace("  // mine\n", "") for path, text in built.items()} == fresh_models(conflict / "fresh")
-    assert sum("// mine" in text for text in built.values()) == bool(then)
-
-
+FORE = "modelica/Arm/Links/ForeParameters.mo"
 SHAPE = '<visual><geometry><mesh filename="tip.stl"/></geometry></visual>'
 
 
-def show(size: float) -> None:
-    """Give the forearm a mesh of this size; 0 for a file that is missing."""
-    edit("arm.urdf", "</inertial></link>", f"</inertial>{SHAPE}</link>")
+def export(mass: float, size: float) -> None:
+    """Write a forearm of this mass with a mesh of this size; 0 for a file that is missing."""
+    Path("arm.urdf").write_text(
+        robot_of(f"elbow fore {mass}").replace("</inertial></link>", f"</inertial>{SHAPE}</link>")
+    )
     Path("tip.stl").write_text(stl(size))
     if not size:
         Path("tip.stl").unlink()
@@ -100,13 +43,11 @@ def test_a_changed_mesh_is_told_by_each_command_as_long_as_a_file_conflicts(
     folder: Path, execute: Execute, sizes: list[float], told: list[str]
 ) -> None:
     Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    export(2.5)
-    show(sizes[0])
+    export(2.5, sizes[0])
     execute("build")
     edit(FORE, "2.5", "2.6")
     for size in sizes[1:]:
-        export(2.75)
-        show(size)
+        export(2.75, size)
         execute("build", code=3)
     for command in ("diff", "status", "build", "build --dry-run"):
         rows = (line.split() for line in execute(*command.split(), code=None).lines if line.startswith("  mesh"))
@@ -115,8 +56,7 @@ def test_a_changed_mesh_is_told_by_each_command_as_long_as_a_file_conflicts(
 
 def test_a_conflict_names_the_mesh_that_alone_has_changed(folder: Path, execute: Execute) -> None:
     Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    export(2.5)
-    show(1)
+    export(2.5, 1)
     execute("build")
     edit(FORE, "2.5", "2.6")
     Path("tip.stl").write_text(stl(2))
