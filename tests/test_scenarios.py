@@ -28,9 +28,10 @@ A text begins with what its scenarios share, each `-- NAME`; then each begins wi
     conflicts FILE…          the conflicts that a dry build finds
 
 Files are those of the package, or begin with `/`: then they are of the project. `@FILE` is such a path in a command and
-in what it prints, `\\n` a line end. `A || B` in a title and in lines makes two scenarios of one. A link `2` is the link
-`link_2` at the joint `joint_2`, whose place follows from the mass; `JOINT LINK MASS` names both. `MASS/SIZE` or
-`MASS/NAME:SIZE` gives it boxes, to be seen and to collide; then its joint is where the joint before is.
+in what it prints, `\\n` a line end. `A || B` in a title and in lines makes two scenarios of one, of which the first is
+quick. A link `2` is the link `link_2` at the joint `joint_2`, whose place follows from the mass; `JOINT LINK MASS`
+names both. `MASS/SIZE` or `MASS/NAME:SIZE` gives it boxes, to be seen and to collide; then its joint is where the joint
+before is.
 """
 
 from __future__ import annotations
@@ -65,7 +66,8 @@ def scenarios() -> Iterator[Any]:
             for number in range(1 + title.count(" || ")):
                 name, text = (re.sub(r"\S+(?: \|\| \S+)+", lambda m, n=number: m[0].split(" || ")[n], t)
                               for t in (title, lines))  # fmt: skip
-                yield pytest.param(text, shared, id=f"{file.stem}: {name}")
+                marks = [pytest.mark.slow] if number else []
+                yield pytest.param(text, shared, id=f"{file.stem}: {name}", marks=marks)
 
 
 class Scenario:
