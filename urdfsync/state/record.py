@@ -84,7 +84,7 @@ class Question(msgspec.Struct, frozen=True):
     """The question whether an edited file belongs to another part. Each clone asks it until the user answers."""
 
     mine: str
-    """Hash of the edited text."""
+    """Hash of the edited text; empty if the user turned the class into a folder."""
     doubt: Doubt
 
 

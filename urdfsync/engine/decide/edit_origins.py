@@ -72,7 +72,7 @@ def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Actio
     last, now = inputs.last, generation.now.snapshot
     is_undone = last.seen != now and last.version is not None and last.version.snapshot == now
     asked = {} if is_undone or last.record.open is None else last.record.open.asked
-    edits = (action for action in actions if action.path in asked and asked[action.path].mine == action.mine)
+    edits = (action for action in actions if action.path in asked and asked[action.path].mine == (action.mine or ""))
     return {action.path: asked[action.path].doubt for action in edits}
 
 

@@ -79,7 +79,7 @@ def _open_record(
             renewed[key] = (entry,)
     renewed = {key: entries for key, entries in renewed.items() if entries != old.imports.get(key)}
     questions = (action for action in decision.actions if action.reason is Reason.ASKED)
-    asked = {one.path: Question(str(one.mine), decision.doubts[one.path]) for one in questions}
+    asked = {one.path: Question(one.mine or "", decision.doubts[one.path]) for one in questions}
     # a decision about an earlier export does not answer a question, not in the next build either
     outdated = decision.outdated.union(question.mine for question in asked.values())
     confirmed |= old.confirmed.difference(outdated)
