@@ -162,8 +162,8 @@ class Action(msgspec.Struct, frozen=True):
     is_waiting: bool = False
     """Whether the action waits until the robot's conflicts are resolved."""
     is_left_by_git: bool = False
-    """Whether the file on disk is git's merge of two branches, and does not equal its meaning (see `united`). Then
-    `mine` is the hash of the meaning."""
+    """Whether the file on disk is git's merge of two branches, and does not equal the text that both meant. Then `mine`
+    is the hash of the meant text (see `inspect/united`)."""
 
     @property
     def kind(self) -> Kind:

@@ -155,3 +155,22 @@ def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path)
         assert (project / LADDER / "package.mo").exists()
         assert Path(MANIFEST).exists()
         Path(MANIFEST).write_text("it need not be readable")
+
+
+def test_a_linked_configuration_that_names_another_part_now_is_told(folder: Path, execute: Execute) -> None:
+    """A name in `driven` belongs to another joint after an export, and nobody has changed the configuration."""
+
+    def export(*names: str) -> None:
+        ends = ("base", "arm", "0 0 0.1"), ("arm", "hand", "0.3 0 0")
+        parts = zip(names, ends, strict=True)
+        joints = (urdfs.joint(name, "continuous", *links, xyz=place) for name, (*links, place) in parts)
+        (folder / "arm.urdf").write_text(urdfs.robot(*LINKS, *joints))
+
+    (folder / "real.toml").write_text(f'{CONFIG}driven = ["shoulder"]\n')
+    (folder / "urdfsync.toml").symlink_to("real.toml")
+    export("shoulder", "elbow")
+    execute("build")
+    export("elbow", "shoulder")
+    expected = "urdfsync.toml:4: warning: `shoulder` names another part now"
+    for _ in range(2):
+        assert any(line.startswith(expected) for line in execute("build", "--verbose").errors)

@@ -134,7 +134,8 @@ def _find_value_only(after: PackageAfter, changes: Changes | None, conflicts: Ma
 def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iterable[str]) -> None:
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
-    texts = (action for action in actions if action.role is not Role.IMPORT and action.reason is not Reason.UPDATE)
+    others = Reason.UPDATE, Reason.UNKNOWN  # a class of the user's own may have markers: `fit` tells its syntax error
+    texts = (action for action in actions if action.role is not Role.IMPORT and action.reason not in others)
     edited = [action for action in texts if action.mine not in (None, action.base, action.generated)]
     # contradictions of branches are conflicts, not errors; with `--undo`, the user chose a text with markers
     told = {action.origin or action.path for action in edited if action.is_conflict} & files.left_by_git.keys()

@@ -25,7 +25,7 @@ from urdfsync.modelica import markers
 _IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
 """Reasons for which a generated file stays."""
 _SETTLED = frozenset({Reason.MERGE, Reason.FORGET}) | ORPHANS
-"""Reasons for which a build writes a file's meaning."""
+"""Reasons for which a build writes the text that both branches meant."""
 
 
 def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differences: Differences) -> Verdicts:
@@ -151,7 +151,7 @@ def _describe_branches(contradictions: Sequence[str], text: str) -> str:
 def _write_git_merges(
     files: PackageFiles, actions: Iterable[Action], merged: Mapping[str, str]
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
-    """Return actions that write the meanings of files that git merged, and all merged texts, by key."""
+    """Return actions that write what both branches meant with files that git merged, and all merged texts, by key."""
     settled, texts = list[Action](), dict(merged)
     for action in actions:
         if action.is_left_by_git and action.reason in _IN_STEP:

@@ -113,7 +113,7 @@ def read_left_records(config: Config, robot: RobotConfig, store: Store, name: st
     import pygit2
 
     reads.depend_on_commits(top)
-    inside = f"{os.path.relpath(real(robot.folder), top).replace(os.sep, '/')}/"
+    inside = f"{os.path.relpath(real(robot.folder), top).replace(os.sep, '/')}/".removeprefix("./")
     found = dict[str, FileRecord]()
     try:
         for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():

@@ -13,7 +13,7 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.dependencies.places import real
-from urdfsync.dependencies.reads import is_file, unrecorded
+from urdfsync.dependencies.reads import is_file, read_file, unrecorded
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
@@ -155,8 +155,8 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         if path in self.users_files.all:
             return text_of(self.users_files.all[path])
         try:
-            return text_of(self.files.read(self.files.key(path)) or b"")
-        except OutputError:
+            return text_of(read_file(path))  # the configuration may be a link, and `users` may have named the file once
+        except OSError:
             return ""
 
 

@@ -86,12 +86,12 @@ class PackageFiles:
     def __init__(self, config: Config, robot: RobotConfig) -> None:
         self.root = config.root
         self.overlay: Mapping[str, bytes | None] = {}
-        """Contents that override the disk, by key: results of choices, and the meanings of files that git merged. None
-        stands for no file.
+        """Contents that override the disk, by key: results of choices, and what both branches meant with files that git
+        merged. None stands for no file.
         """
         self.left_by_git: Mapping[str, Merge | None] = {}
         """For each file that is still git's merge, by key: the merge of two branches that contradict each other; None
-        if the overlay has the file's meaning.
+        if the overlay has the meant text.
         """
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         # as when writing: below the configuration's folder, the output folder is no link

@@ -1,4 +1,4 @@
-"""Finds the versions of files that git has merged from two branches, and the meaning of each file."""
+"""Finds the versions of files that git has merged from two branches, and the text that both branches meant."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
         )
         found = _find_meant_text(inputs, key, is_edited=is_edited) if is_edited or key in inputs.unmerged else None
         if isinstance(found, str) and text_hash(found) == files.hash(key, role):
-            continue  # the file has its meaning already, and only `git add` is missing
+            continue  # the file has the meant text already, and only `git add` is missing
         if isinstance(found, str):
             contents[key], left[key] = encode(found), None
         elif found is not None:
@@ -74,7 +74,7 @@ def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
 
 
 def _find_meant_text(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merge | None:
-    """Return a file's meaning, or the merge of two branches that contradict each other; None for other files."""
+    """Return the text that both branches meant, or their merge if they contradict each other; None for other files."""
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
     has_markers, is_unmerged = bool(markers.find_markers(text)), key in inputs.unmerged
     if not (has_markers or is_unmerged or last.files.get(key, NEVER_WRITTEN).is_ambiguous):
