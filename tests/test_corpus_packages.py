@@ -42,7 +42,7 @@ FAULTY = {
 
 SOUND = [file for file in corpus.distinct_files() if file not in FAULTY]
 SOURCES = corpus.by_source(SOUND)
-_LONG = ("upkie", "Rhoban+placo__python_sigmaban")
+_LONG = ("upkie", "Rhoban+placo__python_sigmaban", "pollen-robotics+reachy_mini", "drake-atlas_convex_hull")
 """Sources of many meshes or versions, which take seconds."""
 each_source = pytest.mark.parametrize(
     "source",

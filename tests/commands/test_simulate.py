@@ -35,6 +35,7 @@ def test_all_arguments_reach_the_compiler(compiler: Compiler, execute: Execute) 
     assert [(one.stop, one.step, one.tolerance, one.method) for one in task.runs] == [(2.0, 0.5, 1e-3, "bdf")]
 
 
+@pytest.mark.slow
 def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
     printed = execute("simulate", "--report", "arm.html")
     assert printed.lines[-1] == "  report: arm.html"

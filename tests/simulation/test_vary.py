@@ -249,7 +249,8 @@ def test_the_document_obeys_its_schema(cases: CaseCompiler, execute: Execute) ->
     assert found["files"] == {"csv": "a.csv"}
 
 
-@pytest.mark.parametrize("kind", [pytest.param("png", marks=pytest.mark.slow), "svg"])
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["png", "svg"])
 def test_the_same_cases_give_the_same_picture(cases: CaseCompiler, kind: str) -> None:
     pytest.importorskip("matplotlib")
     pictures = []

@@ -440,6 +440,7 @@ def test_more_loops_than_can_be_closed_are_told(monkeypatch: pytest.MonkeyPatch)
     assert faults(row_of_four_bars(3)) == [("loop-limit", "pin of 0")]
 
 
+@pytest.mark.slow
 def test_a_four_bar_in_line_is_singular() -> None:
     joints = [
         joint("crank", "continuous", "base", "a"),
