@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import re
 from pathlib import Path
+from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import pytest
@@ -44,15 +45,14 @@ SOUND = [file for file in corpus.distinct_files() if file not in FAULTY]
 SOURCES = corpus.by_source(SOUND)
 _LONG = ("upkie", "Rhoban+placo__python_sigmaban", "pollen-robotics+reachy_mini", "drake-atlas_convex_hull")
 """Sources of many meshes or versions, which take seconds."""
-each_source = pytest.mark.parametrize(
-    "source",
-    [
-        pytest.param(
-            *case.values, marks=[*case.marks, *([pytest.mark.slow] if case.values[0].startswith(_LONG) else [])]
-        )
-        for case in sampled(SOURCES, 4)
-    ],
-)
+
+
+def _marked(case: Any) -> Any:
+    (source,) = case.values
+    return pytest.param(source, marks=[*case.marks, pytest.mark.slow]) if source.startswith(_LONG) else case
+
+
+each_source = pytest.mark.parametrize("source", [*map(_marked, sampled(SOURCES, 4))])
 """One robot, or all versions of one history."""
 
 

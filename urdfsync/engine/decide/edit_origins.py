@@ -60,7 +60,7 @@ def find_doubts(
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
     # if both branches changed one element, the united record has no model
     has_model = inputs.last.version is not None or record.is_united
-    if unconfirmed and has_model:
+    if unconfirmed and has_model and inputs.commits:  # most texts need not be compared without a repository
         edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
         for commit in inputs.commits:
             doubts |= _look(inputs, generation, commit, edits)
@@ -143,7 +143,7 @@ def _look(
     shared = {action: lines for action, text in of_commit.items() if (lines := edits[action].shared(text))}
     if not shared:  # true for most commits; reading the model of a large robot would take a while
         return {}
-    record = commit.record
+    record = commit.record()
     try:
         if record is None or record.is_united or not record.snapshot or record.snapshot == inputs.last.record.snapshot:
             return {}

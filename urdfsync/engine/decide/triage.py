@@ -70,7 +70,9 @@ def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
         # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
         old = last.package.artifacts.get(path) if last.package else None
         add(key, old.role if old else role_of(path), old.owner if old else "", None)
-    for key in inputs.left_records.keys() & set(find_unknown(inputs, files) if inputs.left_records else ()):
+    # listing the unknown files takes a while, and git leaves records only while it merges
+    unknown = [*find_unknown(inputs, files)] if inputs.left_records else []
+    for key in filter(inputs.left_records.__contains__, unknown):
         role = role_of(inputs.folder.path(key))
         if not last.is_chosen(key, on_disk := inputs.files.on_disk(key, role)):
             files[key] = File(role, "", inputs.left_records[key], on_disk, None)

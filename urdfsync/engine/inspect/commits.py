@@ -5,17 +5,15 @@ from __future__ import annotations
 import itertools
 import os
 from collections.abc import Iterable, Iterator
-from functools import cached_property
 from pathlib import Path
 
 import msgspec
 
 from urdfsync import git
-from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import reads
 from urdfsync.dependencies.places import real
 from urdfsync.diagnostics import SourceError, StateError
-from urdfsync.engine.inspect.package_files import Folder, PackageFiles, key_of
+from urdfsync.engine.inspect.package_files import Folder, PackageFiles
 from urdfsync.git.revisions import Revision, open_repository
 from urdfsync.git.unmerged import find_git_folder
 from urdfsync.state import bases, statefile
@@ -30,7 +28,7 @@ _BACK = 10
 """The greatest number of commits that are searched, counted back from HEAD."""
 
 
-class CommittedBuild(msgspec.Struct, frozen=True, dict=True):
+class CommittedBuild(msgspec.Struct, frozen=True):
     """A robot's package and record in a commit. What the clone lacks, or what can't be read, counts as missing."""
 
     _revision: Revision
@@ -45,9 +43,8 @@ class CommittedBuild(msgspec.Struct, frozen=True, dict=True):
         contents = self._contents(*paths.values())
         return {key: contents[path].decode(errors="replace") for key, path in paths.items() if path in contents}
 
-    @cached_property
     def record(self) -> Record | None:
-        """The robot's record."""
+        """Return the robot's record."""
         place = self._store.path(self._name)
         content = self._contents(place).get(place)
         try:
@@ -100,27 +97,29 @@ def read_commits(
             continue
 
 
-def read_left_records(config: Config, robot: RobotConfig, store: Store, name: str) -> dict[str, FileRecord]:
-    """Return the records of files that one branch edited and the other deleted, by key.
+def read_left_records(
+    root: Path, files: PackageFiles, folder: Folder, store: Store, name: str
+) -> dict[str, FileRecord]:
+    """Return the records of files in a package's `folder` that one branch edited and the other deleted, by key.
 
     Git leaves such a file in the working tree, but the united record does not list it. `name` is the robot's name in
     the last build.
     """
-    top = git.find_top(config.root) or ""
-    folder = find_git_folder(top)
-    if not any((folder / file).exists() for file in (*UNDER_WAY, "SQUASH_MSG")):
+    top = git.find_top(root) or ""
+    git_folder = find_git_folder(top)
+    if not any((git_folder / file).exists() for file in (*UNDER_WAY, "SQUASH_MSG")):
         return {}  # importing pygit2 takes 55 ms
     import pygit2
 
     reads.depend_on_commits(top)
-    inside = f"{os.path.relpath(real(robot.folder), top).replace(os.sep, '/')}/".removeprefix("./")
+    inside = f"{os.path.relpath(real(files.path(folder)), top).replace(os.sep, '/')}/".removeprefix("./")
     found = dict[str, FileRecord]()
     try:
         for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():
             left = ours or theirs
             if not (base and left and left.path.startswith(inside)) or (ours and theirs):
                 continue
-            key = Folder(key_of(robot.folder, config.root)).key(left.path.removeprefix(inside))
+            key = folder.key(left.path.removeprefix(inside))
             for commit in ("HEAD",) if ours else UNDER_WAY:
                 state = read_text(commit, store.path(name))
                 record = statefile.loads(state, commit)[0] if state else None

@@ -120,7 +120,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def left_records(self) -> Mapping[str, FileRecord]:
         """The records of files that one branch edited and the other deleted, by key, while git merges the branches."""
-        return read_left_records(self.config, self.robot, self.store, self.last.name)
+        return read_left_records(self.config.root, self.files, self.folder, self.store, self.last.name)
 
     @cached_property
     def commits(self) -> tuple[CommittedBuild, ...]:
@@ -136,9 +136,8 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         names |= {old for old, new in self.last.record.former.items() if new in names}
         return read_users_files(self.config, self.robot, names, former)
 
-    @cached_property
-    def unsaved_uses(self) -> Mapping[str, Use]:
-        """Names that mean other parts now, in files that the user has not saved since a build noted them, by path."""
+    def read_unsaved_uses(self) -> dict[str, Use]:
+        """Return names that mean other parts now, by file, if the user has not saved it since a build noted them."""
         return {path: use for path, use in self.last.notes.uses.items() if use.facts == read_saved_facts(Path(path))}
 
     def look_for_class(self, name: str) -> Path | None:

@@ -224,7 +224,7 @@ def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dic
 
     Reads the texts and stat values of the user's files that this may concern.
     """
-    differences, uses = decision.differences, dict(inputs.unsaved_uses)
+    differences, uses = decision.differences, inputs.read_unsaved_uses()
     if not decision.is_complete:
         return uses
     own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
