@@ -242,7 +242,9 @@ def test_the_other_events_look_as_shown() -> None:
     place, words = ("modelica/Arm/Arm.mo", 12, 3), "there is no class `Sensor`"
     mistake = Diagnostic(Severity.ERROR, "compile", words, *place, hint="correct it")
     folder = Path("/home/me/project/modelica/Arm")
-    failed = Result("arm", "Arm", folder, Path("/home/me/project"), diagnostics=(failure,), failed=True)
+    failed = Result(
+        robot="arm", package="Arm", folder=folder, root=Path("/home/me/project"), diagnostics=(failure,), failed=True
+    )
     others: tuple[events.Event, ...] = (
         events.Unchanged("arm"),
         events.Failed(failed),

@@ -25,7 +25,9 @@ def result(*reasons: Reason, **fields: Any) -> Result:
     waiting = fields.pop("waiting", ())
     actions = [Action(f"{number}.mo", reason, Role.MODEL, base="hash") for number, reason in enumerate(reasons)]
     actions += [Action(f"w{number}.mo", reason, Role.MODEL, is_waiting=True) for number, reason in enumerate(waiting)]
-    return Result("arm", "Arm", Path.cwd() / "Arm", Path.cwd(), Actions(actions), **fields)
+    return Result(
+        robot="arm", package="Arm", folder=Path.cwd() / "Arm", root=Path.cwd(), actions=Actions(actions), **fields
+    )
 
 
 @pytest.mark.parametrize(
@@ -90,9 +92,21 @@ def test_the_exit_code_is_that_of_the_worst(build: Result, code: Exit, code_of_a
 
 def test_a_package_is_built_once_a_file_of_it_was_written() -> None:
     assert result(Reason.UPDATE).is_built
-    new = Result("arm", "Arm", Path("Arm"), Path(), Actions([Action("a.mo", Reason.CREATE, Role.MODEL)]))
+    new = Result(
+        robot="arm",
+        package="Arm",
+        folder=Path("Arm"),
+        root=Path(),
+        actions=Actions([Action("a.mo", Reason.CREATE, Role.MODEL)]),
+    )
     assert (new.is_built, new.is_first) == (False, True)
-    found = Result("arm", "Arm", Path("Arm"), Path(), Actions([Action("a.mo", Reason.UNCHANGED, Role.MODEL)]))
+    found = Result(
+        robot="arm",
+        package="Arm",
+        folder=Path("Arm"),
+        root=Path(),
+        actions=Actions([Action("a.mo", Reason.UNCHANGED, Role.MODEL)]),
+    )
     assert (found.is_built, found.is_first) == (True, False)
     assert not result().is_first
 

@@ -60,7 +60,9 @@ def files_of(conflict: Conflict) -> dict[str, str]:
 def seen_of(actions: Actions, texts: tuple[Conflict, ...] = (), dry: bool = False, **options: Any) -> list[str]:
     package = Path(actions[0].path).parent.absolute()
     texts = tuple(msgspec.structs.replace(one, files=files_of(one)) for one in texts)
-    result = Result("arm", "Arm", package, Path.cwd(), actions, dry=dry, conflict_texts=texts)
+    result = Result(
+        robot="arm", package="Arm", folder=package, root=Path.cwd(), actions=actions, dry=dry, conflict_texts=texts
+    )
     return [str(line).rstrip() for line in conflict_lines(result, Console(**options))]
 
 

@@ -22,7 +22,16 @@ def action(reason: Reason, waits: bool = False, path: str = "") -> Action:
 def result_of(*actions: Action, changes: Changes | None = None) -> Result:
     writes = any(one.writes for one in actions)
     place = Path("/project/Arm"), Path("/project")
-    return Result("arm", "Arm", *place, Actions(actions), changes=changes, dry=True, writes=writes)
+    return Result(
+        robot="arm",
+        package="Arm",
+        folder=place[0],
+        root=place[1],
+        actions=Actions(actions),
+        changes=changes,
+        dry=True,
+        writes=writes,
+    )
 
 
 def said(result: Result, *, verbose: bool = False) -> list[str]:

@@ -78,13 +78,23 @@ def started(*robots: str) -> events.Started:
 def built(robot: str, *kinds: Reason, **more: Any) -> events.Built:
     actions = Actions(Action(f"modelica/Arm/F{number}.mo", kind, Role.RECORD) for number, kind in enumerate(kinds))
     return events.Built(
-        Result(robot, "Arm", Path("Arm"), Path(), actions, writes=Reason.UPDATE in kinds, **more),
+        Result(
+            robot=robot,
+            package="Arm",
+            folder=Path("Arm"),
+            root=Path(),
+            actions=actions,
+            writes=Reason.UPDATE in kinds,
+            **more,
+        ),
         (Path("x"),) * (Reason.UPDATE in kinds),
     )
 
 
 def failed(robot: str, *diagnostics: Diagnostic) -> events.Failed:
-    return events.Failed(Result(robot, "Arm", Path("Arm"), Path(), diagnostics=diagnostics, failed=True))
+    return events.Failed(
+        Result(robot=robot, package="Arm", folder=Path("Arm"), root=Path(), diagnostics=diagnostics, failed=True)
+    )
 
 
 BUILT, UNCHANGED = built("arm", Reason.UPDATE), built("arm", Reason.UNCHANGED)

@@ -45,11 +45,17 @@ def action(kind: Reason, name: str = "Elbow", generated: str = "generated", wait
 def built(*actions: Action, recovered: bool = False, **more: Any) -> events.Built:
     files = tuple(Path(action.path).absolute() for action in actions if action.writes)
     more.setdefault("writes", bool(files or more.get("changes")))
-    return events.Built(Result("arm", "Arm", Path("Arm"), Path(), Actions(actions), **more), files, recovered)
+    return events.Built(
+        Result(robot="arm", package="Arm", folder=Path("Arm"), root=Path(), actions=Actions(actions), **more),
+        files,
+        recovered,
+    )
 
 
 def failed(*diagnostics: Diagnostic, again: bool = False) -> events.Failed:
-    return events.Failed(Result("arm", "Arm", Path("Arm"), Path(), diagnostics=diagnostics, failed=True), again)
+    return events.Failed(
+        Result(robot="arm", package="Arm", folder=Path("Arm"), root=Path(), diagnostics=diagnostics, failed=True), again
+    )
 
 
 def told(*found: events.Event, **options: Any) -> list[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import msgspec
 
@@ -32,7 +32,7 @@ from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import plan_robot
-from urdfsync.engine.result import Result
+from urdfsync.engine.result import Outlook, Result
 from urdfsync.engine.stage.writes import Plan, shared_change
 from urdfsync.files import shown
 from urdfsync.processes import machine
@@ -65,10 +65,24 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
             builder.pool = stack.enter_context(start_pool(config, changed, options)) if changed else None
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
-            result = known.get(robot.name) or builder.build(robot)
+            built = known.get(robot.name) or builder.build(robot)
             notes = config.without_ignored([*([] if count else read_stray_states(config)), *builder.notes])
             builder.notes = []
-            yield msgspec.structs.replace(result, diagnostics=(*notes, *robot.without_ignored(result.diagnostics)))
+            findings = (*notes, *robot.without_ignored((*built.warnings, *built.outlook.diagnostics)))
+            others = {"diagnostics": findings, "dry": options.dry, "reads": built.reads, **built.failure}
+            yield Result.of(config, robot, built.outlook, **others)
+
+
+class _Built(NamedTuple):
+    """The outlook that came true for one robot, or its failure."""
+
+    outlook: Outlook
+    reads: FactList
+    """Facts about all files that the build has read; written files have their new facts."""
+    warnings: Sequence[Diagnostic] = ()
+    """Warnings about the output folder."""
+    failure: Mapping[str, Any] = {}
+    """Fields of the result of a failed build."""
 
 
 class _Builder:
@@ -85,9 +99,9 @@ class _Builder:
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
-    def recall(self, robots: Iterable[RobotConfig]) -> dict[str, Result]:
-        """Return the remembered results by name of robot; robots whose package leaves something to do have none."""
-        known, seen = dict[str, Result](), dict[Entry, Facts]()
+    def recall(self, robots: Iterable[RobotConfig]) -> dict[str, _Built]:
+        """Return what is remembered, by name of robot; robots whose package leaves something to do have none."""
+        known, seen = dict[str, _Built](), dict[Entry, Facts]()
         if self._transactions.is_pending():
             return known
         for robot in robots:
@@ -95,36 +109,29 @@ class _Builder:
                 continue  # it matters who trusts the folder
             with contextlib.suppress(UrdfsyncError):  # its domain is missing, or broken: the build reports it
                 key = self._keys.key(robot)
-                if result := remembered.recall(self._config, robot, self._options, key, seen):
-                    known[robot.name] = result
+                if found := remembered.recall(self._config, robot, key, seen):
+                    known[robot.name] = _Built(*found)
         return known
 
-    def build(self, robot: RobotConfig) -> Result:
-        """Build one robot. The result has all errors as diagnostics."""
+    def build(self, robot: RobotConfig) -> _Built:
+        """Build one robot. All errors become diagnostics."""
         self._reads = Reads()
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
             if untrusted and not self._options.dry:
                 raise ConfigError(untrusted)  # noqa: TRY301 - the `except` below reports it
-            result = self._plan_and_write(robot)
+            warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
+            return self._plan_and_write(robot)._replace(warnings=warnings)
         except Exception as error:  # noqa: BLE001 - other robots go on: each build reads all from the disk
-            return Result(
-                robot.name,
-                robot.target.package,
-                robot.folder,
-                self._config.root,
-                diagnostics=findings_of(error),
-                failed=True,
-                locked=isinstance(error, LockedError),
-                unfinished=isinstance(error, UnfinishedError),
-                source_error=error if isinstance(error, SourceError) else None,
-                dry=self._options.dry,
-                reads=FactList.of(self._reads),
-            )
-        warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
-        return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics))
+            failure = {
+                "failed": True,
+                "locked": isinstance(error, LockedError),
+                "unfinished": isinstance(error, UnfinishedError),
+                "source_error": error if isinstance(error, SourceError) else None,
+            }
+            return _Built(Outlook(diagnostics=findings_of(error)), FactList.of(self._reads), failure=failure)
 
-    def _plan_and_write(self, robot: RobotConfig) -> Result:
+    def _plan_and_write(self, robot: RobotConfig) -> _Built:
         """Plan, and write unless the run is dry. Repeat if another build or a save made the plan outdated."""
         saved = robot.folder
         for _ in range(_ATTEMPTS):
@@ -138,7 +145,7 @@ class _Builder:
                 if self._is_current(plan):
                     return self._finish(robot, plan, {})
                 continue
-            if not (plan.result.writes or plan.writes or self._transactions.is_pending()):
+            if not (plan.outlook.writes or plan.writes or self._transactions.is_pending()):
                 return self._finish(robot, plan, {})
             self._lock.acquire(self._wait)
             if not self._is_current(plan):
@@ -155,8 +162,8 @@ class _Builder:
         hint = "close the program that writes it, then build again"
         raise OutputError.of("restless", message, shown(saved), hint=hint)
 
-    def _finish(self, robot: RobotConfig, plan: Plan, written: Mapping[str, str | None]) -> Result:
-        """Save this machine's notes; remember the result of the next plan. Returns the plan's result with its reads.
+    def _finish(self, robot: RobotConfig, plan: Plan, written: Mapping[str, str | None]) -> _Built:
+        """Save this machine's notes; remember the outlook of the next plan. Returns the plan's outlook and its reads.
 
         `written` has the hashes of the written files by path.
         """
@@ -164,15 +171,15 @@ class _Builder:
             written = {**written, **notes.save(self._state_folder, robot.name, plan.notes)}
         # most plans write nothing, and have read hundreds of files
         reads = self._reads.renewed(written, str(robot.folder)) if written else self._reads
-        result = msgspec.structs.replace(plan.result, reads=FactList.of(reads))
+        facts, outlook = FactList.of(reads), plan.outlook
         if plan.writes:
-            next_result = None if self._options.dry else plan.next_result
+            next_outlook = None if self._options.dry else plan.next_outlook
         else:  # without `renews`, a plan writes less than the next one may
-            next_result = result if self._options.renews and not result.writes else None
-        if next_result and reads.complete:
-            next_result = msgspec.structs.replace(next_result, reads=result.reads)
-            remembered.remember(self._config, robot, self._keys.key(robot), next_result)
-        return result
+            next_outlook = outlook if self._options.renews and not outlook.writes else None
+        if next_outlook and reads.complete:
+            result = Result.of(self._config, robot, next_outlook, dry=self._options.dry, reads=facts)
+            remembered.remember(self._config, robot, self._keys.key(robot), result)
+        return _Built(outlook, facts)
 
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build has written, or begun to write, since the plan was made."""

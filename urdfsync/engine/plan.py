@@ -13,7 +13,7 @@ from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inspect.inputs import inspect
 from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.result import Result
+from urdfsync.engine.result import Outlook
 from urdfsync.engine.stage.writes import Plan, stage
 
 
@@ -24,9 +24,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions, reads:
     """
     inputs = inspect(config, robot, options)
     if inputs.source.is_missing:
-        name, package, stale = robot.name, robot.target.package, inputs.source.stale
-        result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
-        return Plan(result, inputs.store.hashes())
+        return Plan(Outlook(stale=inputs.source.stale), inputs.store.hashes())
     generation = generate_robot(inputs)
     inputs = with_git_merges(inputs, generation.package)
     decision = decide_package(inputs, generation)

@@ -18,12 +18,12 @@ from urdfsync.dependencies import record
 from urdfsync.dependencies.facts import Entry, Facts
 from urdfsync.dependencies.places import is_clone
 from urdfsync.dependencies.reads import Reads, depend_on
-from urdfsync.dependencies.record import DependencyRecord
+from urdfsync.dependencies.record import DependencyRecord, FactList
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
 from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.result import Result
+from urdfsync.engine.result import Outlook, Result
 from urdfsync.files import digest, shown
 from urdfsync.state.transaction import DRAFT, PLANNED
 
@@ -76,11 +76,10 @@ def _plain(value: Any) -> str:
     return repr(value)
 
 
-def recall(
-    config: Config, robot: RobotConfig, options: BuildOptions, key: str, seen: dict[Entry, Facts]
-) -> Result | None:
-    """Return the remembered result of a robot; None if anything has changed since, or nothing is remembered.
+def recall(config: Config, robot: RobotConfig, key: str, seen: dict[Entry, Facts]) -> tuple[Outlook, FactList] | None:
+    """Return the remembered outlook for a robot, and the facts of all that it rests on.
 
+    Returns None if anything has changed since, or nothing is remembered.
     `seen` has facts that were looked at just now, and gets the others.
     """
     folder, name = str(config.root / STATE_FOLDER), f"{robot.name}{noop.ROBOT}"
@@ -93,18 +92,8 @@ def recall(
         return None
     if stored.lines and stored.lines != _lines(robot):
         return None
-    return Result(
-        robot.name,
-        robot.target.package,
-        robot.folder,
-        config.root,
-        Actions(stored.actions),
-        stored.diagnostics,
-        dry=options.dry,
-        is_broken=stored.is_broken,
-        changes=stored.changes,
-        reads=found.facts,
-    )
+    known = Actions(stored.actions), stored.diagnostics
+    return Outlook(*known, is_broken=stored.is_broken, changes=stored.changes), found.facts
 
 
 def remember(config: Config, robot: RobotConfig, key: str, result: Result) -> None:

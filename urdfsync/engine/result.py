@@ -7,10 +7,12 @@ import os
 from collections import Counter
 from collections.abc import Container, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any, Self
 
 import msgspec
 
 from urdfsync.changes import Changes
+from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
@@ -96,30 +98,11 @@ class DisputedFile(msgspec.Struct, frozen=True):
         return self.texts is not None and self.texts.merged(choice) is not None
 
 
-class Result(msgspec.Struct, frozen=True):
-    """Result of a build, or of a dry run, for one robot."""
+class Outlook(msgspec.Struct, frozen=True):
+    """What a plan makes of a robot's package, once it is carried out, and what it found."""
 
-    KEYS = tuple(
-        "robot package folder failed locked is_built in_step is_broken writes renews summary "
-        "drawing checked stale changes actions conflicts diagnostics".split()
-    )
-
-    robot: str
-    package: str
-    folder: Path
-    """The package's folder, absolute; the paths of `actions` count from `root`."""
-    root: Path
     actions: Actions = Actions()
     diagnostics: tuple[Diagnostic, ...] = ()
-    failed: bool = False
-    locked: bool = False
-    """Whether the build failed because another process is building."""
-    unfinished: bool = False
-    """Whether the build failed after it had changed files; the next build finishes the changes."""
-    source_error: SourceError | None = None
-    """The error if the source is not a readable model; an exporter may be writing the file."""
-    dry: bool = False
-    """Whether this was a dry run: nothing was written."""
     writes: bool = False
     """Whether the build has written files of the package; in a dry run, whether a build would."""
     renews: bool = False
@@ -136,10 +119,40 @@ class Result(msgspec.Struct, frozen=True):
     conflict_texts: tuple[Conflict, ...] = ()
     settled: frozenset[str] = frozenset()
     """The keys of the files for which a choice was carried out."""
+
+
+class Result(Outlook, frozen=True, kw_only=True):
+    """Result of a build, or of a dry run, for one robot."""
+
+    KEYS = tuple(
+        "robot package folder failed locked is_built in_step is_broken writes renews summary "
+        "drawing checked stale changes actions conflicts diagnostics".split()
+    )
+
+    robot: str
+    package: str
+    folder: Path
+    """The package's folder, absolute; the paths of `actions` count from `root`."""
+    root: Path
+    failed: bool = False
+    locked: bool = False
+    """Whether the build failed because another process is building."""
+    unfinished: bool = False
+    """Whether the build failed after it had changed files; the next build finishes the changes."""
+    source_error: SourceError | None = None
+    """The error if the source is not a readable model; an exporter may be writing the file."""
+    dry: bool = False
+    """Whether this was a dry run: nothing was written."""
     checked: Checked | None = None
     """Result of the check after the build; None without a check. `diagnostics` includes the check's findings."""
     reads: FactList = msgspec.field(default_factory=FactList)
     """Facts about all files that the build has read; written files have their new facts."""
+
+    @classmethod
+    def of(cls, config: Config, robot: RobotConfig, outlook: Outlook, **others: Any) -> Self:
+        """Return the result of an outlook that came true; `others` are further fields, or replace some of its own."""
+        fields = msgspec.structs.asdict(outlook) | others
+        return cls(robot=robot.name, package=robot.target.package, folder=robot.folder, root=config.root, **fields)
 
     @property
     def conflicts(self) -> Sequence[DisputedFile]:

@@ -30,7 +30,7 @@ from urdfsync.engine.inspect.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package import imports
 from urdfsync.engine.package.generate import Package, generate
-from urdfsync.engine.result import Exit, Result, error_count
+from urdfsync.engine.result import Exit, Outlook, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.sources import source as source_files
 from urdfsync.engine.sources.source import Source
@@ -200,8 +200,8 @@ def compare_sources(
 def _result(robot: RobotConfig, config: Config | None) -> Result:
     """Return an empty result; without a configuration, paths count from the robot's package."""
     if config is None:
-        return Result(robot.name, robot.target.package, Path(), Path(), dry=True)
-    return Result(robot.name, robot.target.package, robot.folder, config.root, dry=True)
+        return Result(robot=robot.name, package=robot.target.package, folder=Path(), root=Path(), dry=True)
+    return Result.of(config, robot, Outlook(), dry=True)
 
 
 def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions, result: Result) -> Comparison:

@@ -88,11 +88,12 @@ def test_a_build_that_writes_foresees_the_next_plan(project: Path, name: str) ->
 
 
 def recalled(site: Path) -> Iterator[tuple[RobotConfig, Result | None]]:
-    """The robots of a project, and what is remembered of them."""
+    """The robots of a project, and the results that are remembered."""
     loaded = config.load(site / "urdfsync.toml")
     keys, seen = remembered.RecordKeys(loaded, BuildOptions()), dict[Entry, Facts]()
     for robot in loaded.robots:
-        yield robot, remembered.recall(loaded, robot, BuildOptions(dry=True), keys.key(robot), seen)
+        found = remembered.recall(loaded, robot, keys.key(robot), seen)
+        yield robot, Result.of(loaded, robot, found[0], dry=True, reads=found[1]) if found else None
 
 
 @pytest.mark.parametrize("count", [3, pytest.param(8, marks=pytest.mark.slow)])

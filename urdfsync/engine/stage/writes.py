@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from urdfsync.changes import Changes
 from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.engine.actions import Action, Actions
@@ -19,12 +20,12 @@ from urdfsync.engine.inspect.inputs import Inputs, Settled
 from urdfsync.engine.inspect.package_files import PackageFiles, encode
 from urdfsync.engine.inspect.parents import SharedFile, merge_order
 from urdfsync.engine.package.generate import Package
-from urdfsync.engine.result import Result
+from urdfsync.engine.result import Outlook
 from urdfsync.engine.stage.aside import put_aside, tell_aside
 from urdfsync.engine.stage.findings import UNMERGED, find_lasting, find_news, find_uses, tell_uses
 from urdfsync.engine.stage.foresight import foresee_actions
 from urdfsync.engine.stage.record_after import notes_after, record_after
-from urdfsync.engine.stage.saved_conflicts import SavedConflicts, save_conflicts
+from urdfsync.engine.stage.saved_conflicts import save_conflicts
 from urdfsync.files import digest, shown
 from urdfsync.modelica.markers import join_sides
 from urdfsync.state import bases, expansion, statefile
@@ -35,9 +36,9 @@ from urdfsync.state.transaction import FileChange, Writes
 
 
 class Plan(msgspec.Struct, frozen=True):
-    """All writes of one robot's build, and the result after them."""
+    """All writes of one robot's build, and the outlook for its package."""
 
-    result: Result
+    outlook: Outlook
     state: StateHashes
     """Hashes of the recorded state when the plan was made."""
     shared: tuple[SharedFile, ...] = ()
@@ -48,8 +49,8 @@ class Plan(msgspec.Struct, frozen=True):
     """The folders that become empty, innermost first."""
     notes: Notes | None = None
     """This machine's notes after the build, if they change."""
-    next_result: Result | None = None
-    """The result of the next plan, if nobody changes a file after this build; None if it is not certain."""
+    next_outlook: Outlook | None = None
+    """The outlook of the next plan, if nobody changes a file after this build; None if it is not certain."""
 
 
 def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Reads) -> Plan:
@@ -76,12 +77,18 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
     uses = find_uses(inputs, generation, decision)
     lasting = [*find_lasting(inputs, generation, decision, reads), *tell_uses(inputs, uses)]
     news = [*find_news(inputs, generation, decision), *tell_aside(inputs, actions, index, texts)]
-    result = msgspec.structs.replace(
-        _result(inputs, decision, actions, conflicts, is_writing=is_writing),
-        diagnostics=_sorted((*lasting, *news, *conflicts.diagnostics)),
-        is_unmerged=any(finding.code == UNMERGED for finding in (*lasting, *news)),
+    outlook = Outlook(
+        actions,
+        _sorted((*lasting, *news, *conflicts.diagnostics)),
+        writes=is_writing,
         renews=bool(needed or state),
+        stale=inputs.source.stale,
+        is_broken=any(misfit.is_broken for misfit in decision.misfits),
+        is_unmerged=any(finding.code == UNMERGED for finding in (*lasting, *news)),
         drawing=None if picture is None else drawing,
+        changes=_told_changes(decision, is_writing=is_writing),
+        conflict_texts=conflicts.conflicts,
+        settled=frozenset(inputs.settled.keys),
     )
     notes, after = None, None
     if record is not None:
@@ -95,40 +102,25 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
         )
         if notes == inputs.last.notes and not (inputs.former_name or options.choices):
             notes = None
-    next_result = None if after is None else _next_result(result, after, lasting)
+    next_outlook = None if after is None else _next_outlook(outlook, after, lasting)
     emptied = _emptied(inputs, writes.in_order())
-    return Plan(result, store.hashes(), decision.shared, writes, emptied, notes, next_result)
+    return Plan(outlook, store.hashes(), decision.shared, writes, emptied, notes, next_outlook)
 
 
-def _result(
-    inputs: Inputs, decision: Decision, actions: Actions, conflicts: SavedConflicts, *, is_writing: bool
-) -> Result:
-    """Return the result of the build, without its findings and without what becomes of the recorded state."""
-    robot, news = inputs.robot, decision.differences.changes
+def _told_changes(decision: Decision, *, is_writing: bool) -> Changes | None:
+    """Return the changes of the model that the build tells; None without any."""
+    news = decision.differences.changes
     if news and not is_writing and decision.is_complete:
         # else the next plan would report them again: the record keeps the old generator and options
         news = msgspec.structs.replace(news, generator=False, options=())
-    return Result(
-        robot.name,
-        robot.target.package,
-        robot.folder,
-        inputs.config.root,
-        actions,
-        dry=inputs.options.dry,
-        writes=is_writing,
-        stale=inputs.source.stale,
-        is_broken=any(misfit.is_broken for misfit in decision.misfits),
-        changes=news if news and (news.changes or news.generator) else None,
-        conflict_texts=conflicts.conflicts,
-        settled=frozenset(inputs.settled.keys),
-    )
+    return news if news and (news.changes or news.generator) else None
 
 
-def _next_result(result: Result, actions: Actions, lasting: Iterable[Diagnostic]) -> Result:
-    """Return the result of the next plan with these actions, if nobody changes a file."""
+def _next_outlook(outlook: Outlook, actions: Actions, lasting: Iterable[Diagnostic]) -> Outlook:
+    """Return the outlook of the next plan with these actions, if nobody changes a file."""
     silent: dict[str, Any] = {"writes": False, "renews": False, "changes": None}
     known = [msgspec.structs.replace(finding, is_new=False) for finding in lasting]
-    return msgspec.structs.replace(result, actions=actions, diagnostics=_sorted(known), **silent)
+    return msgspec.structs.replace(outlook, actions=actions, diagnostics=_sorted(known), **silent)
 
 
 def _sorted(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
