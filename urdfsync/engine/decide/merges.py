@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Reason
+from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Choice, Reason
 from urdfsync.engine.decide.conflicts import PREFERENCES, Conflict, Verdicts, find_conflict, only_names_changed, resolve
 from urdfsync.engine.decide.differences import GONE, Differences
 from urdfsync.engine.decide.misfits import look_for_misfits
@@ -20,6 +20,7 @@ from urdfsync.engine.decide.triage import Triage
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import PackageFiles
+from urdfsync.engine.package.generate import Package
 from urdfsync.modelica import markers
 
 _IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
@@ -33,7 +34,7 @@ def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differe
     package, actions = generation.package, triaged.actions
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {one.path: _conflict(inputs, generation, one, triaged) for one in disputed}
-    conflicts = _reject_unfit_merges(PackageAfter(inputs, package, actions, {}), conflicts, triaged.origins)
+    conflicts = _refuse_unfit_merges(_Trials(inputs, package, actions, triaged.origins), conflicts)
     names = {name: new for (_, name), new in differences.renames.items()} | dict(triaged.names)
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
     actions, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
@@ -95,48 +96,67 @@ def _names_since_undo(
     return names
 
 
-def _reject_unfit_merges(
-    after: PackageAfter, conflicts: Mapping[str, Conflict], origins: Collection[str]
-) -> dict[str, Conflict]:
-    """Return the conflicts, in which merges that would use unknown names are rejected, each with its reason.
+def _refuse_unfit_merges(trials: _Trials, conflicts: Mapping[str, Conflict]) -> dict[str, Conflict]:
+    """Return the conflicts; a merge that would use an unknown name is refused, with the reason.
 
-    This looks at packages as they would be, and decides nothing: first with all clean merges, then with contradictions
-    decided for each side. `after` has no merges yet.
+    First all clean merges are tried together, then those whose contradictions are decided for one side.
     """
-    judged, before, actions = dict(conflicts), None, after.actions
-    package_after = functools.partial(PackageAfter, after.inputs, after.package)
-    for side in (None, *PREFERENCES):
+    unfit = trials.find_unfit(conflicts, None)
+    judged = {
+        key: msgspec.structs.replace(one, merge=one.merge and one.merge.rejected, rejected=unfit[key])
+        if key in unfit
+        else one
+        for key, one in conflicts.items()
+    }
+    refused = {side: trials.find_unfit(judged, side) for side in PREFERENCES}
+    for key in set().union(*refused.values()):
+        reasons = {side: unfit[key] for side, unfit in refused.items() if key in unfit}
+        judged[key] = msgspec.structs.replace(judged[key], refused=reasons)
+    return judged
+
+
+class _Trials(msgspec.Struct, frozen=True, dict=True):
+    """Looks at packages as they would be with some merges; decides nothing."""
+
+    inputs: Inputs
+    package: Package
+    actions: Sequence[Action]
+    """The actions before any merge."""
+    origins: Collection[str]
+    """The former keys of files whose elements have other names."""
+
+    def find_unfit(self, conflicts: Mapping[str, Conflict], side: Choice | None) -> dict[str, str]:
+        """Return why merges do not fit the package, by key; `side` decides contradictions, None tries clean merges."""
         tried = {
             key: text
-            for key, one in judged.items()
+            for key, one in conflicts.items()
             # a merge of branches gets its new names only when it moves
             if not (one.is_of_branches and one.origin)
             if (text := one.merged(side)) is not None and (side is None or one.merged(None) is None)
         }
         if not tried:
-            continue
-        planned, merged = resolve(actions, judged, merging=True, choice=side)
-        planned = keep_needed(package_after(planned, merged), origins)
-        misfits = look_for_misfits(package_after(planned, merged, conflicts_empty=True), merged.keys())
-        if misfits and before is None:
-            # names in a folder without its `package.mo` are not looked up: the faults there would seem to be new
-            restored = {one.path for one in actions if one.reason is Reason.RESTORE and one.base == one.generated}
-            waiting = [msgspec.structs.replace(one, is_waiting=one.path not in restored) for one in actions]
-            paths = {one.origin or one.path for one in conflicts.values()}
-            before = {(one.key, one.fault) for one in look_for_misfits(package_after(waiting, {}), paths)}
-        for key in {one.key for one in misfits} & tried.keys():
-            conflict = judged[key]
-            of_file = (one for one in misfits if one.key == key)
-            new = next(
-                (one.finding for one in of_file if (conflict.origin or key, one.fault) not in (before or ())), None
-            )
-            if new is None or tried[key] == conflict.mine:
-                continue
-            reason = f"in the merge, {new.message} (line {new.line})"
-            merge = conflict.merge and conflict.merge.rejected
-            changed = {"refused": {**conflict.refused, side: reason}} if side else {"merge": merge, "rejected": reason}
-            judged[key] = msgspec.structs.replace(conflict, **changed)
-    return judged
+            return {}
+        planned, merged = resolve(self.actions, conflicts, merging=True, choice=side)
+        planned = keep_needed(PackageAfter(self.inputs, self.package, planned, merged), self.origins)
+        after = PackageAfter(self.inputs, self.package, planned, merged, conflicts_empty=True)
+        misfits = [one for one in look_for_misfits(after, merged.keys()) if one.key in tried]
+        unfit = dict[str, str]()
+        for misfit in misfits:
+            key, finding = misfit.key, misfit.finding
+            is_new = (conflicts[key].origin or key, misfit.fault) not in self._present_faults
+            if key not in unfit and is_new and tried[key] != conflicts[key].mine:
+                unfit[key] = f"in the merge, {finding.message} (line {finding.line})"
+        return unfit
+
+    @functools.cached_property
+    def _present_faults(self) -> set[tuple[str, str]]:
+        """The faults that the texts in dispute have without any merge: key and fault."""
+        # names in a folder without its `package.mo` are not looked up: the faults there would seem to be new
+        restored = {one.path for one in self.actions if one.reason is Reason.RESTORE and one.base == one.generated}
+        waiting = [msgspec.structs.replace(one, is_waiting=one.path not in restored) for one in self.actions]
+        paths = {one.origin or one.path for one in self.actions if one.reason in DISPUTED}
+        without = PackageAfter(self.inputs, self.package, waiting, {})
+        return {(one.key, one.fault) for one in look_for_misfits(without, paths)}
 
 
 def _describe_branches(contradictions: Sequence[str], text: str) -> str:
