@@ -176,7 +176,8 @@ def by_hand(edit: hand_edits.Edit) -> edits.Edit:
 
     def change(path: Path, random: Random, number: str) -> None:
         if (edited := edit(path.read_text(), random)) is not None:
-            path.write_text(edited)
+            # one line in two branches looks as if it came from the other branch, which a clone may not have
+            path.write_text(re.sub(rf"{hand_edits.MARK}(?!\d)", f"{hand_edits.MARK}{number}", edited))
 
     return change
 

@@ -25,6 +25,15 @@ class Use(msgspec.Struct, frozen=True):
     """The new names of the parts that the user meant, by the names in the file."""
 
 
+class Judged(msgspec.Struct, frozen=True, array_like=True):
+    """An edit whose part was known at the last build."""
+
+    mine: str
+    """Hash of the user's text."""
+    lines: frozenset[str] = frozenset()
+    """The lines that the edit adds or removes, without indents."""
+
+
 class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """This machine's notes on one robot."""
 
@@ -45,8 +54,8 @@ class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Hashes of the other saved versions of conflicts, as urdfsync wrote them, by path."""
     model: str = ""
     """Hash of the last recorded model."""
-    edited: Mapping[str, str] = {}
-    """Hashes of the edited files at the last build, by key."""
+    edited: Mapping[str, Judged] = {}
+    """The edits of files at the last build, by key."""
     uses: Mapping[str, Use] = {}
     """Names that mean other parts now, by absolute path of a user's file."""
 

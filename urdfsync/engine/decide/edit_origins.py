@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import NamedTuple
 
 from urdfsync.domain import ElementKey, Role, Snapshot, Version
@@ -27,6 +27,7 @@ from urdfsync.engine.inspect.package_files import text_hash
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
+from urdfsync.state.notes import Judged
 from urdfsync.state.record import FileRecord, as_read
 
 EDITED = (Reason.KEEP, Reason.CONFLICT)
@@ -55,13 +56,18 @@ def find_doubts(
     unconfirmed = [one for one in unconfirmed if one.path not in open_doubts]
     if not record.is_united:  # the build that wrote the record has judged these texts; a clone knows that, too
         unconfirmed = [one for one in unconfirmed if one.mine not in record.edited]
-    if unconfirmed and notes.model == hash_of(record.snapshot):  # otherwise git may have changed the meaning of names
-        unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
+    # otherwise git may have changed the meaning of names
+    judged = notes.edited if unconfirmed and notes.model == hash_of(record.snapshot) else {}
+    unconfirmed = [one for one in unconfirmed if one.path not in judged or judged[one.path].mine != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
     # if both branches changed one element, the united record has no model
     has_model = inputs.last.version is not None or record.is_united
     if unconfirmed and has_model and inputs.commits:  # most texts need not be compared without a repository
-        edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
+        edits = dict[Action, _Edit]()
+        for one in unconfirmed:
+            edit = _edit_of(inputs, generation.package, one.path, inputs.files.text(one.path) or "")
+            # the user has saved the file again: his former lines are where they belong, whatever a commit says
+            edits[one] = edit.without(judged[one.path].lines) if one.path in judged else edit
         for commit in inputs.commits:
             doubts |= _look(inputs, generation, commit, edits)
     return {path: doubt for path, doubt in doubts.items() if doubt}
@@ -82,7 +88,9 @@ def _doubt(
     """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
     found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
-        lines = _edit_of(inputs, generation.package, action).added if found or renumbered else ()
+        lines: Collection[str] = ()
+        if found or renumbered:
+            lines = _edit_of(inputs, generation.package, action.path, inputs.files.text(action.path) or "").added
         return _named(inputs, lines, found, renumbered, generation.now.snapshot)
     if element in found:
         return found[element]
@@ -116,17 +124,40 @@ class _Edit(NamedTuple):
         lines = _lines(text)
         return self.added & lines if self.added else self.removed - lines
 
+    def without(self, lines: Collection[str]) -> _Edit:
+        """Return the rest of the edit without these lines."""
+        return _Edit(*(Counter({one: n for one, n in side.items() if one not in lines}) for side in self))
+
     def has_moved(self, shared: Counter[str], text: str) -> bool:
         """Return whether this text, the file of the element's new name, has the shared lines of the edit already."""
         return not shared - _lines(text) if self.added else not shared & _lines(text)
 
 
-def _edit_of(inputs: Inputs, package: Package, action: Action) -> _Edit:
-    """Return the user's edit of a generated text; a line of one of the file's bases is no edit."""
-    last = inputs.last
-    mine = _lines(inputs.files.text(action.path) or "")
-    generated = _lines(package.content(inputs.folder.path(action.path)).decode())
-    known = last.bases(last.files.get(action.path, FileRecord())).values()
+def note_edits(
+    inputs: Inputs, package: Package, actions: Iterable[Action], merged: Mapping[str, str]
+) -> dict[str, Judged]:
+    """Return the edits that stay where they are, for the notes; `merged` has merged texts by key."""
+    noted, known = dict[str, Judged](), inputs.last.notes.edited
+    for action in actions:
+        key, sha256 = action.path, action.mine
+        if action.reason not in EDITED or not sha256:
+            continue
+        if key in known and known[key].mine == sha256:
+            noted[key] = known[key]
+            continue
+        text, edit = merged.get(key) or inputs.files.any_text(key), frozenset[str]()
+        if text and inputs.folder.path(key) in package.artifacts:
+            added, removed = _edit_of(inputs, package, key, text)
+            edit = frozenset(added | removed)
+        noted[key] = Judged(sha256, edit)
+    return noted
+
+
+def _edit_of(inputs: Inputs, package: Package, key: str, text: str) -> _Edit:
+    """Return the user's edit of a generated file, with his text; a line of one of the file's bases is no edit."""
+    last, mine = inputs.last, _lines(text)
+    generated = _lines(package.content(inputs.folder.path(key)).decode())
+    known = last.bases(last.files.get(key, FileRecord())).values()
     return _Edit(mine - (generated | _lines("\n".join(known))), generated - mine)
 
 

@@ -13,7 +13,7 @@ from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.engine.actions import Action, Actions
 from urdfsync.engine.decide.decision import Decision
-from urdfsync.engine.decide.edit_origins import EDITED
+from urdfsync.engine.decide.edit_origins import note_edits
 from urdfsync.engine.decide.package_after import PackageAfter
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs, Settled
@@ -97,7 +97,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
             notes_after(inputs, generation, record, index.values()),
             proposals=inputs.last.notes.proposals if options.dry else conflicts.noted,
             versions=inputs.last.notes.versions if options.dry else conflicts.written,
-            edited={one.path: one.mine for one in after or decision.actions if one.reason in EDITED and one.mine},
+            edited=note_edits(inputs, generation.package, after or decision.actions, decision.texts),
             uses=uses,
         )
         if notes == inputs.last.notes and not (inputs.former_name or options.choices):
