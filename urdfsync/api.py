@@ -326,9 +326,9 @@ def record(
     can't be read, and ConfigError for a name that can't be used.
     """
     from urdfsync import registry
+    from urdfsync.engine.judgements import judge
     from urdfsync.engine.package.generate import Package
     from urdfsync.engine.sources import source as sources
-    from urdfsync.engine.stage.judgements import judge
 
     source, target, form = Path(source), _target(class_, within, Path(source)), registry.domain(domain)
     text = sources.read_file_source(form, source, arguments or {}, configuration.ros_package_path())

@@ -13,8 +13,8 @@ import msgspec
 from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Artifact, Companion, Import, Lookup, Order, Reading, Role, Target, Version
+from urdfsync.engine.judgements import judge
 from urdfsync.engine.package.render import Renderer
-from urdfsync.engine.stage.judgements import judge
 from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.artifacts import record
 from urdfsync.urdf.domain import DOMAIN

@@ -26,10 +26,10 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.reads import read_file
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.domain.experiment import Checks, Experiment, Mismatch, Numbers, Sample
+from urdfsync.engine.judgements import judge
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources.expansion import SourceFiles, compare
 from urdfsync.engine.sources.translators import find_translator
-from urdfsync.engine.stage.judgements import judge
 from urdfsync.files import shown
 from urdfsync.processes.workers import tell
 

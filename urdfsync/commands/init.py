@@ -22,9 +22,9 @@ from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Version
 from urdfsync.domain.advice import Proposal
+from urdfsync.engine.judgements import judge
 from urdfsync.engine.result import Exit
 from urdfsync.engine.sources import source as source_files
-from urdfsync.engine.stage.judgements import judge
 from urdfsync.files import Tree, put, shown
 from urdfsync.modelica.names import class_name, in_ascii
 from urdfsync.output.console import Console, line

@@ -27,6 +27,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.engine.inspect.inputs import inspect
+from urdfsync.engine.judgements import find_jumps, judge
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package import imports
 from urdfsync.engine.package.generate import Package, generate
@@ -36,7 +37,6 @@ from urdfsync.engine.sources import source as source_files
 from urdfsync.engine.sources.source import Source
 from urdfsync.engine.sources.translators import find_translator, is_xacro
 from urdfsync.engine.stage.findings import CONNECTORS
-from urdfsync.engine.stage.judgements import find_jumps, judge
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
 from urdfsync.matching import Matching

@@ -49,7 +49,7 @@ class CommittedBuild(msgspec.Struct, frozen=True):
         content = self._contents(place).get(place)
         try:
             label = self._revision.label(place)
-            return None if content is None else statefile.loads(content.decode(errors="replace"), label)[0]
+            return None if content is None else statefile.loads(plain(content.decode(errors="replace")), label)[0]
         except StateError:
             return None
 

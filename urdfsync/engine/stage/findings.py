@@ -35,7 +35,7 @@ from urdfsync.engine.decide.unused import tell_unused
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.users_files import read_saved_facts
-from urdfsync.engine.stage.judgements import find_jumps, judge
+from urdfsync.engine.judgements import find_jumps, judge
 from urdfsync.files import shown
 from urdfsync.state.notes import Use
 
