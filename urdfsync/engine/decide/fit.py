@@ -82,34 +82,32 @@ def find_misfits(after: PackageAfter, only: Collection[str] | None = None) -> li
 
     In a merge, a removed name is a fault even if a class may inherit it from an unread library.
     """
-    return _Package(after).misfits(only)
+    return _Resolver(after).misfits(only)
 
 
-class _Package(PackageAfter):
-    """The package after a build; resolves the names in it."""
+class _Resolver:
+    """Resolves the names in a package after a build."""
 
     def __init__(self, after: PackageAfter) -> None:
-        super().__init__(
-            after.inputs, after.package, after.actions, after.merged, conflicts_empty=after.conflicts_empty
-        )
+        self._after, self._inputs = after, after.inputs
         self._readings, self._differences = dict[bytes, ShortText](), dict[str, EditedStatements]()
 
     def class_name(self, path: str) -> ClassName:
         """Return the full name of a file's class, by the file's path below the package."""
-        return (*self.inputs.robot.target.package.split("."), *class_parts(path))
+        return (*self._inputs.robot.target.package.split("."), *class_parts(path))
 
     # --- classes --------------------------------------------------------------------------------------------------
 
     def classes(self) -> StoredClasses:
         """Return all classes for resolving names."""
-        inputs, target = self.inputs, self.inputs.robot.target
+        inputs, target = self._inputs, self._inputs.robot.target
         parents = {one.path: one.content for one in inputs.parents.shared if one.content is not None}
         former = inputs.last.target.package if inputs.last.target.package != target.package else ""
-        folder, around = inputs.files.path(inputs.folder), {**self.around, **parents}
+        folder, around = inputs.files.path(inputs.folder), {**self._after.around, **parents}
         return StoredClasses(
             target.package,
             folder,
-            self,
+            self._after,
             around,
             inputs.look_for_class,
             lambda content: self._reading(content).stored,
@@ -120,7 +118,7 @@ class _Package(PackageAfter):
         """Parse a file; in a generated file, read only the statements that matter to other files."""
         if content not in self._readings:
             text = text_of(content)
-            passed = plain_statements(text) if content in self._generated else frozenset[str]()
+            passed = plain_statements(text) if self._after.is_generated(content) else frozenset[str]()
             self._readings[content] = parse_without(text, passed)
         return self._readings[content]
 
@@ -128,37 +126,37 @@ class _Package(PackageAfter):
 
     def misfits(self, only: Collection[str] | None = None) -> list[Misfit]:
         """See `find_misfits`."""
-        if not self.users:
+        if not self._after.users:
             return [*self._look_at_orders()] if only is None else []
         passed = self._passed_statements()
         for path, statements in passed.items():
-            self._readings[self[path]] = parse_without(text_of(self[path]), statements)
+            self._readings[self._after[path]] = parse_without(text_of(self._after[path]), statements)
         misfits = [*self._look_at_places(), *self._look_at_orders()] if only is None else []
         scopes, lost = Scopes(self.classes()), self._is_lost if only is not None else None
         for path in passed:
-            if only is None or self._files[path].key in only:
+            if only is None or self._after.files[path].key in only:
                 misfits += self._look(path, scopes, lost, passed)
-        for file in sorted(self.around) if only is None else ():
+        for file in sorted(self._after.around) if only is None else ():
             misfits += self._look_around(file, scopes)
         return misfits
 
     def _passed_statements(self) -> dict[str, frozenset[str]]:
         """Return the files to check, each with the statements that need no check: these equal generated statements."""
-        artifacts, statements = self.package.artifacts, dict[str, frozenset[str]]()
+        artifacts, statements = self._after.package.artifacts, dict[str, frozenset[str]]()
         # begin with classes that generated texts mention and that are missing
-        before = self.inputs.last.files
-        expected = set(map(self.inputs.folder.path, before)) if self._is_waiting else set(artifacts)
-        missing = expected - set(map(as_file, self)) - self._files.keys()
+        before = self._inputs.last.files
+        expected = set(map(self._inputs.folder.path, before)) if self._is_waiting else set(artifacts)
+        missing = expected - set(map(as_file, self._after)) - self._after.files.keys()
         names, classes = {class_of(path) for path in missing if path.endswith(".mo")}, set[str]()
-        edited = [path for path, file in self._files.items() if file.is_edited]
+        edited = [path for path, file in self._after.files.items() if file.is_edited]
         for path in edited:
-            difference = self._differences[path] = compare(text_of(self[path]), self._generated_text(path))
+            difference = self._differences[path] = compare(text_of(self._after[path]), self._generated_text(path))
             classes.update(self.class_name(path)[-1:] if difference.is_whole else ())
             statements[path], names = difference.same, names | difference.names
         owners = {artifacts[path].owner for path in edited if path in artifacts}
-        for path, file in self._files.items():
+        for path, file in self._after.files.items():
             if file.is_generated and path in artifacts and (artifacts[path].owner in owners or "/" not in path):
-                text = text_of(self[path])
+                text = text_of(self._after[path])
                 if mentioning([text], names | classes):
                     statements[path] = plain_statements(text)
         components = (component_of(one) for same in statements.values() for one in mentioning(same, classes))
@@ -168,14 +166,14 @@ class _Package(PackageAfter):
     @cached_property
     def _is_waiting(self) -> bool:
         """Whether an action waits, so that the package stays as the last complete build left it."""
-        return any(action.is_waiting for action in self.actions)
+        return any(action.is_waiting for action in self._after.actions)
 
     def _generated_text(self, path: str) -> str:
         """Return the generated text of an edited file; empty if there is none."""
-        inputs, artifacts = self.inputs, self.package.artifacts
+        inputs, artifacts = self._inputs, self._after.package.artifacts
         place = path if path in artifacts else as_file(path)
         if not self._is_waiting:
-            return self.package.content(place).decode() if place in artifacts else ""
+            return self._after.package.content(place).decode() if place in artifacts else ""
         if inputs.last.package and place in inputs.last.package.artifacts:
             return inputs.last.package.content(place).decode()
         record = inputs.last.files.get(inputs.folder.key(place))
@@ -183,37 +181,41 @@ class _Package(PackageAfter):
 
     def _is_lost(self, name: str) -> bool:
         """Whether a replaced or deleted text declares this name, and the new text does not."""
-        files, folder = self.inputs.files, self.inputs.folder
+        files, folder = self._inputs.files, self._inputs.folder
         replaced = list[tuple[str, str]]()
         # if all actions wait, the package stays as it was before the choices
-        if not all(action.is_waiting for action in self.actions):
+        if not all(action.is_waiting for action in self._after.actions):
             chosen = (key for key in files.overlay if key.endswith(".mo") and files.is_chosen(key))
             replaced += [(folder.path(key), text_of(files.read_on_disk(key) or b"")) for key in chosen]
-        for action in self.actions:
+        for action in self._after.actions:
             if action.writes and (key := action.origin or action.path).endswith(".mo"):
                 replaced.append((folder.path(action.path), files.any_text(key)))
         for path, old in replaced:
             if name not in old or name not in declared_names([old]):  # parsing all texts would take too long
                 continue
-            if path not in self or name not in declared_names([text_of(self[path])]):
+            if path not in self._after or name not in declared_names([text_of(self._after[path])]):
                 return True
         return False
 
     def _look_at_places(self) -> Iterator[Misfit]:
         """Find classes that are stored in two places."""
-        packages = [path for path, file in self._files.items() if file.is_edited and f"/{path}".endswith("/package.mo")]
-        for path, finding in check_places(self, {package: self._declared(package) or {} for package in packages}):
-            file, other = self._files[path], self._files.get(f"{path.removesuffix('.mo')}/{PACKAGE_FILE}")
+        packages = [
+            path for path, file in self._after.files.items() if file.is_edited and f"/{path}".endswith("/package.mo")
+        ]
+        for path, finding in check_places(
+            self._after, {package: self._declared(package) or {} for package in packages}
+        ):
+            file, other = self._after.files[path], self._after.files.get(f"{path.removesuffix('.mo')}/{PACKAGE_FILE}")
             is_broken = file.is_expected or (other is not None and other.is_expected)
-            yield Misfit(self.inputs.files.path(file.key), finding, file.key, is_broken)
+            yield Misfit(self._inputs.files.path(file.key), finding, file.key, is_broken)
 
     @cached_property
     def _used(self) -> set[str | Path]:
         """The user's own files whose classes his edits of generated files use, directly or through others."""
         own = dict[str | Path, bytes]()
-        own.update((path, self[path]) for path, file in self._files.items() if file.is_users)
-        own.update(self.around.items())
-        edited = (self[path] for path, file in self._files.items() if file.is_edited and file.is_expected)
+        own.update((path, self._after[path]) for path, file in self._after.files.items() if file.is_users)
+        own.update(self._after.around.items())
+        edited = (self._after[path] for path, file in self._after.files.items() if file.is_edited and file.is_expected)
         words, used = set().union(*map(code_words, edited)), set[str | Path]()
         while new := {path for path in own.keys() - used if class_of(str(path)) in words}:
             used |= new
@@ -222,24 +224,24 @@ class _Package(PackageAfter):
 
     def _declared(self, path: str) -> dict[str, int] | None:
         """Return the lines of a `package.mo`'s declarations, by name; None for a missing or faulty file."""
-        stored = self._reading(self[path]).stored if path in self else None
+        stored = self._reading(self._after[path]).stored if path in self._after else None
         if stored is None or stored.is_broken:
             return None
         return {inside.path[1]: inside.line for inside in declared(stored.classes) if len(inside.path) == 2}
 
     def _look_at_orders(self) -> Iterator[Misfit]:
         """Find the user's lines in a `package.order` that name no class."""
-        inputs, files, orders = self.inputs, self.inputs.files, self.package.orders
-        for path, (text, lines) in self.extended_orders.items():
+        inputs, files, orders = self._inputs, self._inputs.files, self._after.package.orders
+        for path, (text, lines) in self._after.extended_orders.items():
             names, folder = orders.get(path, ()), path.removesuffix("package.order")
-            below = (other.removeprefix(folder) for other in self if other.startswith(folder))
+            below = (other.removeprefix(folder) for other in self._after if other.startswith(folder))
             package, key = f"{folder}{PACKAGE_FILE}", inputs.folder.key(path)
             inside = self._declared(package)
             present = {other.partition("/")[0].removesuffix(".mo") for other in below} | {*(inside or ())}
             others = {line for line in lines - present if files.has_class(inputs.folder.key(folder), line)}
             for finding in check_order(text, present, None if inside is None else others | {*names}):
                 if finding.severity is Severity.ERROR:
-                    yield Misfit(files.path(key), finding, key, is_broken=self._files[package].is_expected)
+                    yield Misfit(files.path(key), finding, key, is_broken=self._after.files[package].is_expected)
 
     def _instance(self, node: ClassNode, scopes: Scopes, paths: Iterable[str]) -> str:
         """Return the place where one of these files instantiates a class; empty if no file does."""
@@ -253,7 +255,7 @@ class _Package(PackageAfter):
             for name in types:
                 meaning = scopes.lookup(name, other)
                 if isinstance(meaning, NamedElement) and meaning.types[0].node is node:
-                    return f"{shown(self.inputs.files.path(self._files[path].key))}:{name.line}"
+                    return f"{shown(self._inputs.files.path(self._after.files[path].key))}:{name.line}"
         return ""
 
     def _look_at_head(self, path: str, node: ClassNode, scopes: Scopes, paths: Iterable[str]) -> Iterator[Diagnostic]:
@@ -278,8 +280,8 @@ class _Package(PackageAfter):
 
         `paths` are all checked files.
         """
-        file, name, reading = self._files[path], self.class_name(path), self._readings[self[path]]
-        place = self.inputs.files.path(file.key)
+        file, name, reading = self._after.files[path], self.class_name(path), self._readings[self._after[path]]
+        place = self._inputs.files.path(file.key)
         findings = check_class_file(reading.text, PurePosixPath(path), ".".join(name), reading.stored)[1]
         node = scopes.node(name)
         findings += self._look_at_head(path, node, scopes, paths) if node else ()
@@ -287,15 +289,15 @@ class _Package(PackageAfter):
             if not file.is_generated:
                 is_broken = (file.is_expected or path in self._used) and finding.severity is Severity.ERROR
                 yield Misfit(place, finding, file.key, is_broken, use)
-            elif use and (owner := scopes.node(use.owner.split("."))) and Path(owner.file) in self.users:
+            elif use and (owner := scopes.node(use.owner.split("."))) and Path(owner.file) in self._after.users:
                 message = f"it has no `{use.part}`, which {shown(place)}:{use.line} mentions"
                 finding = msgspec.structs.replace(finding, message=message, line=owner.definition.name.line)
-                key = self.inputs.files.key(Path(owner.file))
+                key = self._inputs.files.key(Path(owner.file))
                 yield Misfit(Path(owner.file), finding, key, is_broken=True, lacking=use.part)
 
     def _look_around(self, file: Path, scopes: Scopes) -> Iterator[Misfit]:
         """Check a user's file outside of the package; it may hold several classes if it is in no package."""
-        reading, package = self._reading(self.around[file]), place_of(file, self.around)[1]
+        reading, package = self._reading(self._after.around[file]), place_of(file, self._after.around)[1]
         findings = list[Diagnostic]()
         if reading.stored.is_broken or (package and reading.stored.within != ".".join(package)):
             name = ".".join((*package, class_of_file(file)))

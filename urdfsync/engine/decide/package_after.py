@@ -30,7 +30,7 @@ def as_file(path: str) -> str:
     return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
 
 
-class _FileAfter(NamedTuple):
+class FileAfter(NamedTuple):
     """A file of the package after the build."""
 
     key: str
@@ -69,9 +69,9 @@ class PackageAfter(Mapping[str, bytes]):
         self._contents, self._generated = dict[str, bytes](), set[bytes]()
 
     @cached_property
-    def _files(self) -> dict[str, _FileAfter]:
+    def files(self) -> dict[str, FileAfter]:
         """The files of the package after the build, by their paths below it."""
-        inputs, files, merged, found = self.inputs, self.inputs.files, self.merged, dict[str, _FileAfter]()
+        inputs, files, merged, found = self.inputs, self.inputs.files, self.merged, dict[str, FileAfter]()
         inside, classes, keys = inputs.folder.key(""), set[str](), set[str]()
         for action in self.actions:
             key = action.path
@@ -81,7 +81,7 @@ class PackageAfter(Mapping[str, bytes]):
                 continue
             keys.add(key)
             classes |= {key} if action.generated else set()
-            file = _FileAfter(key, is_expected=action.generated is not None)
+            file = FileAfter(key, is_expected=action.generated is not None)
             if not action.is_waiting and key in merged:
                 is_edited = text_hash(merged[key]) != action.generated
                 found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
@@ -99,7 +99,7 @@ class PackageAfter(Mapping[str, bytes]):
         for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
             is_expected = as_file(key) in classes
             text = merged.get(key)
-            found[inputs.folder.path(key)] = _FileAfter(
+            found[inputs.folder.path(key)] = FileAfter(
                 key, text, is_edited=True, is_users=True, is_expected=is_expected
             )
         return found
@@ -118,7 +118,7 @@ class PackageAfter(Mapping[str, bytes]):
     def __getitem__(self, path: str) -> bytes:
         """Return the content of a file of the package. Raises KeyError."""
         if path not in self._contents:
-            file, files = self._files[path], self.inputs.files
+            file, files = self.files[path], self.inputs.files
             if file.is_generated:
                 content = self.package.content(path)
                 self._generated.add(content)
@@ -127,16 +127,20 @@ class PackageAfter(Mapping[str, bytes]):
             self._contents[path] = content
         return self._contents[path]
 
+    def is_generated(self, content: bytes) -> bool:
+        """Return whether a content that was looked up is that of an unedited generated file."""
+        return content in self._generated
+
     def __iter__(self) -> Iterator[str]:
-        return iter(self._files)
+        return iter(self.files)
 
     def __len__(self) -> int:
-        return len(self._files)
+        return len(self.files)
 
     @cached_property
     def users(self) -> dict[Path, bytes]:
         """Contents of all files that the user wrote or edited, by their absolute paths."""
-        edited = {path: file for path, file in self._files.items() if file.is_edited}
+        edited = {path: file for path, file in self.files.items() if file.is_edited}
         return {**{self.inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
 
     def mentions(self, keys: Collection[str], identifiers: Collection[str]) -> bool:
@@ -153,7 +157,7 @@ class PackageAfter(Mapping[str, bytes]):
         generated text is empty.
         """
         generated, found = self.package.artifacts, dict[str, tuple[str, str]]()
-        for path, file in self._files.items():
+        for path, file in self.files.items():
             place = path if path in generated else as_file(path)
             source = text_of(self.package.content(place)) if place in generated else ""
             if not file.is_generated and (text := text_of(self[path])) != source:
@@ -169,7 +173,7 @@ class PackageAfter(Mapping[str, bytes]):
             one for one in self.actions if one.role is Role.ORDER and one.path.startswith(inputs.folder.key(""))
         )
         written = (one.path for one in orders_inside if not one.is_waiting)
-        users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
+        users = [f"{path.removesuffix('.mo')}.order" for path, file in self.files.items() if file.is_users]
         texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}
         texts |= {inputs.folder.path(key): merged[key] for key in written if key in merged}
         found = dict[str, tuple[str, set[str]]]()
