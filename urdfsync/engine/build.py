@@ -74,7 +74,7 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
 
 
 class _Built(NamedTuple):
-    """The outlook that came true for one robot, or its failure."""
+    """The outlook of one robot whose plan was carried out, or its failure."""
 
     outlook: Outlook
     reads: FactList

@@ -99,7 +99,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
 
 
 class Outlook(msgspec.Struct, frozen=True):
-    """What a plan makes of a robot's package, once it is carried out, and what it found."""
+    """What a build makes of a robot's package, or would make of it, with its findings."""
 
     actions: Actions = Actions()
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -150,7 +150,7 @@ class Result(Outlook, frozen=True, kw_only=True):
 
     @classmethod
     def of(cls, config: Config, robot: RobotConfig, outlook: Outlook, **others: Any) -> Self:
-        """Return the result of an outlook that came true; `others` are further fields, or replace some of its own."""
+        """Return the result of a robot; `others` are fields that the outlook lacks, or that replace those of the outlook."""
         fields = msgspec.structs.asdict(outlook) | others
         return cls(robot=robot.name, package=robot.target.package, folder=robot.folder, root=config.root, **fields)
 

@@ -224,6 +224,8 @@ def _merge_parts(
         if is_two_people and is_class and new:
             blanks, pieces = _merge_around(here, old, part, new, pieces)
         before, after, remark = blanks
+        if mine.separator:  # it stands before a comment to the end of the line
+            remark = _take_last_notes(pieces) + remark
         items[part.key] = _Item(part.key, notes + before, pieces or [part.node.text], after, remark)
         notes = ""
     arranged = arrange(mine, generated, users_layout) if mine.kind is TreeKind.BODY and users_layout else {}
@@ -307,6 +309,18 @@ def _remaining_notes(part: Part, old: Part) -> str:
     lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", part.before)), " ")
     notes = [note for note in comments(_with_blanks(part)) if note not in had]
     return "".join(f"{lead}{note}" for note in notes)
+
+
+def _take_last_notes(pieces: list[Piece]) -> str:
+    """Remove the comments at the end of a merged thing, if the last one ends its line; return them."""
+    first = len(pieces)
+    while first > 1 and isinstance(last := pieces[first - 1], str) and not _COMMENT.sub("", last).strip():
+        first -= 1
+    notes = "".join(map(str, pieces[first:]))
+    if "//" not in notes or not notes.endswith("\n"):
+        return ""
+    del pieces[first:]
+    return notes.removesuffix("\n")
 
 
 # --- the order ----------------------------------------------------------------------------------------------------

@@ -26,12 +26,15 @@ class Use(msgspec.Struct, frozen=True):
 
 
 class Judged(msgspec.Struct, frozen=True, array_like=True):
-    """An edit whose part was known at the last build."""
+    """An edit that belonged to its file's part at the last build."""
 
     mine: str
     """Hash of the user's text."""
-    lines: frozenset[str] = frozenset()
-    """The lines that the edit adds or removes, without indents."""
+    added: Mapping[str, int] = {}
+    """How often the edit adds a line, by the line without its indent."""
+    removed: Mapping[str, int] = {}
+    head: str = ""
+    """The commit that was checked out; empty without one."""
 
 
 class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

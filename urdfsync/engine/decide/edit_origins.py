@@ -12,6 +12,8 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from typing import NamedTuple
 
+import msgspec
+
 from urdfsync.domain import ElementKey, Role, Snapshot, Version
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide.conflicts import find_conflict
@@ -66,8 +68,9 @@ def find_doubts(
         edits = dict[Action, _Edit]()
         for one in unconfirmed:
             edit = _edit_of(inputs, generation.package, one.path, inputs.files.text(one.path) or "")
-            # the user has saved the file again: his former lines are where they belong, whatever a commit says
-            edits[one] = edit.without(judged[one.path].lines) if one.path in judged else edit
+            if one.path in judged:  # the user has saved the file again
+                edit = edit.without(_judged_edit(inputs, generation.package, one.path, judged[one.path]))
+            edits[one] = edit
         for commit in inputs.commits:
             doubts |= _look(inputs, generation, commit, edits)
     return {path: doubt for path, doubt in doubts.items() if doubt}
@@ -124,9 +127,13 @@ class _Edit(NamedTuple):
         lines = _lines(text)
         return self.added & lines if self.added else self.removed - lines
 
-    def without(self, lines: Collection[str]) -> _Edit:
-        """Return the rest of the edit without these lines."""
-        return _Edit(*(Counter({one: n for one, n in side.items() if one not in lines}) for side in self))
+    def without(self, other: _Edit) -> _Edit:
+        """Return what this edit adds and removes more than another one."""
+        return _Edit(self.added - other.added, self.removed - other.removed)
+
+    def has_all(self, other: _Edit) -> bool:
+        """Return whether this edit adds and removes all that another one does."""
+        return other.added <= self.added and other.removed <= self.removed
 
     def has_moved(self, shared: Counter[str], text: str) -> bool:
         """Return whether this text, the file of the element's new name, has the shared lines of the edit already."""
@@ -143,14 +150,25 @@ def note_edits(
         if action.reason not in EDITED or not sha256:
             continue
         if key in known and known[key].mine == sha256:
-            noted[key] = known[key]
-            continue
-        text, edit = merged.get(key) or inputs.files.any_text(key), frozenset[str]()
-        if text and inputs.folder.path(key) in package.artifacts:
-            added, removed = _edit_of(inputs, package, key, text)
-            edit = frozenset(added | removed)
-        noted[key] = Judged(sha256, edit)
+            noted[key] = msgspec.structs.replace(known[key], head=inputs.head)
+        elif action.reason is Reason.KEEP and inputs.folder.path(key) in package.artifacts:
+            edit = _edit_of(inputs, package, key, merged.get(key) or inputs.files.any_text(key))
+            noted[key] = Judged(sha256, edit.added, edit.removed, inputs.head)
+        else:
+            noted[key] = Judged(sha256)
     return noted
+
+
+def _judged_edit(inputs: Inputs, package: Package, key: str, judged: Judged) -> _Edit:
+    """Return the part of an edit that the last build has judged; nothing if git may have brought the same lines since.
+
+    Commits of some exports ago may leave open what each build since then had found clear.
+    """
+    commits, edit = inputs.read_commits_since(judged.head), _Edit(Counter(judged.added), Counter(judged.removed))
+    texts = None if commits is None else (commit.texts([key]).get(key, "") for commit in commits)
+    # a commit that lacks a line shows that a later one brought the line
+    has_stayed = texts is not None and all(_edit_of(inputs, package, key, text).has_all(edit) for text in texts)
+    return edit if has_stayed else _Edit(Counter(), Counter())
 
 
 def _edit_of(inputs: Inputs, package: Package, key: str, text: str) -> _Edit:

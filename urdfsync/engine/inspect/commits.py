@@ -97,6 +97,43 @@ def read_commits(
             continue
 
 
+def read_commits_since(
+    root: Path, files: PackageFiles, store: Store, name: str, commit: str
+) -> tuple[CommittedBuild, ...] | None:
+    """Return the commits that HEAD has and `commit` lacks; None if they are many, or can't be read.
+
+    If `commit` is empty, these are all commits.
+    """
+    import pygit2
+
+    reads.depend_on_commits(git.find_top(root))
+    try:
+        if (repository := open_repository(root)) is None:
+            return None
+        walker = repository.walk(repository.head.target)
+        if commit:
+            walker.hide(commit)
+        found = list(itertools.islice(walker, _MOST + 1))
+        if len(found) > _MOST:
+            return None
+        return (*(CommittedBuild(Revision(root, str(one.id)), files, store, name) for one in found),)
+    except (SourceError, pygit2.GitError, KeyError, ValueError):  # `commit` is in no branch any more, for example
+        return None
+
+
+def find_head(root: Path) -> str:
+    """Return the commit that is checked out, by git's log of HEAD; empty without one."""
+    if (top := git.find_top(root)) is None:
+        return ""
+    with reads.unrecorded():  # only a note names this commit
+        try:
+            *_, last = b"", *reads.read_file(find_git_folder(top) / "logs" / "HEAD").splitlines()
+        except OSError:
+            return ""
+    _, commit, *_ = *last.decode(errors="replace").split(" ", 2), "", ""
+    return commit
+
+
 def read_left_records(
     root: Path, files: PackageFiles, folder: Folder, store: Store, name: str
 ) -> dict[str, FileRecord]:

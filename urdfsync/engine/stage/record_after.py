@@ -17,8 +17,9 @@ from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import hash_of, option_values
 from urdfsync.engine.inspect.package_files import text_hash
 from urdfsync.engine.sources.source import expansion_hash
+from urdfsync.engine.stage.saved_conflicts import SavedConflicts
 from urdfsync.files import text_digest
-from urdfsync.state.notes import Notes
+from urdfsync.state.notes import Judged, Notes, Use
 from urdfsync.state.record import FileRecord, Open, Question, Record, as_recorded
 from urdfsync.state.store import Aside
 
@@ -110,19 +111,35 @@ def _brought(inputs: Inputs, renames: Mapping[ElementKey, str]) -> Mapping[str, 
     return {old: new for old, new in declared.items() if done.get(old) == new or (old, new) in brought}
 
 
-def notes_after(inputs: Inputs, generation: Generation, record: Record, saved: Iterable[Aside]) -> Notes:
-    """Return this machine's notes with the results of this build; `record` is the new record."""
+def notes_after(
+    inputs: Inputs,
+    generation: Generation,
+    record: Record,
+    saved: Iterable[Aside],
+    conflicts: SavedConflicts,
+    edits: Mapping[str, Judged],
+    uses: Mapping[str, Use],
+) -> Notes:
+    """Return this machine's notes with the results of this build; `record` is the new record.
+
+    A dry run writes no record. So it notes no edits of another model than the recorded one, and no saved versions.
+    """
     old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
     recorded, texts = inputs.last.record.hashes | record.hashes, generation.package.notes()
     recorded |= {text_hash(model) for aside in saved for model in aside.beside.values()}  # `--undo` records them again
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
-    return msgspec.structs.replace(
-        old,
+    model, is_dry = hash_of(record.snapshot), inputs.options.dry
+    is_written = not is_dry or model == old.model
+    return Notes(
         program=inputs.program,
         texts=texts,
         imports=frozenset(hash_of(entry) for key, entry in imports.imports.items() if key in made_here),
         expansion=expansion_hash(expanded) if expanded and inputs.source.is_made_here else "",
         written=frozenset(made | (set(old.written) & recorded)),
-        model=hash_of(record.snapshot),
+        proposals=old.proposals if is_dry else conflicts.noted,
+        versions=old.versions if is_dry else conflicts.written,
+        model=model if is_written else old.model,
+        edited=edits if is_written else old.edited,
+        uses=uses,
     )

@@ -93,13 +93,8 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
     notes, after = None, None
     if record is not None:
         after = foresee_actions(inputs, decision, record)
-        notes = msgspec.structs.replace(
-            notes_after(inputs, generation, record, index.values()),
-            proposals=inputs.last.notes.proposals if options.dry else conflicts.noted,
-            versions=inputs.last.notes.versions if options.dry else conflicts.written,
-            edited=note_edits(inputs, generation.package, after or decision.actions, decision.texts),
-            uses=uses,
-        )
+        edits = note_edits(inputs, generation.package, after or decision.actions, decision.texts)
+        notes = notes_after(inputs, generation, record, index.values(), conflicts, edits, uses)
         if notes == inputs.last.notes and not (inputs.former_name or options.choices):
             notes = None
     next_outlook = None if after is None else _next_outlook(outlook, after, lasting)

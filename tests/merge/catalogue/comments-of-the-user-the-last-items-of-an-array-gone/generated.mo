@@ -1,0 +1,7 @@
+record A
+  extends B(
+    centers = {
+      {a.x, a.y},
+      {b.x, b.y}},
+    names = {a.name});
+end A;

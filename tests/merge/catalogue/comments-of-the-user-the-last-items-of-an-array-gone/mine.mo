@@ -1,0 +1,9 @@
+record A
+  extends B(
+    centers = {
+      {a.x, a.y},
+      {b.x, b.y},  // at the end of a line
+  // on its own line
+      {c.x, c.y}},
+    names = {a.name});
+end A;
