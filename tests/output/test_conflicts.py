@@ -5,13 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import pytest
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.decide.conflicts import Conflict
-from urdfsync.engine.result import Result
+from urdfsync.engine.result import Result, SavedVersions
 from urdfsync.merge import Merge, merge
 from urdfsync.output.conflicts import FULL, LINES, conflict_lines
 from urdfsync.output.console import Console
@@ -59,10 +58,9 @@ def files_of(conflict: Conflict) -> dict[str, str]:
 
 def seen_of(actions: Actions, texts: tuple[Conflict, ...] = (), dry: bool = False, **options: Any) -> list[str]:
     package = Path(actions[0].path).parent.absolute()
-    texts = tuple(msgspec.structs.replace(one, files=files_of(one)) for one in texts)
-    result = Result(
-        robot="arm", package="Arm", folder=package, root=Path.cwd(), actions=actions, dry=dry, conflict_texts=texts
-    )
+    saved = {one.path: SavedVersions(files_of(one)) for one in texts}
+    place: dict[str, Any] = {"robot": "arm", "package": "Arm", "folder": package, "root": Path.cwd()}
+    result = Result(**place, actions=actions, dry=dry, conflict_texts=texts, saved=saved)
     return [str(line).rstrip() for line in conflict_lines(result, Console(**options))]
 
 

@@ -18,6 +18,7 @@ from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.inspect.package_files import encode
+from urdfsync.engine.result import DisputedFile
 from urdfsync.merge.texts import find_flaw
 from urdfsync.modelica.markers import find_markers, read_sides
 from urdfsync.modelica.parser import parse
@@ -25,7 +26,7 @@ from urdfsync.modelica.parser import parse
 _HINT = "set $VISUAL or $EDITOR"
 
 
-def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
+def edit(disputed: Sequence[DisputedFile]) -> tuple[Path, dict[str, str]]:
     """Let the user write one text for each conflict.
 
     Returns the folder with the edited files, and the texts by the conflicts' paths. Raises UrdfsyncError without an
@@ -40,12 +41,12 @@ def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
         raise UrdfsyncError.of("no-editor", "there is no editor to open", hint=_HINT)
     folder, texts = Path(tempfile.mkdtemp(prefix="urdfsync-edit-")), dict[str, str]()
     hint = f"your text is in {folder}; --edit begins anew"
-    for number, conflict in enumerate(conflicts):
+    conflicts = [(one.texts, one.versions.edited) for one in disputed if one.texts]
+    for number, (conflict, edited) in enumerate(conflicts):
         file = folder / str(number) / PurePosixPath(conflict.path).name  # several conflicts may have the same name
         file.parent.mkdir()
         proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
-        proposal = proposal if conflict.edited is None else conflict.edited
-        file.write_bytes(encode(proposal))
+        file.write_bytes(encode(proposal if edited is None else edited))
         try:  # not in the project's folder, where an editor may look for settings
             code = subprocess.run([*words, str(file)], cwd=file.parent, check=False).returncode  # noqa: S603
         except OSError as error:

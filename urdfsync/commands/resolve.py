@@ -80,7 +80,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     choices = {action.path: UsersChoice(choice, action.sides, args.moved) for _, action in targets.values()}
     edited, folder = dict[str, str](), None
     if choice is Choice.EDIT:
-        disputed = [texts for result in planned for texts in result.conflict_texts if texts.path in targets]
+        disputed = [one for result in planned for one in result.conflicts if one.action.path in targets]
         folder, edited = editor.edit(disputed) if disputed else (None, {})
     for path, text in edited.items():
         choices[path] = msgspec.structs.replace(choices[path], text=text)

@@ -171,15 +171,11 @@ class _Builder:
             written = {**written, **notes.save(self._state_folder, robot.name, plan.notes)}
         # most plans write nothing, and have read hundreds of files
         reads = self._reads.renewed(written, str(robot.folder)) if written else self._reads
-        facts, outlook = FactList.of(reads), plan.outlook
-        if plan.writes:
-            next_outlook = None if self._options.dry else plan.next_outlook
-        else:  # without `renews`, a plan writes less than the next one may
-            next_outlook = outlook if self._options.renews and not outlook.writes else None
-        if next_outlook and reads.complete:
-            result = Result.of(self._config, robot, next_outlook, dry=self._options.dry, reads=facts)
+        facts = FactList.of(reads)
+        if plan.next_outlook and reads.complete:
+            result = Result.of(self._config, robot, plan.next_outlook, dry=self._options.dry, reads=facts)
             remembered.remember(self._config, robot, self._keys.key(robot), result)
-        return _Built(outlook, facts)
+        return _Built(plan.outlook, facts)
 
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build has written, or begun to write, since the plan was made."""

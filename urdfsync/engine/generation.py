@@ -67,9 +67,8 @@ def generate_robot(inputs: Inputs) -> Generation:
         for key, finding in domain.imports.findings(imported.imports, snapshot) if domain.imports else ():
             findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
         version = Version(snapshot, imported.imports)
-        package = generate(domain, version, robot.target, robot.options, inputs.templates)
-        if last.notes.program == inputs.program and not options.full:
-            package.take_noted(last.notes.texts, last.base)
+        noted = last.notes.texts if last.notes.program == inputs.program and not options.full else {}
+        package = generate(domain, version, robot.target, robot.options, inputs.templates, noted, last.base)
     for path in package.artifacts:
         package.hash(path)  # renders the text, if it is new: a fault of a template is told here
     return Generation(version, reading, tuple(findings), imported, package)

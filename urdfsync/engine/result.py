@@ -44,6 +44,15 @@ class Checked(enum.StrEnum):
     WRONG = "wrong"
 
 
+class SavedVersions(msgspec.Struct, frozen=True):
+    """The saved versions of a file in conflict."""
+
+    files: Mapping[str, str] = {}
+    """Paths by kind (`base`, `generated`, `merge`), below the robot's folder in `.urdfsync/conflicts`."""
+    edited: str | None = None
+    """The proposed merge as the user edited it."""
+
+
 class DisputedFile(msgspec.Struct, frozen=True):
     """A file in conflict."""
 
@@ -53,6 +62,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
     action: Action
     texts: Conflict | None = None
     """The texts; None if a version is not a text."""
+    versions: SavedVersions = SavedVersions()
 
     @property
     def shown(self) -> str:
@@ -89,9 +99,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
     @property
     def saved(self) -> Mapping[str, str]:
         """Where a build saves the versions, from the configuration's folder: `base`, `generated`, `merge`."""
-        if self.texts is None:
-            return {}
-        return {kind: f".urdfsync/conflicts/{self.result.robot}/{path}" for kind, path in self.texts.files.items()}
+        return {kind: f".urdfsync/conflicts/{self.result.robot}/{path}" for kind, path in self.versions.files.items()}
 
     def offers(self, choice: Choice) -> bool:
         """Return whether this kind of merge settles the conflict."""
@@ -117,6 +125,8 @@ class Outlook(msgspec.Struct, frozen=True):
     changes: Changes | None = None
     """Changes of the model since the last complete build; None if there are none, or if they are unknown."""
     conflict_texts: tuple[Conflict, ...] = ()
+    saved: Mapping[str, SavedVersions] = {}
+    """The saved versions of the files in `conflict_texts`, by path."""
     settled: frozenset[str] = frozenset()
     """The keys of the files for which a choice was carried out."""
 
@@ -150,7 +160,7 @@ class Result(Outlook, frozen=True, kw_only=True):
 
     @classmethod
     def of(cls, config: Config, robot: RobotConfig, outlook: Outlook, **others: Any) -> Self:
-        """Return the result of a robot; `others` are fields that the outlook lacks, or that replace those of the outlook."""
+        """Return the result of a robot; `others` are fields that the outlook lacks, or that replace its own."""
         fields = msgspec.structs.asdict(outlook) | others
         return cls(robot=robot.name, package=robot.target.package, folder=robot.folder, root=config.root, **fields)
 
@@ -159,7 +169,11 @@ class Result(Outlook, frozen=True, kw_only=True):
         """The files in conflict, in the order of their paths."""
         texts = {each.path: each for each in self.conflict_texts}
         actions = (action for action in self.actions.decided if action.is_conflict)
-        return [DisputedFile(self, action, texts.get(action.path)) for action in actions]
+        nothing = SavedVersions()
+        return [
+            DisputedFile(self, action, texts.get(action.path), self.saved.get(action.path, nothing))
+            for action in actions
+        ]
 
     @property
     def in_step(self) -> bool:

@@ -32,10 +32,6 @@ class Conflict(msgspec.Struct, frozen=True):
     rejected."""
     origin: str | None = None
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
-    files: Mapping[str, str] = {}
-    """Paths of the saved versions by kind, below the robot's folder in `.urdfsync/conflicts`."""
-    edited: str | None = None
-    """The proposed merge as the user edited it."""
     rejected: str = ""
     """Why the merge was rejected, as a clause; empty if it was not rejected."""
     moved_to: str = ""

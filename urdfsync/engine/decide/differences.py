@@ -32,6 +32,8 @@ class Differences(msgspec.Struct, frozen=True):
     """Renamed elements, and elements that may be other parts than their names say."""
     changes: Changes | None
     """The changes of the model; None if they are unknown, and for a removed robot."""
+    is_structural: bool
+    """Whether files or names may come or go; False if only numbers changed."""
     respelled: Mapping[str, tuple[str, str]]
     """Recorded classes for which this version of urdfsync uses another name (see `LastBuild.respelled`)."""
     moves: Mapping[str, str]
@@ -54,12 +56,6 @@ class Differences(msgspec.Struct, frozen=True):
         """Renamed elements: old element → new name."""
         return self.matching.renames
 
-    @property
-    def is_structural(self) -> bool:
-        """Whether files or names may come or go; False if only numbers changed."""
-        changes = self.changes
-        return changes is None or changes.change_class.rank >= ChangeClass.STRUCTURAL.rank or bool(self.respelled)
-
 
 def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
     """Compare the last complete build of a robot with the present build."""
@@ -80,15 +76,14 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         others = {name: f"{name}{GONE}" for _, name in displaced(renames)}
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
-    names = last.record.former, others
-    differences = Differences(matching, news, respelled, {}, {}, *names, has_exchanges, undeclared, unused)
-    if differences.is_structural:
-        identifiers = _find_identifiers(inputs, now, differences)
-        former = {old: identifiers.get(new, new) for old, new in last.record.former.items()} | identifiers
-        differences = msgspec.structs.replace(differences, identifiers=identifiers, former=former)
-    if differences.is_structural or inputs.has_moved:
-        differences = msgspec.structs.replace(differences, moves=_find_moves(inputs, package, differences))
-    return differences
+    is_structural = news is None or news.change_class.rank >= ChangeClass.STRUCTURAL.rank or bool(respelled)
+    identifiers, former = dict[str, str](), last.record.former
+    if is_structural:
+        identifiers = _find_identifiers(inputs, now, renames, respelled) if news is not None else {}
+        former = {old: identifiers.get(new, new) for old, new in former.items()} | identifiers
+    moves = _find_moves(inputs, package, renames, respelled) if is_structural or inputs.has_moved else {}
+    names = identifiers, former, others, has_exchanges
+    return Differences(matching, news, is_structural, respelled, moves, *names, undeclared, unused)
 
 
 def _find_matching(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
@@ -176,36 +171,43 @@ def _with_unshown(inputs: Inputs, generation: Generation, news: Changes, unused:
     return with_unshown(news, inputs.domain, unused, set(owners.values()), changed | imported)
 
 
-def _find_identifiers(inputs: Inputs, now: Snapshot, differences: Differences) -> dict[str, str]:
+def _find_identifiers(
+    inputs: Inputs, now: Snapshot, renames: Mapping[ElementKey, str], respelled: Mapping[str, tuple[str, str]]
+) -> dict[str, str]:
     """Return new identifiers by old identifiers of the last complete build."""
     last, target = inputs.last, inputs.robot.target
-    if last.version is None or differences.changes is None:
+    if last.version is None:
         return {}
     old, new = inputs.domain.names(last.version.snapshot, last.target), inputs.domain.names(now, target)
     renamed = {last.folder.rpartition("/")[2]: inputs.robot.folder.name, last.target.name: target.name}
     for kind, identifiers in old.items():
         for name, identifier in identifiers.items():
-            new_name = differences.renames.get((kind.removesuffix("s"), name), name)
+            new_name = renames.get((kind.removesuffix("s"), name), name)
             renamed[identifier] = new.get(kind, {}).get(new_name, identifier)
-    for path, (respelled, _) in differences.respelled.items():
-        names = (class_path(PurePosixPath(each)).name for each in (path, respelled))
+    for path, (present_path, _) in respelled.items():
+        names = (class_path(PurePosixPath(each)).name for each in (path, present_path))
         former, present = (f"{name[0].lower()}{name[1:]}" for name in names)
         renamed[former] = renamed.pop(present, present)
     return {name: new for name, new in renamed.items() if name != new}
 
 
-def _find_moves(inputs: Inputs, package: Package, differences: Differences) -> dict[str, str]:
+def _find_moves(
+    inputs: Inputs,
+    package: Package,
+    renames: Mapping[ElementKey, str],
+    respelled: Mapping[str, tuple[str, str]],
+) -> dict[str, str]:
     """Return old keys by new keys of text files that move with their element or with the package."""
     last = inputs.last
     texts = set(map(last.folder.path, last.files))
     recorded = last.package.artifacts if last.package else {}
     before = {path: (file.owner, file.template) for path, file in recorded.items() if path in texts}
-    for path, (respelled, _) in differences.respelled.items():
-        before[path] = recorded[respelled].owner, recorded[respelled].template
+    for path, (present_path, _) in respelled.items():
+        before[path] = recorded[present_path].owner, recorded[present_path].template
     now = {path: (file.owner, file.template) for path, file in package.artifacts.items()}
-    if before == now and not (inputs.has_moved or differences.renames):
+    if before == now and not (inputs.has_moved or renames):
         return {}
-    renamed = changes.moved_files(before, now, differences.renames)
+    renamed = changes.moved_files(before, now, renames)
     pairs = ((renamed.get(path, path), path) for path in texts)
     keys = ((inputs.folder.key(new), last.folder.key(old)) for new, old in pairs if new in now)
     return {new: old for new, old in keys if new != old}

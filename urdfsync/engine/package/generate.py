@@ -28,16 +28,29 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 class Package:
     """A generated package: its text files and the names for each `package.order`, by POSIX path below the package."""
 
-    def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates, name: str) -> None:
-        """`name` is the package's full name."""
+    def __init__(
+        self,
+        artifacts: Iterable[Artifact | Order],
+        templates: Templates,
+        name: str,
+        noted: Mapping[str, tuple[str, str]] = {},
+        stored: Callable[[str], str | None] = lambda _: None,
+    ) -> None:
+        """`name` is the package's full name.
+
+        `noted` is a result of `notes`: texts that this machine has rendered with the same program are not rendered
+        again. `stored` returns the text with a hash, from any machine; None if there is none.
+        """
         in_order = sorted(artifacts, key=lambda artifact: artifact.path)
         self.artifacts: dict[str, Artifact] = {a.path: a for a in in_order if isinstance(a, Artifact)}
         self.orders: Mapping[str, tuple[str, ...]] = {a.path: a.names for a in in_order if isinstance(a, Order)}
         self._templates, self._name = templates, name
         self._texts: dict[str, bytes] = {}
-        self._hashes: dict[str, str] = {}
         self._data_hashes: dict[str, str] = {}
-        self._stored: Callable[[str], str | None] = lambda _: None
+        self._stored = stored
+        self._hashes: dict[str, str] = {
+            path: noted[path][1] for path in self.artifacts if path in noted and noted[path][0] == self._data_hash(path)
+        }
 
     def content(self, path: str) -> bytes:
         """Return the text of one file. Raises ConfigError for a template that can't be used."""
@@ -70,17 +83,6 @@ class Package:
         template = self.artifacts[path].template
         return next((a.path for a in self.artifacts.values() if (a.owner, a.template) == (owner, template)), None)
 
-    def take_noted(self, noted: Mapping[str, tuple[str, str]], stored: Callable[[str], str | None]) -> None:
-        """Take the noted hashes of texts that this machine has rendered with the same program, and render them no more.
-
-        `noted` is a result of `notes`. `stored` returns the text with a hash, from any machine; None if there is none.
-        """
-        self._stored = stored
-        for path in self.artifacts:
-            data_hash, text_hash = noted.get(path, ("", ""))
-            if data_hash == self._data_hash(path):
-                self._hashes[path] = text_hash
-
     def notes(self) -> dict[str, tuple[str, str]]:
         """Return two hashes for each file with a known text: of its template with data, and of the text."""
         return {path: (self._data_hash(path), sha256) for path, sha256 in self._hashes.items()}
@@ -109,8 +111,16 @@ class Package:
         return {self.artifacts[path].owner for path in changed}
 
 
-def generate(domain: Domain, version: Version, target: Target, options: Any, templates: Templates) -> Package:
-    """Return the package of a model. Raises OutputError for forbidden paths."""
+def generate(
+    domain: Domain,
+    version: Version,
+    target: Target,
+    options: Any,
+    templates: Templates,
+    noted: Mapping[str, tuple[str, str]] = {},
+    stored: Callable[[str], str | None] = lambda _: None,
+) -> Package:
+    """Return the package of a model (see `Package`). Raises OutputError for forbidden paths."""
     snapshot, imports = version.snapshot, version.imports or {}
     # the key is JSON: 0.0 == -0.0, but their texts differ
     key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options))
@@ -121,7 +131,7 @@ def generate(domain: Domain, version: Version, target: Target, options: Any, tem
     _recent[key] = artifacts
     while len(_recent) > _MOST:
         del _recent[next(iter(_recent))]
-    return Package(artifacts, templates, target.package)
+    return Package(artifacts, templates, target.package, noted, stored)
 
 
 _MOST = 4

@@ -16,6 +16,7 @@ from urdfsync.engine.actions import sides_hash
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import encode, text_hash
+from urdfsync.engine.result import SavedVersions
 from urdfsync.files import digest, shown
 from urdfsync.state.transaction import FileChange
 
@@ -23,8 +24,8 @@ from urdfsync.state.transaction import FileChange
 class SavedConflicts(msgspec.Struct, frozen=True):
     """The saved versions of all conflicts of a robot."""
 
-    conflicts: tuple[Conflict, ...]
-    """The conflicts, with the files of their versions."""
+    versions: Mapping[str, SavedVersions]
+    """By path."""
     changes: tuple[FileChange, ...]
     noted: Mapping[str, tuple[str, str]]
     """Two hashes for each proposal, by path: of its text as urdfsync wrote it, and of its two sides."""
@@ -39,7 +40,7 @@ def save_conflicts(inputs: Inputs, conflicts: Sequence[Conflict]) -> SavedConfli
     existing, of_persons = store.conflict_files(robot), store.persons_files(robot, inputs.last.notes)
     # an empty proposal does not count
     persons = {path for path, text in of_persons.items() if ".merge" in path and text.strip()}
-    contents, saved, findings = dict[str, bytes](), list[Conflict](), list[Diagnostic]()
+    contents, saved, findings = dict[str, bytes](), dict[str, SavedVersions](), list[Diagnostic]()
     notes = {path: facts for path, facts in noted.items() if path in persons}
     for conflict in conflicts:
         path, merge = PurePosixPath(inputs.folder.path(conflict.path)), conflict.merge
@@ -65,7 +66,7 @@ def save_conflicts(inputs: Inputs, conflicts: Sequence[Conflict]) -> SavedConfli
                 contents[name], notes[name] = proposal, (digest(proposal), sides)
         name = files.get("merge", "")
         edited = existing[name].decode(errors="replace") if name in persons else None
-        saved.append(msgspec.structs.replace(conflict, files=files, edited=edited))
+        saved[conflict.path] = SavedVersions(files, edited)
     changes = store.save_conflicts(robot, contents, persons)
     for name, content in of_persons.items():
         if name not in persons and content.strip() and contents.get(name) != content:  # it is replaced or deleted now
@@ -76,4 +77,4 @@ def save_conflicts(inputs: Inputs, conflicts: Sequence[Conflict]) -> SavedConfli
             hint = f"a copy is {shown(store.aside_file(robot, aside))}"
             findings.append(Diagnostic(Severity.NOTE, "put-aside", message, saved_as, hint=hint))
     written = {name: digest(text) for name, text in contents.items() if name not in notes}
-    return SavedConflicts(tuple(saved), tuple(changes), notes, written, tuple(findings))
+    return SavedConflicts(saved, tuple(changes), notes, written, tuple(findings))

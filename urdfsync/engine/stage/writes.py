@@ -87,7 +87,8 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
         is_unmerged=any(finding.code == UNMERGED for finding in (*lasting, *news)),
         drawing=None if picture is None else drawing,
         changes=_told_changes(decision, is_writing=is_writing),
-        conflict_texts=conflicts.conflicts,
+        conflict_texts=decision.conflicts,
+        saved=conflicts.versions,
         settled=frozenset(inputs.settled.keys),
     )
     notes, after = None, None
@@ -97,7 +98,10 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
         notes = notes_after(inputs, generation, record, index.values(), conflicts, edits, uses)
         if notes == inputs.last.notes and not (inputs.former_name or options.choices):
             notes = None
-    next_outlook = None if after is None else _next_outlook(outlook, after, lasting)
+    if writes:
+        next_outlook = None if after is None or options.dry else _next_outlook(outlook, after, lasting)
+    else:  # without `renews`, a plan writes less than the next one may
+        next_outlook = outlook if options.renews and not outlook.writes else None
     emptied = _emptied(inputs, writes.in_order())
     return Plan(outlook, store.hashes(), decision.shared, writes, emptied, notes, next_outlook)
 
