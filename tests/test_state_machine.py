@@ -468,7 +468,7 @@ class Walk(RuleBasedStateMachine):
                 self.run(f"resolve {path} --take")
                 self.verdict()
             else:
-                Path(path).write_text(_OWN.sub("", Path(path).read_text()))
+                Path(path).write_text(_OWN.sub("", _SHARED.sub("", Path(path).read_text())))
                 self.look()  # the user has removed them, no command
         self.look()
         self.verdict()
