@@ -363,18 +363,31 @@ def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str, end: l
     pieces: list[Piece] = [mine.opening]
     blanks = ""
     for number, item in enumerate(items):
-        append_blanks(pieces, blanks + item.before)
+        append_blanks(pieces, _joined(blanks, item.before))
         pieces += item.pieces
         blanks = item.after
         if mine.separator and number < len(items) - 1:
             append_blanks(pieces, blanks)
             pieces.append(mine.separator)
             blanks = ""
-        blanks += item.remark
+        blanks = _joined(blanks, item.remark)
     has_bracket = mine.kind in (TreeKind.LIST, TreeKind.ARRAY)
-    append_blanks(pieces, blanks + notes + (closing[:-1] if has_bracket else ""))
+    append_blanks(pieces, _joined(blanks, notes + (closing[:-1] if has_bracket else "")))
     pieces += end or [closing[-1:] if has_bracket else closing]
     return [piece for piece in pieces if piece]
+
+
+def _joined(blanks: str, more: str) -> str:
+    """Return blanks and comments after others, on a new line if these end with a comment to the end of the line."""
+    runs_on = more.strip() and not re.match(r"[ \t]*\n", more) and _runs_on(blanks)
+    return f"{blanks}\n{more}" if runs_on else blanks + more
+
+
+def _runs_on(blanks: str) -> bool:
+    """Whether blanks and comments end with a comment that takes the rest of the line."""
+    # match comment by comment: a single pattern would try all combinations of comment ends
+    *_, comment = "", *_COMMENT.findall(blanks)
+    return comment.startswith("//") and blanks.endswith(comment)
 
 
 def append_blanks(pieces: list[Piece], blanks: str) -> None:
@@ -382,10 +395,7 @@ def append_blanks(pieces: list[Piece], blanks: str) -> None:
     last = pieces[-1] if pieces else ""
     if isinstance(last, str) and last.endswith("\n") and re.match(r"\s*\n", blanks):
         pieces[-1] = last[:-1]  # it ended a comment
-    # match comment by comment: a single pattern would try all combinations of comment ends
-    *_, comment = "", *_COMMENT.findall(blanks)
-    runs_on = comment.startswith("//") and blanks.endswith(comment)
-    pieces.append(f"{blanks}\n" if runs_on else blanks)
+    pieces.append(f"{blanks}\n" if _runs_on(blanks) else blanks)
 
 
 def _empty_sections(sides: Sequence[Sequence[str]], items: Sequence[_Item]) -> set[str]:

@@ -25,18 +25,6 @@ class Use(msgspec.Struct, frozen=True):
     """The new names of the parts that the user meant, by the names in the file."""
 
 
-class Judged(msgspec.Struct, frozen=True, array_like=True):
-    """An edit that belonged to its file's part at the last build."""
-
-    mine: str
-    """Hash of the user's text."""
-    added: Mapping[str, int] = {}
-    """How often the edit adds a line, by the line without its indent."""
-    removed: Mapping[str, int] = {}
-    head: str = ""
-    """The commit that was checked out; empty without one."""
-
-
 class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """This machine's notes on one robot."""
 
@@ -57,8 +45,8 @@ class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Hashes of the other saved versions of conflicts, as urdfsync wrote them, by path."""
     model: str = ""
     """Hash of the last recorded model."""
-    edited: Mapping[str, Judged] = {}
-    """The edits of files at the last build, by key."""
+    edited: Mapping[str, str] = {}
+    """Hashes of the edited files at the last build, by key."""
     uses: Mapping[str, Use] = {}
     """Names that mean other parts now, by absolute path of a user's file."""
 

@@ -9,10 +9,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
-
-import msgspec
 
 from urdfsync.domain import ElementKey, Role, Snapshot, Version
 from urdfsync.engine.actions import Action, Reason
@@ -29,7 +27,6 @@ from urdfsync.engine.inspect.package_files import text_hash
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
-from urdfsync.state.notes import Judged
 from urdfsync.state.record import FileRecord, as_read
 
 EDITED = (Reason.KEEP, Reason.CONFLICT)
@@ -58,19 +55,13 @@ def find_doubts(
     unconfirmed = [one for one in unconfirmed if one.path not in open_doubts]
     if not record.is_united:  # the build that wrote the record has judged these texts; a clone knows that, too
         unconfirmed = [one for one in unconfirmed if one.mine not in record.edited]
-    # otherwise git may have changed the meaning of names
-    judged = notes.edited if unconfirmed and notes.model == hash_of(record.snapshot) else {}
-    unconfirmed = [one for one in unconfirmed if one.path not in judged or judged[one.path].mine != one.mine]
+    if unconfirmed and notes.model == hash_of(record.snapshot):  # otherwise git may have changed the meaning of names
+        unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # not a class that became a folder: no commit has this file
     # if both branches changed one element, the united record has no model
     has_model = inputs.last.version is not None or record.is_united
     if unconfirmed and has_model and inputs.commits:  # most texts need not be compared without a repository
-        edits = dict[Action, _Edit]()
-        for one in unconfirmed:
-            edit = _edit_of(inputs, generation.package, one.path, inputs.files.text(one.path) or "")
-            if one.path in judged:  # the user has saved the file again
-                edit = edit.without(_judged_edit(inputs, generation.package, one.path, judged[one.path]))
-            edits[one] = edit
+        edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
         for commit in inputs.commits:
             doubts |= _look(inputs, generation, commit, edits)
     return {path: doubt for path, doubt in doubts.items() if doubt}
@@ -91,9 +82,7 @@ def _doubt(
     """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
     found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
-        lines: Collection[str] = ()
-        if found or renumbered:
-            lines = _edit_of(inputs, generation.package, action.path, inputs.files.text(action.path) or "").added
+        lines = _edit_of(inputs, generation.package, action).added if found or renumbered else ()
         return _named(inputs, lines, found, renumbered, generation.now.snapshot)
     if element in found:
         return found[element]
@@ -127,55 +116,17 @@ class _Edit(NamedTuple):
         lines = _lines(text)
         return self.added & lines if self.added else self.removed - lines
 
-    def without(self, other: _Edit) -> _Edit:
-        """Return what this edit adds and removes more than another one."""
-        return _Edit(self.added - other.added, self.removed - other.removed)
-
-    def has_all(self, other: _Edit) -> bool:
-        """Return whether this edit adds and removes all that another one does."""
-        return other.added <= self.added and other.removed <= self.removed
-
     def has_moved(self, shared: Counter[str], text: str) -> bool:
         """Return whether this text, the file of the element's new name, has the shared lines of the edit already."""
         return not shared - _lines(text) if self.added else not shared & _lines(text)
 
 
-def note_edits(
-    inputs: Inputs, package: Package, actions: Iterable[Action], merged: Mapping[str, str]
-) -> dict[str, Judged]:
-    """Return the edits that stay where they are, for the notes; `merged` has merged texts by key."""
-    noted, known = dict[str, Judged](), inputs.last.notes.edited
-    for action in actions:
-        key, sha256 = action.path, action.mine
-        if action.reason not in EDITED or not sha256:
-            continue
-        if key in known and known[key].mine == sha256:
-            noted[key] = msgspec.structs.replace(known[key], head=inputs.head)
-        elif action.reason is Reason.KEEP and inputs.folder.path(key) in package.artifacts:
-            edit = _edit_of(inputs, package, key, merged.get(key) or inputs.files.any_text(key))
-            noted[key] = Judged(sha256, edit.added, edit.removed, inputs.head)
-        else:
-            noted[key] = Judged(sha256)
-    return noted
-
-
-def _judged_edit(inputs: Inputs, package: Package, key: str, judged: Judged) -> _Edit:
-    """Return the part of an edit that the last build has judged; nothing if git may have brought the same lines since.
-
-    Commits of some exports ago may leave open what each build since then had found clear.
-    """
-    commits, edit = inputs.read_commits_since(judged.head), _Edit(Counter(judged.added), Counter(judged.removed))
-    texts = None if commits is None else (commit.texts([key]).get(key, "") for commit in commits)
-    # a commit that lacks a line shows that a later one brought the line
-    has_stayed = texts is not None and all(_edit_of(inputs, package, key, text).has_all(edit) for text in texts)
-    return edit if has_stayed else _Edit(Counter(), Counter())
-
-
-def _edit_of(inputs: Inputs, package: Package, key: str, text: str) -> _Edit:
-    """Return the user's edit of a generated file, with his text; a line of one of the file's bases is no edit."""
-    last, mine = inputs.last, _lines(text)
-    generated = _lines(package.content(inputs.folder.path(key)).decode())
-    known = last.bases(last.files.get(key, FileRecord())).values()
+def _edit_of(inputs: Inputs, package: Package, action: Action) -> _Edit:
+    """Return the user's edit of a generated text; a line of one of the file's bases is no edit."""
+    last = inputs.last
+    mine = _lines(inputs.files.text(action.path) or "")
+    generated = _lines(package.content(inputs.folder.path(action.path)).decode())
+    known = last.bases(last.files.get(action.path, FileRecord())).values()
     return _Edit(mine - (generated | _lines("\n".join(known))), generated - mine)
 
 

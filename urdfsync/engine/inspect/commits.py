@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -20,12 +22,17 @@ from urdfsync.state import bases, statefile
 from urdfsync.state.record import FileRecord, Record
 from urdfsync.state.store import Store
 
+if TYPE_CHECKING:
+    import pygit2
+
 UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
 """The references under which git keeps the commit that it is merging into HEAD."""
 _MOST = 50
 """The greatest number of branches that are searched, and the most commits that were checked out last."""
+_HISTORY = 1000
+"""The greatest number of commits of HEAD's history that are told from those of other branches."""
 _BACK = 10
-"""The greatest number of commits that are searched, counted back from HEAD."""
+"""The greatest number of commits, counted back from HEAD, whose parents are searched."""
 
 
 class CommittedBuild(msgspec.Struct, frozen=True):
@@ -68,14 +75,13 @@ class CommittedBuild(msgspec.Struct, frozen=True):
 def read_commits(
     root: Path, files: PackageFiles, store: Store, name: str, *, has_built: bool
 ) -> Iterator[CommittedBuild]:
-    """Yield the commits that an edit may come from: merged ones, and recent ones if this machine `has_built` here.
+    """Yield the commits that an edit may come from: recent ones of HEAD, and others if this machine `has_built` here.
 
     `name` is the robot's name in the last build.
     """
     if (top := git.find_top(root)) is None:
         return
     reads.depend_on_commits(top)
-    import pygit2  # takes 55 ms, which most builds save
 
     try:
         repository = open_repository(root)
@@ -83,55 +89,52 @@ def read_commits(
         return
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
-    names = ["MERGE_HEAD", *(str(parent) for parent in repository.head.peel(pygit2.Commit).parent_ids)]
+    names = ["MERGE_HEAD", *_recent_parents(repository)]
     if has_built:
-        names += [f"HEAD~{number}" for number in range(2, _BACK)]
         # after a squash, the branch may be deleted: look at the commits that were checked out last
         recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
-        names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *(str(entry.oid_new) for entry in recent)]
-        names += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
-    for commit in dict.fromkeys(names):
+        others = ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *(str(entry.oid_new) for entry in recent)]
+        others += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
+        history = _history(repository)  # of which a clone looks for the same commits
+        names += [name for name in others if _commit_id(repository, name) not in history]
+    for revision in dict.fromkeys(names):
         try:
-            yield CommittedBuild(Revision(root, commit), files, store, name)
+            yield CommittedBuild(Revision(root, revision), files, store, name)
         except SourceError:  # there is no such commit
             continue
 
 
-def read_commits_since(
-    root: Path, files: PackageFiles, store: Store, name: str, commit: str
-) -> tuple[CommittedBuild, ...] | None:
-    """Return the commits that HEAD has and `commit` lacks; None if they are many, or can't be read.
-
-    If `commit` is empty, these are all commits.
-    """
+def _recent_parents(repository: pygit2.Repository) -> Iterator[str]:
+    """Yield the parents of HEAD and of the commits before it; of a merge, all."""
     import pygit2
 
-    reads.depend_on_commits(git.find_top(root))
+    commit = repository.head.peel(pygit2.Commit)
+    for _ in range(_BACK):
+        yield from map(str, commit.parent_ids)
+        before = repository.get(commit.parent_ids[0]) if commit.parent_ids else None
+        if not isinstance(before, pygit2.Commit):  # a shallow clone lacks it
+            return
+        commit = before
+
+
+def _history(repository: pygit2.Repository) -> set[str]:
+    """Return the latest commits of HEAD's history."""
+    import pygit2
+
+    found = set[str]()
+    with contextlib.suppress(pygit2.GitError, KeyError):  # a shallow clone ends somewhere
+        found.update(str(one.id) for one in itertools.islice(repository.walk(repository.head.target), _HISTORY))
+    return found
+
+
+def _commit_id(repository: pygit2.Repository, name: str) -> str:
+    """Return the hash of a commit; empty if there is none."""
+    import pygit2
+
     try:
-        if (repository := open_repository(root)) is None:
-            return None
-        walker = repository.walk(repository.head.target)
-        if commit:
-            walker.hide(commit)
-        found = list(itertools.islice(walker, _MOST + 1))
-        if len(found) > _MOST:
-            return None
-        return (*(CommittedBuild(Revision(root, str(one.id)), files, store, name) for one in found),)
-    except (SourceError, pygit2.GitError, KeyError, ValueError):  # `commit` is in no branch any more, for example
-        return None
-
-
-def find_head(root: Path) -> str:
-    """Return the commit that is checked out, by git's log of HEAD; empty without one."""
-    if (top := git.find_top(root)) is None:
+        return str(repository.revparse_single(name).peel(pygit2.Commit).id)
+    except (KeyError, ValueError, pygit2.GitError):
         return ""
-    with reads.unrecorded():  # only a note names this commit
-        try:
-            *_, last = b"", *reads.read_file(find_git_folder(top) / "logs" / "HEAD").splitlines()
-        except OSError:
-            return ""
-    _, commit, *_ = *last.decode(errors="replace").split(" ", 2), "", ""
-    return commit
 
 
 def read_left_records(

@@ -20,9 +20,7 @@ from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
 from urdfsync.engine.inspect.commits import (
     CommittedBuild,
-    find_head,
     read_commits,
-    read_commits_since,
     read_left_records,
 )
 from urdfsync.engine.inspect.last_build import LastBuild, option_values
@@ -133,15 +131,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         """The commits that an edit of unknown origin may come from."""
         has_built = bool(self.last.notes.model)
         return (*read_commits(self.config.root, self.files, self.store, self.last.name, has_built=has_built),)
-
-    def read_commits_since(self, commit: str) -> tuple[CommittedBuild, ...] | None:
-        """Return the commits that HEAD has and `commit` lacks; None if they are many, or can't be read."""
-        return read_commits_since(self.config.root, self.files, self.store, self.last.name, commit)
-
-    @cached_property
-    def head(self) -> str:
-        """The commit that is checked out; empty without one."""
-        return find_head(self.config.root)
 
     @cached_property
     def users_files(self) -> UsersFiles:

@@ -19,7 +19,7 @@ from urdfsync.engine.inspect.package_files import text_hash
 from urdfsync.engine.sources.source import expansion_hash
 from urdfsync.engine.stage.saved_conflicts import SavedConflicts
 from urdfsync.files import text_digest
-from urdfsync.state.notes import Judged, Notes, Use
+from urdfsync.state.notes import Notes, Use
 from urdfsync.state.record import FileRecord, Open, Question, Record, as_recorded
 from urdfsync.state.store import Aside
 
@@ -117,7 +117,7 @@ def notes_after(
     record: Record,
     saved: Iterable[Aside],
     conflicts: SavedConflicts,
-    edits: Mapping[str, Judged],
+    edited: Mapping[str, str],
     uses: Mapping[str, Use],
 ) -> Notes:
     """Return this machine's notes with the results of this build; `record` is the new record.
@@ -140,6 +140,6 @@ def notes_after(
         proposals=old.proposals if is_dry else conflicts.noted,
         versions=old.versions if is_dry else conflicts.written,
         model=model if is_written else old.model,
-        edited=edits if is_written else old.edited,
+        edited=edited if is_written else old.edited,
         uses=uses,
     )
