@@ -225,7 +225,7 @@ def _merge_parts(
             blanks, pieces = _merge_around(here, old, part, new, pieces)
         before, after, remark = blanks
         if mine.separator:  # it stands before a comment to the end of the line
-            remark = _take_last_notes(pieces) + remark
+            remark = _joined(_take_last_notes(pieces), remark)
         items[part.key] = _Item(part.key, notes + before, pieces or [part.node.text], after, remark)
         notes = ""
     arranged = arrange(mine, generated, users_layout) if mine.kind is TreeKind.BODY and users_layout else {}
