@@ -28,7 +28,7 @@ class Generation(msgspec.Struct, frozen=True):
     reading: Reading
     """The reading of the source, with the line of each element."""
     diagnostics: tuple[Diagnostic, ...]
-    """Findings about source, options and imports."""
+    """Findings about source, options and imports, at the lines that the user wrote."""
     imported: Imported
     package: Package
 
@@ -71,7 +71,7 @@ def generate_robot(inputs: Inputs) -> Generation:
         package = generate(domain, version, robot.target, robot.options, inputs.templates, noted, last.base)
     for path in package.artifacts:
         package.hash(path)  # renders the text, if it is new: a fault of a template is told here
-    return Generation(version, reading, tuple(findings), imported, package)
+    return Generation(version, reading, tuple(map(inputs.source.locate, findings)), imported, package)
 
 
 def generated_texts(

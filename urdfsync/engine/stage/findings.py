@@ -59,7 +59,7 @@ _MAYBE = "?"
 
 def find_lasting(inputs: Inputs, generation: Generation, decision: Decision, reads: Reads) -> list[Diagnostic]:
     """Return the findings that a build repeats if nobody changes a file, except those of `tell_uses`."""
-    findings = [*generation.diagnostics, *inputs.parents.diagnostics]
+    findings = [*inputs.parents.diagnostics]
     changes, file = decision.differences.changes, shown(inputs.robot.source)
     last = inputs.last.version if changes and changes.changes else None
     findings += judge(inputs.domain, generation.now, generation.reading, file, last, changes)
@@ -73,7 +73,7 @@ def find_lasting(inputs: Inputs, generation: Generation, decision: Decision, rea
     findings += _unmerged(inputs, reads)
     findings += () if inputs.has_moved else _twin(inputs)
     findings += tell_unused(decision.differences.unused, (), file, generation.reading)
-    return list(map(inputs.source.locate, findings))
+    return [*generation.diagnostics, *map(inputs.source.locate, findings)]
 
 
 def find_news(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
