@@ -32,7 +32,7 @@ _MOST = 50
 _HISTORY = 1000
 """The greatest number of commits of HEAD's history that are told from those of other branches."""
 _BACK = 10
-"""The greatest number of commits, counted back from HEAD, whose parents are searched."""
+"""The greatest number of commits, counted back from HEAD, whose parents are searched, too."""
 
 
 class CommittedBuild(msgspec.Struct, frozen=True):
@@ -89,7 +89,7 @@ def read_commits(
         return
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
-    names = ["MERGE_HEAD", *_recent_parents(repository)]
+    names = ["HEAD", "MERGE_HEAD", *_recent_parents(repository)]
     if has_built:
         # after a squash, the branch may be deleted: look at the commits that were checked out last
         recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
