@@ -92,21 +92,9 @@ def test_the_exit_code_is_that_of_the_worst(build: Result, code: Exit, code_of_a
 
 def test_a_package_is_built_once_a_file_of_it_was_written() -> None:
     assert result(Reason.UPDATE).is_built
-    new = Result(
-        robot="arm",
-        package="Arm",
-        folder=Path("Arm"),
-        root=Path(),
-        actions=Actions([Action("a.mo", Reason.CREATE, Role.MODEL)]),
-    )
+    new = msgspec.structs.replace(result(), actions=Actions([Action("a.mo", Reason.CREATE, Role.MODEL)]))
     assert (new.is_built, new.is_first) == (False, True)
-    found = Result(
-        robot="arm",
-        package="Arm",
-        folder=Path("Arm"),
-        root=Path(),
-        actions=Actions([Action("a.mo", Reason.UNCHANGED, Role.MODEL)]),
-    )
+    found = msgspec.structs.replace(new, actions=Actions([Action("a.mo", Reason.UNCHANGED, Role.MODEL)]))
     assert (found.is_built, found.is_first) == (True, False)
     assert not result().is_first
 

@@ -21,12 +21,11 @@ def action(reason: Reason, waits: bool = False, path: str = "") -> Action:
 
 def result_of(*actions: Action, changes: Changes | None = None) -> Result:
     writes = any(one.writes for one in actions)
-    place = Path("/project/Arm"), Path("/project")
     return Result(
         robot="arm",
         package="Arm",
-        folder=place[0],
-        root=place[1],
+        folder=Path("/project/Arm"),
+        root=Path("/project"),
         actions=Actions(actions),
         changes=changes,
         dry=True,

@@ -18,7 +18,6 @@ from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.inspect.package_files import encode
-from urdfsync.engine.result import DisputedFile
 from urdfsync.merge.texts import find_flaw
 from urdfsync.modelica.markers import find_markers, read_sides
 from urdfsync.modelica.parser import parse
@@ -26,8 +25,8 @@ from urdfsync.modelica.parser import parse
 _HINT = "set $VISUAL or $EDITOR"
 
 
-def edit(disputed: Sequence[DisputedFile]) -> tuple[Path, dict[str, str]]:
-    """Let the user write one text for each conflict.
+def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[str, str]]:
+    """Let the user write one text for each conflict; beside it, the proposed merge as the user edited it before.
 
     Returns the folder with the edited files, and the texts by the conflicts' paths. Raises UrdfsyncError without an
     editor, if the editor fails, and for an unusable text; the folder stays.
@@ -41,7 +40,6 @@ def edit(disputed: Sequence[DisputedFile]) -> tuple[Path, dict[str, str]]:
         raise UrdfsyncError.of("no-editor", "there is no editor to open", hint=_HINT)
     folder, texts = Path(tempfile.mkdtemp(prefix="urdfsync-edit-")), dict[str, str]()
     hint = f"your text is in {folder}; --edit begins anew"
-    conflicts = [(one.texts, one.versions.edited) for one in disputed if one.texts]
     for number, (conflict, edited) in enumerate(conflicts):
         file = folder / str(number) / PurePosixPath(conflict.path).name  # several conflicts may have the same name
         file.parent.mkdir()

@@ -80,7 +80,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     choices = {action.path: UsersChoice(choice, action.sides, args.moved) for _, action in targets.values()}
     edited, folder = dict[str, str](), None
     if choice is Choice.EDIT:
-        disputed = [one for result in planned for one in result.conflicts if one.action.path in targets]
+        conflicts = (one for result in planned for one in result.conflicts if one.action.path in targets)
+        disputed = [(one.texts, one.versions.edited) for one in conflicts if one.texts]
         folder, edited = editor.edit(disputed) if disputed else (None, {})
     for path, text in edited.items():
         choices[path] = msgspec.structs.replace(choices[path], text=text)

@@ -89,17 +89,17 @@ def read_commits(
         return
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
-    names = ["HEAD", "MERGE_HEAD", *_recent_parents(repository)]
+    commits = [*(_commit_id(repository, name) for name in ("HEAD", "MERGE_HEAD")), *_recent_parents(repository)]
     if has_built:
         # after a squash, the branch may be deleted: look at the commits that were checked out last
         recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
         others = ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *(str(entry.oid_new) for entry in recent)]
         others += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
         history = _history(repository)  # of which a clone looks for the same commits
-        names += [name for name in others if _commit_id(repository, name) not in history]
-    for revision in dict.fromkeys(names):
+        commits += [commit for other in others if (commit := _commit_id(repository, other)) not in history]
+    for commit in dict.fromkeys(filter(None, commits)):  # several branches may have one commit
         try:
-            yield CommittedBuild(Revision(root, revision), files, store, name)
+            yield CommittedBuild(Revision(root, commit), files, store, name)
         except SourceError:  # there is no such commit
             continue
 

@@ -18,11 +18,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncErro
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
-from urdfsync.engine.inspect.commits import (
-    CommittedBuild,
-    read_commits,
-    read_left_records,
-)
+from urdfsync.engine.inspect.commits import CommittedBuild, read_commits, read_left_records
 from urdfsync.engine.inspect.last_build import LastBuild, option_values
 from urdfsync.engine.inspect.package_files import Folder, PackageFiles, key_of
 from urdfsync.engine.inspect.parents import Parents
