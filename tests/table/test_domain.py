@@ -169,6 +169,24 @@ def test_a_wrong_kind_is_told_before_all_connections(project: Path, execute: Exe
     assert "no element" not in execute("build", code=Exit.ERROR).err
 
 
+def test_any_key_becomes_a_name(folder: Path, execute: Execute) -> None:
+    keys = ["floor", "end", "time", "P-101", "P_101", "pump", "Pump", "Parts", "12", "---", "living room", "k" * 200]
+    Path("parts.csv").write_text("\n".join(["name,mass [kg],time [s]", *(f"{key},1,2" for key in keys)]))
+    Path("parts.connections.csv").write_text("from,to\nend,P-101\n")
+    execute("init", "--domain", "table", "parts.csv")
+    execute("build")
+    system = Path("modelica/Parts/Parts.mo").read_text()
+    names = re.findall(r"Models\.(\w+) (\w+)\n\s+\"(.*)\"", system)
+    assert [key for *_, key in names] == keys
+    assert len({component.lower() for _, component, _ in names}) == len(keys)
+    patterns = ["floor_H", "end_H", "time_H", "p_101_element_H", "p_101_element_H", "pump_element_H", "pump_element_H"]
+    patterns += ["parts_element_H", "element_12", "element", "living_room", f"{'k' * 93}_H"]
+    for pattern, (name, component, key) in zip(patterns, names, strict=True):
+        assert re.fullmatch(pattern.replace("H", "[0-9a-f]{6}"), component), key
+        assert f'model {name} "{key}"' in Path(f"modelica/Parts/Models/{name}.mo").read_text()
+    assert "Real time_(" in Path("modelica/Parts/Records/Living_room.mo").read_text()
+
+
 def test_a_column_may_have_a_word_of_modelica_as_name(folder: Path, execute: Execute) -> None:
     Path("motors.csv").write_text("name,model\nm1,XL\n")
     execute("init", "--domain", "table", "motors.csv")

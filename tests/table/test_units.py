@@ -25,7 +25,7 @@ from urdfsync.table.units import find_unit, is_same_kind
         ("N.cm", "600", 6, "N.m"),
         ("kg.cm2", "1", 1e-4, "kg.m2"),
         ("g.cm2", "1", 1e-7, "kg.m2"),
-        ("kWh", "1", 3.6e6, "kg.m2/s2"),
+        ("kWh", "1", 3.6e6, "J"),
         ("l/s", "1", 1e-3, "m3/s"),
         ("W/(m2.K)", "2", 2, "W/(m2.K)"),
         ("degC", "-5", 268.15, "K"),
@@ -33,29 +33,46 @@ from urdfsync.table.units import find_unit, is_same_kind
         ("rpm", "60", 2 * math.pi, "rad/s"),
         ("%", "50", 0.5, "1"),
         ("kOhm", "1", 1000, "Ohm"),
-        ("Ω", "1", 1, "kg.m2/(s3.A2)"),
+        ("Ω", "1", 1, "Ohm"),
         ("Nm", "2", 2, "N.m"),
         ("mNm", "30", 0.03, "N.m"),
         ("Nm/A", "30", 30, "N.m/A"),
         ("m^2", "2", 2, "m2"),
         ("m²", "2", 2, "m2"),
-        ("J/kg/K", "2", 2, "m2/(s2.K)"),
+        ("J/kg/K", "2", 2, "J/(kg.K)"),
         ("1/degC", "2", 2, "1/K"),
         ("1/s", "2", 2, "1/s"),
         ("hPa", "2", 200, "Pa"),
-        ("oz.in", "100", 0.7061551814226044, "kg.m2/s2"),
-        ("oz-in", "100", 0.7061551814226044, "kg.m2/s2"),
-        ("ozf.in", "100", 0.7061551814226044, "kg.m2/s2"),
-        ("ozf-in", "100", 0.7061551814226044, "kg.m2/s2"),
+        ("oz.in", "100", 0.7061551814226044, "N.m"),
+        ("oz-in", "100", 0.7061551814226044, "N.m"),
+        ("ozf.in", "100", 0.7061551814226044, "N.m"),
+        ("ozf-in", "100", 0.7061551814226044, "N.m"),
+        ("kg.cm", "10", 0.980665, "N.m"),
+        ("kg-cm", "10", 0.980665, "N.m"),
+        ("kg.cm/s", "10", 0.1, "kg.m/s"),
+        ("lbf.in", "10", 1.1298482902764672, "N.m"),
+        ("bar", "3.5", 350000, "Pa"),
+        ("psi", "1", 6894.757293168361, "Pa"),
+        ("N/mm2", "1", 1e6, "Pa"),
+        ("kgf", "1", 9.80665, "N"),
+        ("hp", "1", 745.6998715822702, "W"),
+        ("kcal/h", "1", 1.1622222222222223, "W"),
+        ("kW.h", "1", 3.6e6, "J"),
+        ("Ah", "1", 3600, "C"),
+        ("kVA", "1", 1000, "V.A"),
+        ("µF", "1", 1e-6, "F"),
+        ("W/(m.degC)", "1", 1, "W/(m.K)"),
+        ("V/rpm", "1", 30 / math.pi, "V.s/rad"),
+        ("bar.l/s", "1", 100, "Pa.m3/s"),
     ],
 )
 def test_numbers_are_converted(unit: str, number: str, value: float, si: str) -> None:
     found = find_unit(unit)
     assert found.convert(Decimal(number)) == pytest.approx(value, rel=1e-15)
-    assert sorted(found.si) == sorted(si), "pint orders the units of a product"
+    assert found.si == si
 
 
-@pytest.mark.parametrize("unit", ["", "wibble", "kg..m", "m^", "2 + 3", "__import__('os')", "N.m^1e9", "m99999"])
+@pytest.mark.parametrize("unit", ["", "wibble", "kg..m", "m^", "2 + 3", "__import__('os')", "N.m^1e9", "m99999", "m^0.5"])
 def test_no_unit(unit: str) -> None:
     with pytest.raises(ValueError, match="is no unit"):
         find_unit(unit)

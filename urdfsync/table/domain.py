@@ -23,7 +23,7 @@ from urdfsync.domain import (
 )
 from urdfsync.modelica.literals import capitalize_first
 from urdfsync.table.model import FROM, TO, CellValue, Table, TableOptions, shown_unit
-from urdfsync.table.names import column_name, component_name
+from urdfsync.table.names import column_name, component_names
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
 
@@ -80,9 +80,10 @@ class TableDomain(Domain):
 
         return read(content, file, options, *companions)
 
-    def names(self, snapshot: Table, target: Target) -> Mapping[str, Mapping[str, str]]:  # noqa: ARG002 - see `Domain`
-        """Return the component names of the elements."""
-        return {"elements": {key: component_name(key) for key in snapshot.elements}}
+    def names(self, snapshot: Table, target: Target) -> Mapping[str, Mapping[str, str]]:
+        """Return the parameters of the columns in records, and the components of the elements."""
+        columns = {column: column_name(column) for column in snapshot.columns}
+        return {"columns": columns, "elements": component_names(snapshot.elements, target)}
 
     def artifacts(
         self,
@@ -97,10 +98,11 @@ class TableDomain(Domain):
         of_package: dict[str, Any] = {"within": target.package}
         elements, units = dict[str, dict[str, Any]](), dict(sorted(snapshot.columns.items()))
         columns = {column: _column(column, unit) for column, unit in units.items()}
+        components = component_names(snapshot.elements, target)
         # elements first: the artifacts of the first row show nearly each column, so `find_unused` reads no further
         for key, row in snapshot.elements.items():
             cells = dict(sorted(row.items()))  # the order of a recorded table
-            element = elements[key] = _element(key, cells, units, options)
+            element = elements[key] = _element(key, components[key], cells, units, options)
             for folder, role in folders.items():
                 data = {"within": f"{target.package}.{folder}", "root": target.package, **element}
                 template = "record.mo.jinja"
@@ -167,9 +169,10 @@ def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
     return Artifact(f"{folder}package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
 
 
-def _element(key: str, row: Mapping[str, CellValue], units: Mapping[str, str], options: TableOptions) -> dict[str, Any]:
+def _element(
+    key: str, component: str, row: Mapping[str, CellValue], units: Mapping[str, str], options: TableOptions
+) -> dict[str, Any]:
     """Return an element for templates; its row has no empty cells."""
-    component = component_name(key)
     names = {"name": key, "class": capitalize_first(component), "component": component}
     return {**names, "units": units, "kind": row.get(options.kind, ""), "row": row}
 

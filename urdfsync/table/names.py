@@ -1,40 +1,23 @@
-"""The Modelica identifiers of elements and columns."""
+"""The Modelica identifiers of elements and columns; `docs/tables.md` states the rule for users."""
 
 from __future__ import annotations
 
-import re
-from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Mapping
 
-from urdfsync.modelica.names import DEVICES, FUNCTIONS, GENERATED_CLASSES, KEYWORDS, RESERVED_CLASSES, in_ascii
-
-_RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES | GENERATED_CLASSES
-_LONGEST = 100
+from urdfsync.domain import Target
+from urdfsync.modelica.identifiers import hashed, is_free, stem, tell_apart
+from urdfsync.modelica.names import KEYWORDS
 
 
-def component_name(key: str, noun: str = "element") -> str:
-    """Return the identifier of a component: the letters and digits of its key, with a small first letter."""
-    stem = re.sub(r"[^A-Za-z0-9]+", "_", in_ascii(key)).strip("_")
-    if not stem[:1].isalpha():
-        stem = f"{noun}_{stem}".rstrip("_")
-    return stem[0].lower() + stem[1:]
+def component_names(keys: Iterable[str], target: Target) -> Mapping[str, str]:
+    """Return the components of elements by their keys; none hides the package or the model of the whole."""
+    spelled = {("element", key): stem(key, "element") for key in keys}
+    spelled = {key: name if is_free(name) else hashed(key[1], "element") for key, name in spelled.items()}
+    taken = target.package.partition(".")[0], target.name
+    return {key: name for (_, key), name in tell_apart(spelled, taken).items()}
 
 
 def column_name(column: str) -> str:
-    """Return the identifier of a column, as of a component; a reserved word of Modelica gets a final `_`."""
-    name = component_name(column, "column")
-    return f"{name}_" if name in KEYWORDS else name
-
-
-def find_clashes(keys: Iterable[str], noun: str = "element") -> Iterator[tuple[str, str]]:
-    """Yield each key that can't become a name in Modelica, with the reason."""
-    by_name = defaultdict[str, list[str]](list)
-    for key in keys:
-        by_name[component_name(key, noun).lower()].append(key)
-    for name, found in by_name.items():
-        if len(name) > _LONGEST:
-            yield found[0], f"its name in Modelica has more than {_LONGEST} letters"
-        elif name in _RESERVED:
-            yield found[0], f"`{component_name(found[0], noun)}` has a meaning in Modelica"
-        for key in found[1:]:
-            yield key, f"in Modelica it has the same name as `{found[0]}`"
+    """Return the parameter of a column in records; a word that a parameter can't have gets a final `_`."""
+    name = stem(column, "column")
+    return f"{name}_" if name in KEYWORDS or name == "time" else name

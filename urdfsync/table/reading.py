@@ -14,7 +14,7 @@ from urdfsync.domain import Companion, Reading
 from urdfsync.spelling import counted, name_and_unit, nearest
 from urdfsync.table import formats
 from urdfsync.table.model import FROM, NOTHING, TO, TYPES, CellValue, Sheet, Table, TableOptions
-from urdfsync.table.names import find_clashes
+from urdfsync.table.names import column_name
 from urdfsync.table.units import Unit, find_unit, is_same_kind
 
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
@@ -79,9 +79,6 @@ class _TableReader:
             self._error(connections, "no-column", message, 0, "name both elements in each row")
             connections = NOTHING
         rows = {} if self.of_options else self._rows(elements, columns, key)
-        for name, reason in find_clashes(rows):
-            message = f"the key `{name}` is no name: {reason}"
-            self._error(elements, "key-clash", message, self.lines[f"element {name}"], "rename it")
         is_whole = not self.of_options and len(rows) == len(elements.rows)
         joined = self._connections(connections, links, rows) if is_whole else {}
         self.findings += [
@@ -94,22 +91,21 @@ class _TableReader:
 
     def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
         """Return the columns; the columns in `texts` have texts."""
-        columns, names = list[_Column](), set[str]()
+        columns, names = list[_Column](), dict[str, str]()
         for number, cell in enumerate(sheet.header):
             name, unit = name_and_unit(cell)
             if not name or not name.isprintable():
                 self._error(sheet, "no-column", f"column {number + 1} has no name", 1, "name the column in the header")
-            elif name in names:
-                self._error(sheet, "no-column", f"there are two columns `{name}`", 1, "rename one")
+            elif other := names.get(column_name(name)):
+                words = f"columns `{other}` and `{name}` have one name in Modelica, `{column_name(name)}`"
+                message = f"there are two columns `{name}`" if other == name else words
+                self._error(sheet, "no-column", message, 1, "rename one")
             if name in texts and unit not in ("", "text"):
                 hint = "name columns of texts as `key` and `kind` in the configuration"
                 self._error(sheet, "no-key", f"column `{name}` has the unit {unit}: it can't name elements", 1, hint)
-            names.add(name)
+            names[column_name(name)] = name
             is_text = name in texts or not name
             columns.append(_Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
-        for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
-            if "same name" in reason and f"`{name}`" not in reason:
-                self._error(sheet, "no-column", f"column `{name}` can't be told apart: {reason}", 1, "rename it")
         return columns
 
     def _type(self, name: str, unit: str, sheet: Sheet, number: int) -> Unit | str:

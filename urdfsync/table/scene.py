@@ -14,7 +14,7 @@ from pathlib import Path
 from urdfsync.domain import Import, Target
 from urdfsync.domain.scene import Body, Hinge, PageMesh, PagePose, Scene, Shape
 from urdfsync.table.model import FROM, TO, Table, TableOptions, shown_unit
-from urdfsync.table.names import component_name
+from urdfsync.table.names import component_names
 
 _MOST = 500
 """The greatest number of elements of a picture."""
@@ -30,10 +30,11 @@ def scene(
 ) -> tuple[Scene, Mapping[str, str]]:
     """Return the picture of a table, which has no meshes."""
     places, root = _places(table), f"table {target.name}"
+    names = component_names(table.elements, target)
     kinds = sorted({str(row.get(options.kind, "")) for row in table.elements.values()})
     bodies, hinges, lines = list[Body](), list[Hinge](), list[Shape]()
     for key, (x, y) in places.items():
-        row, name = table.elements[key], component_name(key)
+        row, name = table.elements[key], names[key]
         facts = [
             (
                 column,

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import re
+from collections import defaultdict
+from collections.abc import Mapping
 from decimal import Decimal
 from typing import Any, NamedTuple
 
@@ -12,6 +14,10 @@ from urdfsync.extras import install_command
 
 _COHERENT = frozenset("m kg s A K mol cd rad sr Hz N Pa J W C V F Ohm S Wb T H lm lx Bq Gy kat".split())
 """The SI units without a prefix: loading pint takes longer than a whole build."""
+_DERIVED = "N", "Pa", "J", "W", "C"
+"""The SI units that other units become, such as lbf, bar, kWh, hp and Ah."""
+_PRODUCTS = {"J/s": "W", "W.s": "J", "A.s": "C", "N/m2": "Pa"}
+"""Products with a name of their own; `N.m` is a torque, and `V.A` an apparent power."""
 _TERM = rf"(?:{'|'.join(sorted(_COHERENT))})(?:-?[1-9])?"
 _MODELICA = re.compile(rf"(?:1|{_TERM}(?:\.{_TERM})*)(?:/(?:{_TERM}|\({_TERM}(?:\.{_TERM})+\)))?")
 """Matches a product of SI units, or a quotient of two products, in Modelica's spelling."""
@@ -29,7 +35,7 @@ _KNOWN = frozenset(
     "liter metric_ton bar revolutions_per_minute degree_Celsius delta_degree_Celsius degree_Fahrenheit "
     "delta_degree_Fahrenheit arcminute arcsecond standard_atmosphere pound_force_per_square_inch meter_Hg inch foot "
     "yard mile pound force_pound gallon force_kilogram force_ounce horsepower metric_horsepower electron_volt "
-    "watt_hour ampere_hour volt_ampere calorie british_thermal_unit knot kilometer_per_hour mile_per_hour percent "
+    "watt_hour ampere_hour calorie british_thermal_unit knot kilometer_per_hour mile_per_hour percent "
     "ppm".split()
 )
 """The allowed units, by pint's names. Further units of pint would surprise: `mil` is an angle, `G` is gauss."""
@@ -60,9 +66,9 @@ def find_unit(text: str) -> Unit:
     if unit := _find_simple(text):
         return unit
     registry = _load_registry(text)
-    one, zero = (_quantity(registry, number, text).to_base_units() for number in (1, 0))
-    factor = one.magnitude - zero.magnitude
-    return Unit(factor, zero.magnitude, _si(text, registry) or _as_modelica(one.unit_items(), registry))
+    written = _quantity(registry, 1, text)
+    one, zero = (quantity.to_base_units().magnitude for quantity in (written, _quantity(registry, 0, text)))
+    return Unit(one - zero, zero, _si(written, registry))
 
 
 def _find_simple(text: str) -> Unit | None:
@@ -79,7 +85,7 @@ def _find_simple(text: str) -> Unit | None:
         return f"{rest}{word[2] or ''}"
 
     si = _WORD.sub(plain, kilograms)
-    return Unit(Decimal(10) ** power, Decimal(0), si) if _MODELICA.fullmatch(si) else None
+    return Unit(Decimal(10) ** power, Decimal(0), _PRODUCTS.get(si, si)) if _MODELICA.fullmatch(si) else None
 
 
 def is_same_kind(text: str, other: str) -> bool:
@@ -94,12 +100,13 @@ def is_same_kind(text: str, other: str) -> bool:
 def _with_dots(text: str) -> str:
     """Return a unit with `N.m` instead of `Nm` and the like, and with `ozf.in` instead of `oz-in`.
 
-    pint reads `Nm` as a textile unit, and an ounce as a mass; the torque of servos is in ounces of force. Raises
-    ValueError for a long text, since pint would try all places for the end of a prefix.
+    pint reads `Nm` as a textile unit, an ounce and a kilogram as masses; the torque of servos is in ounces or kilograms
+    of force. Raises ValueError for a long text, since pint would try all places for the end of a prefix.
     """
     if len(text) > _LONGEST:
         raise ValueError(f"`{text[:_LONGEST]}…` is no unit")
-    return re.sub(r"\bozf?[.-]in\b", "ozf.in", re.sub(r"\b([mk]?N)([cm]?m)\b", r"\1.\2", text))
+    dotted = re.sub(r"\b([mk]?N(?=[cm]?m\b)|[kM]?V(?=A\b))", r"\1.", text)
+    return re.sub(r"\b(oz|kg)f?[.-](in|cm)\b(?!/s)", r"\1f.\2", dotted)
 
 
 def _load_registry(text: str) -> Any:
@@ -125,30 +132,35 @@ def _quantity(registry: Any, number: int, text: str) -> Any:
         quantity = registry.Quantity(Decimal(number), re.sub(r"(?<=[^\W\d])(-?[1-9])", r"**\1", product))
     except Exception:  # noqa: BLE001 - pint parses any text, and raises many kinds of errors
         raise ValueError(f"`{text}` is no unit") from None
-    for name, _ in quantity.unit_items():
+    for name, power in quantity.unit_items():
         prefix, unit, _ = next(iter(registry.parse_unit_name(name)))
         if unit not in _KNOWN or prefix not in _PREFIXES:
             raise ValueError(f"`{text}` is no unit: {name.replace('_', ' ')} is not known here")
+        if power % 1:
+            raise ValueError(f"`{text}` is no unit: Modelica has whole powers alone")
     return quantity
 
 
-def _si(text: str, registry: Any) -> str:
-    """Return a unit without prefixes, such as `N.m` for `N.cm`; empty if Modelica can't write this unit."""
-    plain = re.sub(r"[A-Za-z]+", lambda match: _without_prefix(match[0], registry), text)
-    return plain if _MODELICA.fullmatch(plain) else ""
+def _si(quantity: Any, registry: Any) -> str:
+    """Return the SI unit of a quantity in Modelica's spelling; its factors keep their order. `1` stands for no unit."""
+    powers = defaultdict[str, int](int)
+    for name, power in quantity.unit_items():
+        for symbol, inner in _coherent(name, registry).items():
+            powers[symbol] += int(power * inner)
+    above = [f"{symbol}{power if power > 1 else ''}" for symbol, power in powers.items() if power > 0]
+    below = [f"{symbol}{-power if power < -1 else ''}" for symbol, power in powers.items() if power < 0]
+    quotient = f"/{below[0] if len(below) == 1 else '(' + '.'.join(below) + ')'}" if below else ""
+    unit = f"{'.'.join(above) or '1'}{quotient}"
+    return _PRODUCTS.get(unit, unit)
 
 
-def _without_prefix(symbol: str, registry: Any) -> str:
-    names = [name for prefix, name, _ in registry.parse_unit_name(symbol) if prefix]
-    plain = "Ohm" if names and names[0] == "ohm" else str(registry.get_symbol(names[0])) if names else symbol
-    return plain if plain in _COHERENT else symbol
-
-
-def _as_modelica(units: Any, registry: Any) -> str:
-    """Return base units in Modelica's spelling, for example `kg.m2/(s2.K)`; `1` for no unit."""
-    powers = [(registry.get_symbol(name), power) for name, power in units]
-    above = [f"{symbol}{power if power != 1 else ''}" for symbol, power in powers if power > 0]
-    below = [f"{symbol}{-power if power != -1 else ''}" for symbol, power in powers if power < 0]
-    if not below:
-        return ".".join(above) or "1"
-    return f"{'.'.join(above) or '1'}/{below[0] if len(below) == 1 else '(' + '.'.join(below) + ')'}"
+def _coherent(name: str, registry: Any) -> Mapping[str, int]:
+    """Return a unit with pint's name as powers of SI units: without its prefix, or in `_DERIVED` or base units."""
+    _, unit, _ = next(iter(registry.parse_unit_name(name)))
+    symbol = "Ohm" if unit == "ohm" else str(registry.get_symbol(unit))
+    if symbol in _COHERENT:
+        return {symbol: 1}
+    quantity = registry.Quantity(1, name)
+    if derived := next(filter(quantity.is_compatible_with, _DERIVED), ""):
+        return {derived: 1}
+    return {registry.get_symbol(base): power for base, power in quantity.to_base_units().unit_items()}
