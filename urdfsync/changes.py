@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections import defaultdict
-from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -98,9 +98,9 @@ def compare(old: Version, new: Version, domain: Domain, options: Any, matching: 
         is_same = old.snapshot == new.snapshot
         matching = Matching() if is_same else match(domain.features(old.snapshot), domain.features(new.snapshot))
     renames = matching.renames
-    describe = domain.describe or functools.partial(_describe, unit=domain.unit)
+    describe = domain.describe or functools.partial(_describe, domain=domain)
     changes = [
-        Change((f"{kind} {name}",), ChangeKind.RENAMED, ChangeClass.STRUCTURAL, name, renamed)
+        Change((f"{kind.replace('_', ' ')} {name}",), ChangeKind.RENAMED, ChangeClass.STRUCTURAL, name, renamed)
         for (kind, name), renamed in renames.items()
     ]
     if old.snapshot != new.snapshot or (None not in (old.imports, new.imports) and old.imports != new.imports):
@@ -130,15 +130,15 @@ def _describe(
     renames: Mapping[ElementKey, str],
     options: Any,  # noqa: ARG001 - see `Describe`
     *,
-    unit: Callable[[Any, Sequence[str]], str],
+    domain: Domain,
 ) -> Iterator[Change]:
     """Yield the changes of a domain without `describe`: `("parts", "motor", "mass")` is `part motor / mass`."""
-    before = _under_new_names(plain(old.snapshot), renames)
+    before = _under_new_names(plain(domain.renamed(old.snapshot, renames)), renames)
     for difference in find_differences(old, new, before, plain(new.snapshot)):
         kind, *path = map(str, difference.path)
         words = (f"{kind.removesuffix('s').replace('_', ' ')} {path[0]}", *path[1:]) if path else (kind,)
         is_value = difference.kind is ChangeKind.CHANGED
-        of_value = unit(new.snapshot, [kind, *path])
+        of_value = domain.unit(new.snapshot, [kind, *path])
         yield difference.change(words, ChangeClass.PARAMETER if is_value else ChangeClass.STRUCTURAL, of_value)
 
 

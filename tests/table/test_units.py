@@ -72,7 +72,9 @@ def test_numbers_are_converted(unit: str, number: str, value: float, si: str) ->
     assert found.si == si
 
 
-@pytest.mark.parametrize("unit", ["", "wibble", "kg..m", "m^", "2 + 3", "__import__('os')", "N.m^1e9", "m99999", "m^0.5"])
+@pytest.mark.parametrize(
+    "unit", ["", "wibble", "kg..m", "m^", "2 + 3", "__import__('os')", "N.m^1e9", "m99999", "m^0.5"]
+)
 def test_no_unit(unit: str) -> None:
     with pytest.raises(ValueError, match="is no unit"):
         find_unit(unit)

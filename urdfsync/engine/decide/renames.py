@@ -36,7 +36,7 @@ def find_matching(
         for key, new in named.items()
         if before[key] == after.get(key) and not (is_pending and before[key].contents == after[new].contents)
     }
-    named = {key: new for key, new in named.items() if key[0] not in done}
+    named = {**domain.pairs(old, new), **{key: new for key, new in named.items() if key[0] not in done}}
     matching = match(before, after, named)
     pairs = _pairs(before, after, matching) if has_other_format else {}
     count = min(len(before), len(after))

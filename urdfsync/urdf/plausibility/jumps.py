@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import msgspec
 
 from urdfsync.domain import ElementKey
+from urdfsync.domain.jumps import more, units_of
 from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.validate import Finding
 
-_UNITS = {
-    1000.0: "m and mm",
-    180 / math.pi: "rad and degrees",
-    30 / math.pi: "rad/s and turns a minute",
-    25.4: "mm and inches",
-}
-"""Pairs of units that exporters confuse, by their ratio."""
-_SAME_UNIT = 0.005
 _JUMP = 9.99
 """A greater ratio of two masses is probably a mistake: a factor of 10, with room for rounding."""
 
@@ -52,23 +44,19 @@ def find_jumps(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> Ite
                 masses.append(_Jump(f"{path} / inertial / mass", mass, new_mass))
             for place, a, b in _numbers(former, one, path):
                 is_told = has_jumped and " / inertial / " in place  # an inertia grows with its mass
-                if a and b and not is_told and (unit := _unit_of(abs(b / a))):
+                if a and b and not is_told and (unit := units_of(abs(b / a))):
                     units[unit].append(_Jump(place, a, b))
     if masses:
         first, path = masses[0], masses[0].path.partition(" / ")[0]
-        message = f"{path}: its mass jumps, {first.before:g} kg → {first.after:g} kg{_more(masses)}"
+        message = f"{path}: its mass jumps, {first.before:g} kg → {first.after:g} kg{more(masses)}"
         yield Finding("mass-jump", first.path, message)
     for unit, jumps in units.items():
         first = jumps[0]
-        message = f"{first.path} jumps from {first.before:g} to {first.after:g}{_more(jumps)}, by the ratio of {unit}"
+        message = f"{first.path} jumps from {first.before:g} to {first.after:g}{more(jumps)}, by the ratio of {unit}"
         yield Finding("unit-jump", first.path, message)
     if lost:
-        message = f"{lost[0]} has lost its <inertial>{_more(lost)}"
+        message = f"{lost[0]} has lost its <inertial>{more(lost)}"
         yield Finding("inertial-lost", f"{lost[0]} / inertial", message)
-
-
-def _more(items: Sequence[object]) -> str:
-    return f" (and {len(items) - 1} more like it)" if len(items) > 1 else ""
 
 
 def _numbers(old: Any, new: Any, path: str) -> Iterator[tuple[str, float, float]]:
@@ -88,11 +76,3 @@ def _numbers(old: Any, new: Any, path: str) -> Iterator[tuple[str, float, float]
                     yield place, one, other
                 elif isinstance(other, msgspec.Struct) and type(one) is type(other):
                     yield from _numbers(one, other, f"{path} / {name.removesuffix('s')} {number}")
-
-
-def _unit_of(ratio: float) -> str:
-    """Return the two units that have this ratio, in words; empty for another ratio."""
-    for size, words in _UNITS.items():
-        if abs(ratio / size - 1) < _SAME_UNIT or abs(ratio * size - 1) < _SAME_UNIT:
-            return words
-    return ""
