@@ -100,7 +100,7 @@ def test_edits_follow_a_renamed_column(folder: Path, execute: Execute) -> None:
     execute("build")
     record, model = Path("modelica/P/Records/A.mo"), Path("modelica/P/Models/B.mo")
     edit(record, "= 3000", "= 3200")
-    edit(model, "\nend B", "\n  Real loss = parameters.power / 10;\nend B")
+    edit(model, "\nequation", "\n  Real loss = parameters.power / 10;\n\nequation")
     edit(Path("p.csv"), "power[", "rated power [")
     found = execute("diff", code=None).out
     assert "column power: renamed to rated power" in found

@@ -97,7 +97,7 @@ def test_edits_follow_rows_with_zeros_and_ones(folder: Path, execute: Execute, r
     execute("init", "--domain", "table", "p.csv")
     execute("build")
     for row in old:
-        edit(Path(f"modelica/P/Models/{row[0]}.mo"), f"\nend {row[0]}", f"\n  Real {row[-3:]};\nend {row[0]}")
+        edit(Path(f"modelica/P/Models/{row[0]}.mo"), "\nequation", f"\n  Real {row[-3:]};\n\nequation")
     source.write_text("\n".join(["name,ratio [1],part", *new]))
     execute("build")
     for row in new:
@@ -169,22 +169,27 @@ def test_a_wrong_kind_is_told_before_all_connections(project: Path, execute: Exe
     assert "no element" not in execute("build", code=Exit.ERROR).err
 
 
-def test_any_key_becomes_a_name(folder: Path, execute: Execute) -> None:
-    keys = ["floor", "end", "time", "P-101", "P_101", "pump", "Pump", "Parts", "12", "---", "living room", "k" * 200]
+@pytest.mark.slow
+def test_any_key_becomes_a_component(folder: Path, execute: Execute, modelica_library: Path) -> None:
+    keys = ["floor", "end", "time", "P-101", "P_101", "pump", "Pump", "Parts", "records"]
+    keys += ["12", "---", "living room", "k" * 200]
     Path("parts.csv").write_text("\n".join(["name,mass [kg],time [s]", *(f"{key},1,2" for key in keys)]))
     Path("parts.connections.csv").write_text("from,to\nend,P-101\n")
     execute("init", "--domain", "table", "parts.csv")
     execute("build")
     system = Path("modelica/Parts/Parts.mo").read_text()
-    names = re.findall(r"Models\.(\w+) (\w+)\n\s+\"(.*)\"", system)
+    names = re.findall(r"Models\.(\w+) (\w+)\n\s+\"(.*)\"\n\s+annotation \(Placement", system)
     assert [key for *_, key in names] == keys
     assert len({component.lower() for _, component, _ in names}) == len(keys)
     patterns = ["floor_H", "end_H", "time_H", "p_101_element_H", "p_101_element_H", "pump_element_H", "pump_element_H"]
-    patterns += ["parts_element_H", "element_12", "element", "living_room", f"{'k' * 93}_H"]
+    patterns += ["parts_element_H", "records_element_H", "element_12", "element", "living_room", f"{'k' * 93}_H"]
     for pattern, (name, component, key) in zip(patterns, names, strict=True):
         assert re.fullmatch(pattern.replace("H", "[0-9a-f]{6}"), component), key
         assert f'model {name} "{key}"' in Path(f"modelica/Parts/Models/{name}.mo").read_text()
     assert "Real time_(" in Path("modelica/Parts/Records/Living_room.mo").read_text()
+    assert all(word in system for word in ("connect(end_", ".port_b, p_101", ".port_a)", "annotation (Line("))
+    assert all(word in Path("modelica/Parts/Models/Living_room.mo").read_text() for word in ("Icon(", '"%name"'))
+    assert "1 model compiles" in execute("check").out, modelica_library
 
 
 def test_a_column_may_have_a_word_of_modelica_as_name(folder: Path, execute: Execute) -> None:

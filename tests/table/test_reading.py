@@ -93,7 +93,7 @@ def test_types_and_units_may_stand_in_the_configuration() -> None:
     [
         (HEADER + "a,1\nb,2\na,3\n", "parts.csv:4: error: the key `a` stands in line 2, too; rename one"),
         (HEADER + ",1\n", "parts.csv:2: error: the row has no key; fill its column `name`"),
-        ("name,max p [Pa],max-p [Pa]\na,1,2\n", "parts.csv:1: error: columns `max p` and `max-p` have one name in Modelica"),
+        ("name,max p [m],max-p [m]\na,1,2\n", "parts.csv:1: error: columns `max p` and `max-p` have one name"),
         (HEADER + 'a,"1,5"\n', "parts.csv:2: error: column `mass`: `1,5` is no number: write 1.5"),
         (HEADER + 'a,"60,000"\n', "parts.csv:2: error: column `mass`: `60,000` is no number: write 60.000 or 6"),
         ("mass [kg],name\n1,a\n", "parts.csv:1: error: column `mass` has the unit kg: it can"),

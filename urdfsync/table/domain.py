@@ -121,12 +121,13 @@ class TableDomain(Domain):
         for name in options.classes:
             yield Artifact(f"{name}.mo", Role.MODEL, f"{name}.mo.jinja", of_package | {"class": name}, "table")
         if system:
+            placed = {key: element | {"number": number} for number, (key, element) in enumerate(elements.items())}
             connections = [
-                {"name": key, "start": elements[str(row[FROM])], "end": elements[str(row[TO])]}
+                {"name": key, "start": placed[str(row[FROM])], "end": placed[str(row[TO])]}
                 | {"row": dict(sorted(row.items()))}
                 for key, row in snapshot.connections.items()
             ]
-            data = of_package | {"class": target.name, "elements": [*elements.values()], "connections": connections}
+            data = of_package | {"class": target.name, "elements": [*placed.values()], "connections": connections}
             yield Artifact(f"{target.name}.mo", Role.MODEL, "system.mo.jinja", data, "table")
         for folder in folders:
             yield _package(f"{folder}/", of_package | {"name": folder, "title": _TITLES[folder], "uses": {}})

@@ -10,10 +10,10 @@ from urdfsync.modelica.names import KEYWORDS
 
 
 def component_names(keys: Iterable[str], target: Target) -> Mapping[str, str]:
-    """Return the components of elements by their keys; none hides the package or the model of the whole."""
+    """Return the components of elements by their keys; no class of an element hides a package or the whole's model."""
     spelled = {("element", key): stem(key, "element") for key in keys}
     spelled = {key: name if is_free(name) else hashed(key[1], "element") for key, name in spelled.items()}
-    taken = target.package.partition(".")[0], target.name
+    taken = target.package.partition(".")[0], target.name, "Models", "Records"
     return {key: name for (_, key), name in tell_apart(spelled, taken).items()}
 
 

@@ -27,25 +27,5 @@ def option_for(name: str, snapshot: Table, target: Target, options: Any) -> str:
 def templates(snapshot: Table, shipped: Path) -> Mapping[str, str]:
     """Return templates for a table, by path; `shipped` is the domain's folder. The user edits these templates."""
     # the shipped template loops over the columns: a column of a later export needs no edit
-    files = {name: (shipped / name).read_text(encoding="utf-8") for name in ("record.mo.jinja", "model.mo.jinja")}
-    return files | ({"system.mo.jinja": _SYSTEM} if snapshot.connections else {})
-
-
-_SYSTEM = """\
-within << within >>;
-
-model << class >> "All elements, connected"
-<% for element in elements %>
-
-  Models.<< element.class >> << element.component >>
-    << element.name | string >>;
-<% endfor %>
-
-equation
-  // connections name the connectors of your models: connect(a.port_b, b.port_a);
-<% for connection in connections %>
-  // << connection.start.component >> to << connection.end.component >>
-<% endfor %>
-
-end << class >>;
-"""
+    names = "record", "model", *(["system"] if snapshot.connections else [])
+    return {f"{name}.mo.jinja": (shipped / f"{name}.mo.jinja").read_text(encoding="utf-8") for name in names}
