@@ -133,7 +133,8 @@ def _describe(
     domain: Domain,
 ) -> Iterator[Change]:
     """Yield the changes of a domain without `describe`: `("parts", "motor", "mass")` is `part motor / mass`."""
-    before = _under_new_names(plain(domain.renamed(old.snapshot, renames)), renames)
+    snapshot = domain.parts.renamed(old.snapshot, renames) if domain.parts else old.snapshot
+    before = _under_new_names(plain(snapshot), renames)
     for difference in find_differences(old, new, before, plain(new.snapshot)):
         kind, *path = map(str, difference.path)
         words = (f"{kind.removesuffix('s').replace('_', ' ')} {path[0]}", *path[1:]) if path else (kind,)

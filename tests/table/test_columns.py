@@ -9,7 +9,7 @@ from support.commands import Execute
 from support.networks import edit
 
 from urdfsync.domain import Companion, Version
-from urdfsync.table.columns import find_jumps, find_pairs
+from urdfsync.table.columns import find_jumps, pairs
 from urdfsync.table.domain import DOMAIN
 from urdfsync.table.model import Table, TableOptions
 
@@ -27,7 +27,7 @@ PUMPS = "name,power[kW],maker A,3,x B,1.5,y C,11,z"
 LINKS = "name,m[kg] A,1 B,2 ; from,to,length[m] A,B,3 B,A,4"
 
 
-@pytest.mark.parametrize(("old", "new", "pairs"), [
+@pytest.mark.parametrize(("old", "new", "names"), [
     (PUMPS, PUMPS.replace("power", "P"), "power P"),
     (PUMPS, PUMPS.replace("power", "P").replace("maker", "brand"), "maker brand, power P"),
     (PUMPS, PUMPS.replace("power[kW]", "P[W]").replace("3,", "3000,").replace("1.5", "1500").replace("11", "11000"),
@@ -43,9 +43,9 @@ LINKS = "name,m[kg] A,1 B,2 ; from,to,length[m] A,B,3 B,A,4"
     ("name,low[m],mid[m] A,5,5 B,6,6", "name,bottom[m],middle[m] A,5,5 B,6,6", ""),
     (LINKS, LINKS.replace("length", "distance"), "length distance"),
 ])  # fmt: skip
-def test_a_column_of_mostly_equal_cells_is_renamed(old: str, new: str, pairs: str) -> None:
-    found = find_pairs(table(old), table(new))
-    assert sorted(f"{name} {now}" for (_, name), (_, now) in found.items()) == pairs.split(", " if pairs else None)
+def test_a_column_of_mostly_equal_cells_is_renamed(old: str, new: str, names: str) -> None:
+    found = pairs(table(old), table(new))
+    assert sorted(f"{name} {now}" for (_, name), (_, now) in found.items()) == names.split(", " if names else None)
 
 
 @pytest.mark.parametrize(("old", "new", "words"), [

@@ -178,7 +178,7 @@ def test_merged_cells_are_refused() -> None:
         ("? [a]\n: {}\n", "a.yaml", "this is no YAML"),
         ("a: &a [1]\nb: {m: [*a, *a]}\n", "a.yaml", "neither a list nor a table of entries"),
         ("b: {m: [1, 2]}\n", "a.yaml", "column `m`: a cell can't be a list or a table"),
-        ("b: {'m [kg]': [1, 2]}\n", "a.yaml", "column `m`: a number can't be a list or a table"),
+        ("b: {'m [kg]': [1, 2]}\n", "a.yaml", "column `m`: a cell can't be a list or a table"),
         (b"PK", "a.xlsx", "this is no workbook"),
         (b"PK", "a.ods", "`.ods` is no format of tables"),
     ],

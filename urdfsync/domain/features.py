@@ -53,7 +53,10 @@ class Judgements(Protocol):
 
 
 class Parts(Protocol):
-    """The parts of a model that templates need not use, such as `column mass`; a domain's attribute `parts`."""
+    """The parts of a model that elements share, such as `column mass`; a domain's attribute `parts`. Pure.
+
+    Templates need not use a part. A part is an element with empty `Features`.
+    """
 
     def without_each(self, snapshot: Snapshot, options: Any) -> Mapping[str, Snapshot]:
         """Return for each part the model without it."""
@@ -61,4 +64,12 @@ class Parts(Protocol):
 
     def part_of(self, path: Sequence[str]) -> str:
         """Return the part that a change belongs to, by the change's path; empty if it belongs to none."""
+        ...
+
+    def pairs(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, ElementKey]:
+        """Return new parts by old parts with another name."""
+        ...
+
+    def renamed(self, old: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
+        """Return an old model in which the elements have the new names of their parts."""
         ...

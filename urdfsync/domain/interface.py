@@ -141,14 +141,6 @@ class Domain(Protocol):
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
 
-    def pairs(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, ElementKey]:
-        """Return elements that the domain itself matches: new elements by old elements."""
-        return {}
-
-    def renamed(self, old: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-        """Return an old model in which elements have the new names of renamed elements, such as columns, inside."""
-        return old
-
     def numbered(self, old: Version, new: Version) -> tuple[Numbered, Numbered]:
         """Return the numbered parts of the elements of two versions, for an edit to follow its part."""
         return {}, {}

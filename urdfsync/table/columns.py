@@ -1,4 +1,7 @@
-"""Columns of two versions of a table: which ones have a new name, and which ones jump."""
+"""The columns of a table: which ones templates use, which ones have a new name, and which ones jump.
+
+`urdfsync.domain.features` describes the functions: `Parts` and `Judgements`.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +15,8 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ElementKey, Version
 from urdfsync.domain.changes import is_number
 from urdfsync.domain.jumps import SAME_UNIT, more, units_of
-from urdfsync.table.model import CellValue, Table, shown_unit
+from urdfsync.table.model import FROM, SHEETS, TO, CellValue, Table, TableOptions, shown_unit
 
-SHEETS = {"column": ("columns", "elements"), "connection_column": ("connection_columns", "connections")}
-"""The fields of a table with the types and the rows of its columns, by kind."""
 _LARGE, _LARGEST = 3, 99
 """Greater ratios are probably mistakes: the first one if three different numbers have it."""
 _CELSIUS = 273.15
@@ -29,9 +30,29 @@ class _Number(NamedTuple):
     after: float
 
 
-def find_pairs(old: Table, new: Table) -> Mapping[ElementKey, ElementKey]:
+def without_each(table: Table, options: TableOptions) -> Mapping[str, Table]:
+    """Return the table without each column that has filled cells; the columns that name elements are used anyway."""
+    found, naming = dict[str, Table](), (options.kind, FROM, TO)
+    for kind, (types, rows) in SHEETS.items():
+        columns, cells = getattr(table, types), getattr(table, rows)
+        for column in {name: None for row in cells.values() for name in row if name not in naming}:
+            without = {key: _without(row, column) for key, row in cells.items()}
+            parts = {types: _without(columns, column), rows: without}
+            found[f"{_noun(kind)} {column}"] = msgspec.structs.replace(table, **parts)
+    return found
+
+
+def part_of(path: Sequence[str]) -> str:
+    """Return the column of a change."""
+    is_column = path[0].startswith(tuple(f"{_noun(kind)} " for kind in SHEETS))
+    if is_column or len(path) < 2:
+        return path[0] if is_column else ""
+    return f"{'column' if path[0].startswith('element ') else 'connection column'} {path[1]}"
+
+
+def pairs(old: Table, new: Table) -> Mapping[ElementKey, ElementKey]:
     """Return new columns by old columns with another name: of one unit, and with mostly equal cells, as no other is."""
-    pairs = dict[ElementKey, ElementKey]()
+    found = dict[ElementKey, ElementKey]()
     for kind, (types, rows) in SHEETS.items():
         (before, formers), (after, news) = ((getattr(table, types), getattr(table, rows)) for table in (old, new))
         removed, added = before.keys() - after.keys(), after.keys() - before.keys()
@@ -45,8 +66,8 @@ def find_pairs(old: Table, new: Table) -> Mapping[ElementKey, ElementKey]:
         ]
         for name, other in alike:
             if [name in pair or other in pair for pair in alike].count(True) == 1:
-                pairs[kind, name] = kind, other
-    return pairs
+                found[kind, name] = kind, other
+    return found
 
 
 def _are_alike(cells: Iterable[tuple[CellValue | None, CellValue | None]]) -> bool:
@@ -76,22 +97,21 @@ def judge(version: Version, changed: object) -> Sequence[Diagnostic]:  # noqa: A
 
 def find_jumps(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterator[Diagnostic]:
     """Yield a warning for each column most of whose numbers jump as if its unit had changed."""
-    before, after = renamed(old.snapshot, renames), new.snapshot
-    former = {(kind, name): old_name for (kind, old_name), name in renames.items()}
     for kind, (types, rows) in SHEETS.items():
-        noun, old_rows = rows.removesuffix("s"), getattr(before, rows)
-        for column, unit in getattr(after, types).items():
-            if getattr(before, types).get(former.get((kind, column), column)) != unit:
-                continue
+        noun, units = rows.removesuffix("s"), getattr(old.snapshot, types)
+        former = {renames.get((noun, key), key): row for key, row in getattr(old.snapshot, rows).items()}
+        # a column with another name has the same numbers, mostly
+        for column in (name for name, unit in getattr(new.snapshot, types).items() if units.get(name) == unit):
             cells = (
-                (key, old_rows.get(former.get((noun, key), key), {}).get(column), row.get(column))
-                for key, row in getattr(after, rows).items()
+                (key, former.get(key, {}).get(column), row.get(column))
+                for key, row in getattr(new.snapshot, rows).items()
             )
             numbers = [_Number(*cell) for cell in cells if all(map(is_number, cell[1:])) and cell[1] and cell[2]]
-            if found := _find_jump(numbers, unit):
+            if found := _find_jump(numbers, units[column]):
                 words, (first, *_) = found
-                place, size = f"{noun} {first.row}", f"{first.before:g} to {first.after:g} {shown_unit(unit)}".rstrip()
-                message = f"{kind.replace('_', ' ')} {column} jumps by {words}: {place} from {size}{more(found[1])}"
+                place, unit = f"{noun} {first.row}", shown_unit(units[column])
+                size = f"{first.before:g} to {first.after:g} {unit}".rstrip()
+                message = f"{_noun(kind)} {column} jumps by {words}: {place} from {size}{more(found[1])}"
                 hint, element = "check the unit in the header", f"{place} / {column}"
                 yield Diagnostic(Severity.WARNING, "unit-jump", message, hint=hint, element=element)
 
@@ -106,3 +126,11 @@ def _find_jump(numbers: Sequence[_Number], unit: str) -> tuple[str, Sequence[_Nu
     shifted = [number for number in numbers if abs(abs(number.after - number.before) - _CELSIUS) < SAME_UNIT]
     ways = (words, alike if words else ()), (f"{_CELSIUS} K", shifted if unit == "K" else ())
     return next((way for way in ways if 2 * len(way[1]) > len(numbers)), None)
+
+
+def _noun(kind: str) -> str:
+    return kind.replace("_", " ")
+
+
+def _without(cells: Mapping[str, CellValue], column: str) -> dict[str, CellValue]:
+    return {name: cell for name, cell in cells.items() if name != column}

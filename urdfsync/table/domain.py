@@ -22,33 +22,10 @@ from urdfsync.domain import (
     Target,
 )
 from urdfsync.modelica.literals import capitalize_first
-from urdfsync.table.columns import SHEETS, find_pairs, renamed
-from urdfsync.table.model import FROM, TO, CellValue, Table, TableOptions, shown_unit
+from urdfsync.table.model import FROM, SHEETS, TO, CellValue, Table, TableOptions, shown_unit
 from urdfsync.table.names import column_name, component_names
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
-
-
-class _Columns:
-    """The columns of a table, which templates need not use; see `Parts`."""
-
-    def without_each(self, snapshot: Table, options: TableOptions) -> Mapping[str, Table]:
-        """Return the columns with filled cells; the columns that name elements are used anyway."""
-        found, naming = dict[str, Table](), (options.kind, FROM, TO)
-        for kind, (types, rows) in SHEETS.items():
-            columns, cells = getattr(snapshot, types), getattr(snapshot, rows)
-            for column in {name: None for row in cells.values() for name in row if name not in naming}:
-                without = {key: _without(row, column) for key, row in cells.items()}
-                parts = {types: _without(columns, column), rows: without}
-                found[f"{kind.replace('_', ' ')} {column}"] = msgspec.structs.replace(snapshot, **parts)
-        return found
-
-    def part_of(self, path: Sequence[str]) -> str:
-        """Return the column of a change."""
-        is_column = path[0].startswith(("column ", "connection column "))
-        if is_column or len(path) < 2:
-            return path[0] if is_column else ""
-        return f"{'column' if path[0].startswith('element ') else 'connection column'} {path[1]}"
 
 
 class TableDomain(Domain):
@@ -59,8 +36,7 @@ class TableDomain(Domain):
     model = Table
     options = TableOptions
     companions = (CompanionKind("connections", ".connections.csv"),)
-    parts = _Columns()
-    judgements = LazyModule("urdfsync.table.columns")
+    judgements = parts = LazyModule("urdfsync.table.columns")
     advice = LazyModule("urdfsync.table.starter")
     simulation = LazyModule("urdfsync.table.benches")
     pictures = LazyModule("urdfsync.table.scene")
@@ -134,7 +110,7 @@ class TableDomain(Domain):
             yield Order(f"{folder}/package.order", classes)
 
     def features(self, snapshot: Table) -> Mapping[ElementKey, Features]:
-        """Return the cells of elements, the ends of connections, and columns, which `pairs` matches."""
+        """Return the cells of elements, the ends of connections, and columns, which match as `Parts` say."""
         features = {("element", key): Features(row, {}) for key, row in snapshot.elements.items()}
         for kind, (types, _) in SHEETS.items():
             features |= {(kind, column): Features({}, {}) for column in getattr(snapshot, types)}
@@ -144,14 +120,6 @@ class TableDomain(Domain):
             contents = {column: value for column, value in row.items() if column not in (FROM, TO)}
             features["connection", key] = Features(contents, existing)
         return features
-
-    def pairs(self, old: Table, new: Table) -> Mapping[ElementKey, ElementKey]:
-        """Return the columns that have another name."""
-        return find_pairs(old, new)
-
-    def renamed(self, old: Table, renames: Mapping[ElementKey, str]) -> Table:
-        """Return an old table with the new names of columns."""
-        return renamed(old, renames)
 
     def arranged(self, old: Table, new: Table) -> Table:
         """Return an old table with its rows in the order of the new one."""
@@ -170,10 +138,6 @@ class TableDomain(Domain):
 
 
 _FOLDERS = (("Records", Role.RECORD, "record"), ("Models", Role.MODEL, "model"))
-
-
-def _without(cells: Mapping[str, CellValue], column: str) -> dict[str, CellValue]:
-    return {name: cell for name, cell in cells.items() if name != column}
 
 
 def _package(folder: str, data: Mapping[str, Any]) -> Artifact:

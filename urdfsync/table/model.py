@@ -30,6 +30,8 @@ class Sheet(NamedTuple):
     """The sheet's file in diagnostics."""
 
 
+SHEETS = {"column": ("columns", "elements"), "connection_column": ("connection_columns", "connections")}
+"""The fields of a table with the types and the rows of its columns, by kind."""
 NOTHING = Sheet((), ())
 
 

@@ -73,7 +73,8 @@ class _TableReader:
             if name and name not in known and elements.header:
                 near = nearest(name, known)
                 hint = f"did you mean `{near}`?" if near else f"the columns are {', '.join(sorted(known))}"
-                self._of_option(option, f"there is no column `{name}`", hint)
+                message = f"there is no column `{name}`"
+                self.of_options.append((option, Diagnostic(Severity.ERROR, "no-column", message, hint=hint)))
         if connections.rows and (lacking := {FROM, TO} - known):
             message = f"the connections have no column `{min(lacking)}`"
             self._error(connections, "no-column", message, 0, "name both elements in each row")
@@ -200,9 +201,6 @@ class _TableReader:
     def _error(self, sheet: Sheet, code: str, message: str, line: int, hint: str) -> None:
         self.findings.append(Diagnostic(Severity.ERROR, code, message, sheet.file, line, hint=hint))
 
-    def _of_option(self, option: str, message: str, hint: str) -> None:
-        self.of_options.append((option, Diagnostic(Severity.ERROR, "no-column", message, hint=hint)))
-
 
 def _is_number(cell: object) -> bool:
     if isinstance(cell, str):
@@ -225,13 +223,11 @@ def read_value(cell: object, kind: Unit | str) -> CellValue | None:
         if isinstance(text, bool) or str(text).lower() in _TRUTH:
             return _TRUTH[str(text).lower()]
         raise ValueError(f"`{text}` is neither true nor false")
+    if not isinstance(text, str | int | float):  # the text of a list may be endless
+        raise ValueError("a cell can't be a list or a table")  # noqa: TRY004 - as all faults of cells
     if kind == "text":
-        if not isinstance(text, str | int | float):
-            raise ValueError("a cell can't be a list or a table")  # the text of a list may be endless
         str(text).encode()  # JSON may have half of a character: UnicodeError is a ValueError
         return str(text)
-    if not isinstance(text, str | int | float):
-        raise ValueError("a number can't be a list or a table")  # noqa: TRY004 - as all faults of cells
     if not _is_number(text):
         point = str(text).replace(",", ".") if str(text).count(",") == 1 else ""
         more = f": write {point}" if _NUMBER.fullmatch(point) else ""

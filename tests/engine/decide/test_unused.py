@@ -43,7 +43,7 @@ def test_a_column_that_no_template_reads_is_named_and_is_no_difference(parts: Pa
 
 def test_a_column_that_one_model_reads_is_used(parts: Path, execute: Execute) -> None:
     model = Path("templates/parts/model.mo.jinja")
-    edit(model, "\nend", "<% if row.note is defined %>  parameter Real noted = 1;<% endif %>\n\nend")
+    edit(model, "\nequation", "<% if row.note is defined %>  parameter Real noted = 1;<% endif %>\n\nequation")
     edit(parts, "b,2,", "b,2,yes")
     assert execute("build").errors == []
 

@@ -24,27 +24,16 @@ def renamed_names(inputs: Inputs, generation: Generation, differences: Differenc
     files = {path: one for path, one in recorded.items() if path.endswith(".mo")}
     before = declared_names(inputs.last.base(one.hashes[0]) or "" for path, one in files.items() if "/" not in path)
     names = names_of(inputs, generation, renamed, before := before | {*map(class_of, files)})
-    names |= _without_files(inputs, generation, differences.renames)
     gone = displaced(differences.renames)
-    if last := inputs.last.version if gone else None:
+    if last := inputs.last.version if differences.renames else None:
         identifiers = elements_by_identifier(inputs.domain, last.snapshot, inputs.last.target)
+        # classes of other elements declare elements without files, such as columns
+        owners = {*generation.package.owners.values()}
+        inner = {(kind, name) for (kind, name), new in differences.renames.items() if f"{kind} {new}" not in owners}
+        names |= {name: new for name, new in renamed.items() if identifiers.get(name) in inner}
         # other elements have these names now, so a rename would be wrong
         names |= {name: f"{name}{GONE}" for name in before if identifiers.get(identifier_of(name, identifiers)) in gone}
     return names
-
-
-def _without_files(
-    inputs: Inputs, generation: Generation, renames: Mapping[ElementKey, str]
-) -> Iterator[tuple[str, str]]:
-    """Yield old and new identifiers of elements without files, such as columns: classes of other elements use these."""
-    owners = {*generation.package.owners.values()}
-    if last := inputs.last.version:
-        before = inputs.domain.names(last.snapshot, inputs.last.target)
-        now = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
-        for (kind, name), new in renames.items():
-            old_name, new_name = before.get(f"{kind}s", {}).get(name), now.get(f"{kind}s", {}).get(new)
-            if f"{kind} {new}" not in owners and old_name and new_name and old_name != new_name:
-                yield old_name, new_name
 
 
 def names_of(

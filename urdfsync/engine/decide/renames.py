@@ -36,7 +36,8 @@ def find_matching(
         for key, new in named.items()
         if before[key] == after.get(key) and not (is_pending and before[key].contents == after[new].contents)
     }
-    named = {**domain.pairs(old, new), **{key: new for key, new in named.items() if key[0] not in done}}
+    named = {key: new for key, new in named.items() if key[0] not in done}
+    named = {**domain.parts.pairs(old, new), **named} if domain.parts else named
     matching = match(before, after, named)
     pairs = _pairs(before, after, matching) if has_other_format else {}
     count = min(len(before), len(after))
