@@ -35,7 +35,8 @@ def to_section(compared: Comparison, *, verbose: bool | None = None) -> Section:
             "Effects", ("Property", "Change", "By"), effects, _effect_line, _EFFECTS, "effect", _heading("Effects")
         )
     )
-    actions = [action for action in result.actions.decided if action.reason not in _SILENT and not compared.in_step]
+    decided = () if compared.in_step else result.actions.decided  # `in_step` reads all actions
+    actions = [action for action in decided if action.reason not in _SILENT]
     words = f"Next build: {result.summary}"
     if compared.against is not None:
         words = f"{counted(len(actions), 'file')} of the package differ{'s' if len(actions) == 1 else ''}"
