@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import itertools
 import statistics
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -20,6 +22,8 @@ from urdfsync.table.model import FROM, SHEETS, TO, CellValue, Table, TableOption
 _LARGE, _LARGEST = 3, 99
 """Greater ratios are probably mistakes: the first one if three different numbers have it."""
 _CELSIUS = 273.15
+_MOST_CELLS = 2_000_000
+"""The greatest number of cells that are compared to find renamed columns: a million take a second."""
 
 
 class _Number(NamedTuple):
@@ -55,18 +59,18 @@ def pairs(old: Table, new: Table) -> Mapping[ElementKey, ElementKey]:
     found = dict[ElementKey, ElementKey]()
     for kind, (types, rows) in SHEETS.items():
         (before, formers), (after, news) = ((getattr(table, types), getattr(table, rows)) for table in (old, new))
-        removed, added = before.keys() - after.keys(), after.keys() - before.keys()
-        common = formers.keys() & news.keys() if removed and added else set()
+        removed, added = sorted(before.keys() - after.keys()), sorted(after.keys() - before.keys())
+        same_unit = [(name, other) for name in removed for other in added if before[name] == after[other]]
+        common = [(formers[key], news[key]) for key in formers if same_unit and key in news]
+        if len(same_unit) * len(common) > _MOST_CELLS:
+            continue
         alike = [
             (name, other)
-            for name in sorted(removed)
-            for other in sorted(added)
-            if before[name] == after[other]
-            and _are_alike([(formers[key].get(name), news[key].get(other)) for key in common])
+            for name, other in same_unit
+            if _are_alike([(former.get(name), row.get(other)) for former, row in common])
         ]
-        for name, other in alike:
-            if [name in pair or other in pair for pair in alike].count(True) == 1:
-                found[kind, name] = kind, other
+        uses = Counter(itertools.chain.from_iterable(alike))
+        found |= {(kind, name): (kind, other) for name, other in alike if uses[name] == uses[other] == 1}
     return found
 
 

@@ -28,6 +28,9 @@ def find_matching(
     """
     if old == new and not (declared and is_pending):
         return Matching()
+    parts = domain.parts.pairs(old, new) if domain.parts else {}
+    if domain.parts and parts:  # elements are alike if they differ in names of their parts alone
+        old = domain.parts.renamed(old, {key: name for key, (_, name) in parts.items()})
     before, after = domain.features(old), domain.features(new)
     named = {(kind, name): (kind, declared[name]) for kind, name in before if name in declared}
     named = {key: new for key, new in named.items() if new in after}
@@ -36,8 +39,7 @@ def find_matching(
         for key, new in named.items()
         if before[key] == after.get(key) and not (is_pending and before[key].contents == after[new].contents)
     }
-    named = {key: new for key, new in named.items() if key[0] not in done}
-    named = {**domain.parts.pairs(old, new), **named} if domain.parts else named
+    named = {**parts, **{key: new for key, new in named.items() if key[0] not in done}}
     matching = match(before, after, named)
     pairs = _pairs(before, after, matching) if has_other_format else {}
     count = min(len(before), len(after))
