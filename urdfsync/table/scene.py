@@ -76,15 +76,14 @@ def _places(table: Table) -> dict[str, tuple[float, float]]:
             beside[one][other] = None
     places, bottom = dict[str, tuple[float, float]](), 0.0
     for first in sorted(beside, key=lambda key: -len(beside[key])):
-        columns = [] if first in places else [[first]]
-        seen = {first}
-        while columns and columns[-1]:
-            columns.append([])
-            for key in columns[-2]:
-                new = [other for other in beside[key] if other not in seen]
-                columns[-1] += new
-                seen.update(new)
-        height = max(map(len, columns), default=0)
+        if first in places:
+            continue
+        columns, seen = [[first]], {first}
+        while columns[-1]:
+            new = dict.fromkeys(other for key in columns[-1] for other in beside[key] if other not in seen)
+            columns.append([*new])
+            seen |= new.keys()
+        height = max(map(len, columns))
         for number, column in enumerate(columns):
             for row_number, key in enumerate(column):
                 places[key] = 1.4 * number, bottom - 0.7 * (row_number + (height - len(column)) / 2)
