@@ -74,4 +74,4 @@ def _written_out(path: str, named: Mapping[str, object] | set[str]) -> str:
 
 
 if __name__ == "__main__":
-    print("\n".join("\t".join(row) for row in united(listed(Path(sys.argv[1])))))
+    sys.stdout.writelines("\t".join(row) + "\n" for row in united(listed(Path(sys.argv[1]))))

@@ -19,7 +19,6 @@ def rows(heading: str) -> list[str]:
     return [name for cell in first_cells for name in re.findall("`(.*?)`", cell)]
 
 
-
 def matching(path: str, names: Collection[str]) -> list[str]:
     """Return the names that stand in a path, such as `link/pose` in `model/link/pose@degrees`."""
     return [name for name in names if re.search(rf"(^|[/@]){re.escape(name)}($|[/@])", path)]

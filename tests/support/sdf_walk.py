@@ -21,7 +21,7 @@ _NEWEST = "1.12"
 _MASS = "<inertial><mass>2</mass></inertial>"
 _WELD = '<joint name="weld" type="fixed"><parent>world</parent><child>base</child></joint>'
 _BOX = "<geometry><box/></geometry>"
-_PART = f'<pose>0.1 0.2 0.3 0.1 0.2 0.3</pose>{_MASS}'
+_PART = f"<pose>0.1 0.2 0.3 0.1 0.2 0.3</pose>{_MASS}"
 _ROBOT = f"""\
 <sdf version="1.12"><world name="w"><!----><model name="arm">
   <link name="base">{_MASS}</link>

@@ -17,7 +17,12 @@ from urdfsync.urdf.robot import SENSOR_KINDS
 _SENSORS = {word for kind, model in SENSOR_KINDS.items() for word in (kind, *model.types)}
 _MOMENTS = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
 """The inertia of a link that states none."""
-_CONTACT = {"friction/ode/mu": "mu1", "contact/ode/kp": "kp", "contact/ode/kd": "kd", "contact/ode/min_depth": "minDepth"}
+_CONTACT = {
+    "friction/ode/mu": "mu1",
+    "contact/ode/kp": "kp",
+    "contact/ode/kd": "kd",
+    "contact/ode/min_depth": "minDepth",
+}
 """Numbers of a `<surface>`, and their tags in the `<gazebo>` of a URDF."""
 
 _SCAN = {"scan/horizontal/samples": "640", "scan/vertical/samples": "1"}

@@ -1,0 +1,214 @@
+"""Reads masses and shapes of an SDF a second time, without code of the translation, and compares them with its URDF.
+
+All joints are at zero. Frames have full names: `/arm::hand::palm` is a link, `/arm::hand::__model__` the model around
+it. The translation has refused what has no meaning, so this reading does not look for faults.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+from urllib.parse import unquote
+
+import numpy as np
+from lxml import etree
+
+from urdfsync.engine.sources.ros_packages import Packages
+from urdfsync.translation.files import Files, TranslationError
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.second.reading import TENSOR, SecondElement, origin, pose, poses, read_again
+
+UNCOMPARED = "joints, contacts and sensors of the SDF, and an inertia that it leaves to Gazebo (`auto`)"
+_MODEL, _WORLD = "__model__", "world"
+_SIZES = {
+    "box": {"size": (1.0, 1.0, 1.0)},
+    "sphere": {"radius": (1.0,)},
+    "ellipsoid": {"radii": (1.0, 1.0, 1.0)},
+    "cylinder": {"radius": (1.0,), "length": (1.0,)},
+    "capsule": {"radius": (0.5,), "length": (1.0,)},
+    "mesh": {"scale": (1.0, 1.0, 1.0)},
+}
+"""The numbers of each shape, with their defaults."""
+_NEWEST = 12
+"""The minor number of the newest version of SDF."""
+_TOLERANCE = 1e-9
+
+
+class _Part(NamedTuple):
+    """A link, joint, frame or model."""
+
+    element: Any
+    """It has the pose."""
+    scope: tuple[str, str]
+    """The beginning of the full names around it, and the full name of the model's frame there."""
+    base: str
+    """The frame in which the pose is given, unless the pose names one."""
+    anchor: str = ""
+    """The frame in a model that gets the model's pose; empty for the model's own frame."""
+
+
+def compare(files: Files, packages: Packages, source: str, text: str) -> tuple[int, tuple[str, ...]]:
+    """Return how many numbers were compared, and a clause for each quantity of a link that differs."""
+    urdf, sdf = read_again(text.encode(), Options()), _Reading(files, packages, source)
+    placed, total, differences = poses(urdf, {}), 0, list[str]()
+    robot = f"/{_root(text.encode()).get('name')}::"
+    # before SDF 1.7, a link could be called `world`; the translation gives it another name
+    full = {name: robot + (name if robot + name in sdf.parts else _WORLD) for name in placed}
+    root = full[next(iter(placed))]
+    to_root = np.linalg.inv(sdf.place(root)) if root in sdf.parts else np.eye(4)
+    for name, link in urdf.links.items():
+        if (part := sdf.parts.get(full[name])) is None or part.element.tag != "link":
+            continue
+        first = dict(sdf.quantities(part, to_root @ sdf.place(full[name]), to_root))
+        second = dict(_quantities(link, placed[name]))
+        for quantity in sorted(first.keys() | second.keys()):
+            if first.get(quantity, 0.0) is None:
+                continue
+            if quantity not in first or quantity not in second:
+                differences.append(f"link {name} has no {quantity} in the {'URDF' if quantity in first else 'SDF'}")
+                continue
+            value, other = (np.ravel(each[quantity]) for each in (first, second))
+            total += value.size
+            error = float(np.abs(value - other).max() / max(1.0, np.abs(value).max()))
+            if not error <= _TOLERANCE:  # not a number is an error, too
+                differences.append(f"{quantity} of link {name} differs by {error:.1e}")
+    return total, tuple(differences)
+
+
+def _quantities(link: SecondElement, place: Any) -> Iterator[tuple[str, Any]]:
+    """Yield what a link of the URDF has, in the frame of the robot's root."""
+    values = {path: stated.value for path, stated in link.values.items()}
+    if "inertial.mass" in values:
+        yield "mass", values["inertial.mass"]
+        yield from _inertia(place @ origin(link, "inertial.origin"), [values[f"inertial.inertia.{m}"] for m in TENSOR])
+    for path, kind in ((path[: -len(".shape")], kind) for path, kind in values.items() if path.endswith(".shape")):
+        file, scale = values.get(f"{path}.uri", ("", ()))
+        sizes = [scale] if kind == "mesh" else [values[f"{path}.{name}"] for name in _SIZES[kind]]
+        yield from _shape(path, kind, file, sizes, place @ origin(link, f"{path}.origin"))
+
+
+def _inertia(frame: Any, moments: Sequence[Any]) -> Iterator[tuple[str, Any]]:
+    ixx, ixy, ixz, iyy, iyz, izz = np.ravel(moments)
+    turn = frame[:3, :3]
+    yield "centre of mass", frame[:3, 3]
+    yield "inertia", turn @ [[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]] @ turn.T
+
+
+def _shape(path: str, kind: str, file: str, sizes: Sequence[Any], frame: Any) -> Iterator[tuple[str, Any]]:
+    shown = f"{path} ({kind} {os.path.basename(file)}".rstrip() + ")"  # noqa: PTH119
+    yield f"size of {shown}", np.concatenate([np.ravel(size) for size in sizes])
+    yield f"place of {shown}", frame
+
+
+class _Reading:
+    """The frames of an SDF, and of the files that it includes."""
+
+    def __init__(self, files: Files, packages: Packages, source: str) -> None:
+        self._files, self._packages = files, packages
+        self.parts = dict[str, _Part]()
+        root = _root(files.read(source))
+        world = root.find("world")
+        self._enter(root if world is None else world, source, ("/", _WORLD))
+
+    def _enter(self, holder: Any, file: str, scope: tuple[str, str]) -> None:
+        """Add the parts of a model or world."""
+        for tag in ("link", "frame", "joint"):
+            for part in holder.iterchildren(tag):
+                base = part.findtext("child").strip() if tag == "joint" else part.get("attached_to") or _MODEL
+                self.parts.setdefault(scope[0] + part.get("name").strip(), _Part(part, scope, base))
+        for part in holder.iterchildren("model", "include"):
+            model, path, name = part, file, part.get("name")
+            if part.tag == "include":
+                try:
+                    path = self._find(file, part.findtext("uri").strip())
+                    model = _root(self._files.read(path)).find("model")
+                except TranslationError:  # scenery may be absent
+                    continue
+                name = part.findtext("name") or model.get("name")
+            is_merged = part.get("merge") in ("true", "1") and scope[1] != _WORLD
+            prefix = scope[0] if is_merged else f"{scope[0]}{name.strip()}::"
+            own = f"{prefix}_merged__{name.strip()}__model__" if is_merged else prefix + _MODEL
+            anchor = (part.findtext("placement_frame") or model.get("placement_frame") or "").strip()
+            self.parts[own] = _Part(model if part.find("pose") is None else part, scope, _MODEL, anchor)
+            self._enter(model, path, (prefix, own))
+
+    def _find(self, file: str, uri: str) -> str:
+        """Return the file that an `<include>` in another file names."""
+        scheme, _, rest = uri.rpartition("://")
+        folder = os.path.dirname(file)  # noqa: PTH120
+        if scheme in ("model", "package"):
+            name, _, rest = rest.lstrip("/").partition("/")
+            folder = str(self._packages.folder(name))
+        path = os.path.normpath(os.path.join(folder, unquote(rest) if scheme else rest))  # noqa: PTH118
+        if path.endswith((".sdf", ".world", ".xml")):
+            return path
+        config = _root(self._files.read(os.path.join(path, "model.config")))  # noqa: PTH118
+        named = {int(sdf.get("version", "1.4")[2:]): sdf.text.strip() for sdf in config.findall("sdf")}
+        newest = max(version for version in named if version <= _NEWEST)
+        return os.path.normpath(os.path.join(path, named[newest]))  # noqa: PTH118
+
+    def _named(self, scope: tuple[str, str], name: str) -> str:
+        """Return the full name of a frame that has a name in a scope."""
+        full = scope[0] + name
+        known = (each for each in (full, f"{full}::{_MODEL}") if each in self.parts)
+        return scope[1] if name == _MODEL else next(known, _WORLD)
+
+    def _base(self, part: _Part, holder: Any, base: str) -> str:
+        """Return the full name of the frame in which the pose of an element of a part is given."""
+        element = holder.find("pose")
+        word = None if element is None else element.get("relative_to") or element.get("frame")
+        return self._named(part.scope, word or base)
+
+    def place(self, name: str, end: str = _WORLD) -> Any:
+        """Return the pose of a frame in another one, in which it is given, perhaps by frames between the two."""
+        if name in (end, _WORLD):
+            return np.eye(4)
+        part = self.parts[name]
+        local = _pose(part.element)
+        if part.anchor:
+            anchor = self._named((name.removesuffix(_MODEL), name), part.anchor)
+            local = local @ np.linalg.inv(self.place(anchor, name))
+        return self.place(self._base(part, part.element, part.base), end) @ local
+
+    def quantities(self, part: _Part, place: Any, to_root: Any) -> Iterator[tuple[str, Any]]:
+        """Yield what a link has, in the frame of the robot's root; None for what Gazebo computes."""
+        link, inertial = part.element, part.element.find("inertial")
+        if inertial is not None and inertial.get("auto", "").strip().lower() in ("true", "1"):
+            yield from dict.fromkeys(("mass", "centre of mass", "inertia")).items()
+        else:
+            yield "mass", _numbers(inertial, "mass", (1.0,))
+            moments = [_numbers(inertial, f"inertia/{each}", (float(each[1] == each[2]),)) for each in TENSOR]
+            yield from _inertia(place @ _pose(inertial), moments)
+        for tag in ("visual", "collision"):
+            shapes = [(shape, kind) for shape in link.iterchildren(tag) for kind in shape.findall("geometry/*")[:1]]
+            drawn = [(shape, kind) for shape, kind in shapes if kind.tag in _SIZES and kind.find("submesh") is None]
+            for number, (shape, kind) in enumerate(drawn, start=1):
+                base = to_root @ self.place(self._base(part, shape, link.get("name").strip()))
+                sizes = [_numbers(kind, name, usual) for name, usual in _SIZES[kind.tag].items()]
+                yield from _shape(
+                    f"{tag}{number}", kind.tag, kind.findtext("uri", "").strip(), sizes, base @ _pose(shape)
+                )
+
+
+def _root(content: bytes) -> Any:
+    # the files may have prefixes without a namespace, and comments that contain `--`
+    parser = etree.XMLParser(recover=True, resolve_entities=False, no_network=True, remove_comments=True)
+    return etree.fromstring(content, parser)
+
+
+def _numbers(holder: Any, path: str, usual: Sequence[float]) -> Any:
+    text = (None if holder is None else holder.findtext(path)) or ""
+    return np.array(text.split() or usual, float)
+
+
+def _pose(holder: Any) -> Any:
+    """Return the 4×4 matrix of the pose in an element; the identity without one."""
+    element = None if holder is None else holder.find("pose")
+    numbers = _numbers(holder, "pose", (0.0,) * 6)
+    place, turn = numbers[:3], numbers[3:]
+    if len(turn) == 4:
+        x, y, z, w = turn / np.linalg.norm(turn)
+        cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        return pose(place, np.eye(3) + 2 * w * cross + 2 * cross @ cross)
+    return pose(place, np.radians(turn) if element is not None and element.get("degrees") in ("true", "1") else turn)
