@@ -7,7 +7,7 @@ it. The translation has refused what has no meaning, so this reading does not lo
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 from urllib.parse import unquote
 
@@ -21,7 +21,7 @@ from urdfsync.urdf.second.reading import TENSOR, SecondElement, origin, pose, po
 
 UNCOMPARED = "joints, contacts and sensors of the SDF, and an inertia that it leaves to Gazebo (`auto`)"
 _MODEL, _WORLD = "__model__", "world"
-_SIZES = {
+_SIZES: Mapping[str, Mapping[str, Sequence[float]]] = {
     "box": {"size": (1.0, 1.0, 1.0)},
     "sphere": {"radius": (1.0,)},
     "ellipsoid": {"radii": (1.0, 1.0, 1.0)},
@@ -32,7 +32,8 @@ _SIZES = {
 """The numbers of each shape, with their defaults."""
 _NEWEST = 12
 """The minor number of the newest version of SDF."""
-_TOLERANCE = 1e-9
+_TOLERANCE, _LEAST = 1e-9, 1e-30
+"""The greatest relative difference that counts as agreement, and the least size of a number."""
 
 
 class _Part(NamedTuple):
@@ -70,7 +71,8 @@ def compare(files: Files, packages: Packages, source: str, text: str) -> tuple[i
                 continue
             value, other = (np.ravel(each[quantity]) for each in (first, second))
             total += value.size
-            error = float(np.abs(value - other).max() / max(1.0, np.abs(value).max()))
+            least = 1.0 if quantity.startswith(("place", "centre")) else _LEAST
+            error = float(np.abs(value - other).max() / max(least, np.abs(value).max()))
             if not error <= _TOLERANCE:  # not a number is an error, too
                 differences.append(f"{quantity} of link {name} differs by {error:.1e}")
     return total, tuple(differences)
@@ -78,7 +80,7 @@ def compare(files: Files, packages: Packages, source: str, text: str) -> tuple[i
 
 def _quantities(link: SecondElement, place: Any) -> Iterator[tuple[str, Any]]:
     """Yield what a link of the URDF has, in the frame of the robot's root."""
-    values = {path: stated.value for path, stated in link.values.items()}
+    values: dict[str, Any] = {path: stated.value for path, stated in link.values.items()}
     if "inertial.mass" in values:
         yield "mass", values["inertial.mass"]
         yield from _inertia(place @ origin(link, "inertial.origin"), [values[f"inertial.inertia.{m}"] for m in TENSOR])
@@ -96,7 +98,7 @@ def _inertia(frame: Any, moments: Sequence[Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _shape(path: str, kind: str, file: str, sizes: Sequence[Any], frame: Any) -> Iterator[tuple[str, Any]]:
-    shown = f"{path} ({kind} {os.path.basename(file)}".rstrip() + ")"  # noqa: PTH119
+    shown = f"{path} ({kind} {os.path.basename(file.strip())}".rstrip() + ")"  # noqa: PTH119
     yield f"size of {shown}", np.concatenate([np.ravel(size) for size in sizes])
     yield f"place of {shown}", frame
 
@@ -175,7 +177,7 @@ class _Reading:
         """Yield what a link has, in the frame of the robot's root; None for what Gazebo computes."""
         link, inertial = part.element, part.element.find("inertial")
         if inertial is not None and inertial.get("auto", "").strip().lower() in ("true", "1"):
-            yield from dict.fromkeys(("mass", "centre of mass", "inertia")).items()
+            yield from ((quantity, None) for quantity in ("mass", "centre of mass", "inertia"))
         else:
             yield "mass", _numbers(inertial, "mass", (1.0,))
             moments = [_numbers(inertial, f"inertia/{each}", (float(each[1] == each[2]),)) for each in TENSOR]
@@ -184,11 +186,9 @@ class _Reading:
             shapes = [(shape, kind) for shape in link.iterchildren(tag) for kind in shape.findall("geometry/*")[:1]]
             drawn = [(shape, kind) for shape, kind in shapes if kind.tag in _SIZES and kind.find("submesh") is None]
             for number, (shape, kind) in enumerate(drawn, start=1):
-                base = to_root @ self.place(self._base(part, shape, link.get("name").strip()))
+                frame = to_root @ self.place(self._base(part, shape, link.get("name").strip())) @ _pose(shape)
                 sizes = [_numbers(kind, name, usual) for name, usual in _SIZES[kind.tag].items()]
-                yield from _shape(
-                    f"{tag}{number}", kind.tag, kind.findtext("uri", "").strip(), sizes, base @ _pose(shape)
-                )
+                yield from _shape(f"{tag}{number}", kind.tag, kind.findtext("uri", ""), sizes, frame)
 
 
 def _root(content: bytes) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from xml.etree.ElementTree import Element
 
 from urdfsync.sdf.frames import Scope
@@ -10,7 +10,7 @@ from urdfsync.sdf.joints import MODEL_AXES, SdfJoint
 from urdfsync.sdf.urdf import Urdf
 
 _AXIS = frozenset({"xyz", "limit", "dynamics", "mimic"})
-_READ = {
+_READ: Mapping[str, Collection[str]] = {
     "link": {"pose", "inertial", "visual", "collision", "sensor", "gravity", "kinematic", "velocity_decay"},
     "visual": {"pose", "geometry", "material", "transparency"},
     "collision": {"pose", "geometry", "surface", "density", "auto_inertia_params"},
@@ -75,7 +75,7 @@ def add_leftovers(urdf: Urdf, model: Scope, joints: Iterable[SdfJoint]) -> None:
 def _note_unread(urdf: Urdf, scope: Scope, element: Element, name: str) -> None:
     """Count the elements in an element of a model that are not read."""
     name = element.get("name") or name
-    known = _READ.get(element.tag)
+    known = _READ.get(element.tag, frozenset())
     for part in element if known else ():
         if part.tag in known:
             _note_unread(urdf, scope, part, name)
