@@ -50,7 +50,7 @@ class _Part(NamedTuple):
 
 
 def compare(files: Files, packages: Packages, source: str, text: str) -> tuple[int, tuple[str, ...]]:
-    """Return how many numbers were compared, and a clause for each quantity of a link that differs."""
+    """Return how many numbers were compared, and a clause for each part of a link that differs."""
     urdf, sdf = read_again(text.encode(), Options()), _Reading(files, packages, source)
     placed, total, differences = poses(urdf, {}), 0, list[str]()
     robot = f"/{_root(text.encode()).get('name')}::"
@@ -61,46 +61,39 @@ def compare(files: Files, packages: Packages, source: str, text: str) -> tuple[i
     for name, link in urdf.links.items():
         if (part := sdf.parts.get(full[name])) is None or part.element.tag != "link":
             continue
-        first = dict(sdf.quantities(part, to_root @ sdf.place(full[name]), to_root))
-        second = dict(_quantities(link, placed[name]))
-        for quantity in sorted(first.keys() | second.keys()):
-            if first.get(quantity, 0.0) is None:
+        first = {title: each for title, *each in sdf.things(part, full[name])}
+        second = {title: each for title, *each in _things(link)}
+        for title in sorted(first.keys() | second.keys() - {"inertial"}):
+            if title not in first or title not in second:
+                differences.append(f"link {name} has no {title} in the {'URDF' if title in first else 'SDF'}")
                 continue
-            if quantity not in first or quantity not in second:
-                differences.append(f"link {name} has no {quantity} in the {'URDF' if quantity in first else 'SDF'}")
-                continue
-            value, other = (np.ravel(each[quantity]) for each in (first, second))
-            total += value.size
-            least = 1.0 if quantity.startswith(("place", "centre")) else _LEAST
-            error = float(np.abs(value - other).max() / max(least, np.abs(value).max()))
-            if not error <= _TOLERANCE:  # not a number is an error, too
-                differences.append(f"{quantity} of link {name} differs by {error:.1e}")
+            frames = to_root @ first[title][1], placed[name] @ second[title][1]
+            for quantity, least, pair in (
+                ("numbers", _LEAST, (first[title][0], second[title][0])),
+                ("poses", 1.0, frames),
+            ):
+                value, other = map(np.ravel, pair)
+                total += value.size
+                error = float((np.abs(value - other) / np.maximum(least, np.abs(value))).max())
+                if not error <= _TOLERANCE:  # not a number is an error, too
+                    differences.append(f"{quantity} of {title} of link {name} differ by {error:.1e}")
     return total, tuple(differences)
 
 
-def _quantities(link: SecondElement, place: Any) -> Iterator[tuple[str, Any]]:
-    """Yield what a link of the URDF has, in the frame of the robot's root."""
+def _things(link: SecondElement) -> Iterator[tuple[str, Any, Any]]:
+    """Yield the inertial and the shapes of a link of the URDF: title, numbers, and pose in the link."""
     values: dict[str, Any] = {path: stated.value for path, stated in link.values.items()}
     if "inertial.mass" in values:
-        yield "mass", values["inertial.mass"]
-        yield from _inertia(place @ origin(link, "inertial.origin"), [values[f"inertial.inertia.{m}"] for m in TENSOR])
+        numbers = [values["inertial.mass"], *(values[f"inertial.inertia.{each}"] for each in TENSOR)]
+        yield "inertial", np.ravel(numbers), origin(link, "inertial.origin")
     for path, kind in ((path[: -len(".shape")], kind) for path, kind in values.items() if path.endswith(".shape")):
         file, scale = values.get(f"{path}.uri", ("", ()))
-        sizes = [scale] if kind == "mesh" else [values[f"{path}.{name}"] for name in _SIZES[kind]]
-        yield from _shape(path, kind, file, sizes, place @ origin(link, f"{path}.origin"))
+        sizes = [scale] if kind == "mesh" else [np.ravel(values[f"{path}.{name}"]) for name in _SIZES[kind]]
+        yield _title(path, kind, file), np.concatenate(sizes), origin(link, f"{path}.origin")
 
 
-def _inertia(frame: Any, moments: Sequence[Any]) -> Iterator[tuple[str, Any]]:
-    ixx, ixy, ixz, iyy, iyz, izz = np.ravel(moments)
-    turn = frame[:3, :3]
-    yield "centre of mass", frame[:3, 3]
-    yield "inertia", turn @ [[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]] @ turn.T
-
-
-def _shape(path: str, kind: str, file: str, sizes: Sequence[Any], frame: Any) -> Iterator[tuple[str, Any]]:
-    shown = f"{path} ({kind} {os.path.basename(file.strip())}".rstrip() + ")"  # noqa: PTH119
-    yield f"size of {shown}", np.concatenate([np.ravel(size) for size in sizes])
-    yield f"place of {shown}", frame
+def _title(path: str, kind: str, file: str) -> str:
+    return f"{path} ({kind} {os.path.basename(file.strip())}".rstrip() + ")"  # noqa: PTH119
 
 
 class _Reading:
@@ -173,22 +166,20 @@ class _Reading:
             local = local @ np.linalg.inv(self.place(anchor, name))
         return self.place(self._base(part, part.element, part.base), end) @ local
 
-    def quantities(self, part: _Part, place: Any, to_root: Any) -> Iterator[tuple[str, Any]]:
-        """Yield what a link has, in the frame of the robot's root; None for what Gazebo computes."""
+    def things(self, part: _Part, name: str) -> Iterator[tuple[str, Any, Any]]:
+        """Yield the inertial and the shapes of a link: title, numbers, and pose in the world."""
         link, inertial = part.element, part.element.find("inertial")
-        if inertial is not None and inertial.get("auto", "").strip().lower() in ("true", "1"):
-            yield from ((quantity, None) for quantity in ("mass", "centre of mass", "inertia"))
-        else:
-            yield "mass", _numbers(inertial, "mass", (1.0,))
-            moments = [_numbers(inertial, f"inertia/{each}", (float(each[1] == each[2]),)) for each in TENSOR]
-            yield from _inertia(place @ _pose(inertial), moments)
+        if inertial is None or inertial.get("auto", "").strip().lower() not in ("true", "1"):
+            numbers = [_numbers(inertial, "mass", (1.0,))]
+            numbers += [_numbers(inertial, f"inertia/{each}", (float(each[1] == each[2]),)) for each in TENSOR]
+            yield "inertial", np.ravel(numbers), self.place(name) @ _pose(inertial)
         for tag in ("visual", "collision"):
             shapes = [(shape, kind) for shape in link.iterchildren(tag) for kind in shape.findall("geometry/*")[:1]]
             drawn = [(shape, kind) for shape, kind in shapes if kind.tag in _SIZES and kind.find("submesh") is None]
             for number, (shape, kind) in enumerate(drawn, start=1):
-                frame = to_root @ self.place(self._base(part, shape, link.get("name").strip())) @ _pose(shape)
+                frame = self.place(self._base(part, shape, link.get("name").strip())) @ _pose(shape)
                 sizes = [_numbers(kind, name, usual) for name, usual in _SIZES[kind.tag].items()]
-                yield from _shape(f"{tag}{number}", kind.tag, kind.findtext("uri", ""), sizes, frame)
+                yield _title(f"{tag}{number}", kind.tag, kind.findtext("uri", "")), np.concatenate(sizes), frame
 
 
 def _root(content: bytes) -> Any:
