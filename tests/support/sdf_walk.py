@@ -20,7 +20,7 @@ _DESCRIPTION = Path(__file__).parents[1] / "sdf" / "description.txt"
 _NEWEST = "1.12"
 _MASS = "<inertial><mass>2</mass></inertial>"
 _WELD = '<joint name="weld" type="fixed"><parent>world</parent><child>base</child></joint>'
-_BOX = "<geometry><box/></geometry>"
+_BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
 _PART = f"<pose>0.1 0.2 0.3 0.1 0.2 0.3</pose>{_MASS}"
 _ROBOT = f"""\
 <sdf version="1.12"><world name="w"><!----><model name="arm">
@@ -28,7 +28,7 @@ _ROBOT = f"""\
   <link name="tool"><pose>0.3 0 0.2 0.4 0.5 0</pose>{_MASS}</link>
   <link name="part">{_PART}
     <visual name="v">{_BOX}</visual><collision name="c">{_BOX}</collision></link>
-  <joint name="grip" type="continuous"><parent>part</parent><child>tool</child><axis/></joint>
+  <joint name="grip" type="continuous"><parent>part</parent><child>tool</child><axis><xyz>1 0 0</xyz></axis></joint>
   {_WELD}
   <joint name="turn" type="revolute"><parent>base</parent><child>part</child><axis><xyz>0 1 0</xyz></axis></joint>
 </model></world></sdf>"""
@@ -49,7 +49,12 @@ _CONTEXTS = (
     (r"spring_reference$", "<axis><xyz>", "<axis><dynamics><spring_stiffness>2</spring_stiffness></dynamics><xyz>"),
     (r"axis2/.*spring_reference$", "</axis></joint>\n</model>", _SPRING),
     (r"^model@canonical_link", _WELD, '<frame name="mark"/>'),
-    (r"^world/include", "<!---->", "<include><uri>hand.sdf</uri></include>"),
+    (
+        r"^world/include",
+        "<!---->",
+        '<frame name="mark"><pose>1 2 3 0 0 0</pose></frame><include><uri>hand.sdf</uri></include>',
+    ),
+    (r"^model/pose@", "<!---->", '<frame name="mark"><pose>1 2 3 0 0 0</pose></frame>'),
     (r"/enable_wind$", '<world name="w">', '<world name="w"><wind><linear_velocity>1 0 0</linear_velocity></wind>'),
     (r"wind/linear_velocity$", '<model name="arm">', '<model name="arm"><enable_wind>true</enable_wind>'),
     (r"visual/transparency$", '<visual name="v">', '<visual name="v"><material><diffuse>1 0 0</diffuse></material>'),
@@ -66,6 +71,8 @@ _VALUES = {
     "joint@type": "prismatic",
     "joint/parent": "world",
     "joint/child": "tool",
+    "world/include/pose@relative_to": "mark",
+    "model/pose@relative_to": "mark",
     "@relative_to": "tool",
     "@frame": "tool",
     "@expressed_in": "tool",
@@ -148,38 +155,49 @@ _PLACES = {
 def every_entry() -> Iterator[Entry]:
     """Yield each element and attribute, in each place where a part of the robot may have it.
 
-    An element that only holds others, which are walked, is left out.
+    An element that only holds others, which are walked, is left out, and so is the name by which joints find a link.
     """
     for name in _PARTS:
-        yield from (entry for entry in _entries(name) if entry.kind or not entry.has_parts)
+        found = (entry for entry in _entries(name) if entry.kind or not entry.has_parts)
+        yield from (entry for entry in found if entry.path != "link@name")
+
+
+class Change(NamedTuple):
+    """A robot without the elements of an entry, without its last one or with its default, and with another value."""
+
+    bare: Element
+    before: Element
+    after: Element
+
+
+def changes(entry: Entry) -> Iterator[Change]:
+    """Change an entry alone, to each of several values."""
+    path, _, attribute = entry.path.partition("@")
+    tags, is_number = path.split("/"), entry.kind in ("double", "int", "unsigned int", "float")
+    has_zero = is_number and entry.default not in ("0", "0.0") and not path.endswith("density")  # 0 is refused
+    for value in (_value(entry), *(["0"] if has_zero else [])):
+        after, element = _robot(entry, tags, is_new=not attribute)
+        if attribute:
+            element.set(attribute, value)
+            element.text = f"{element.text} 0.7" if value == "quat_xyzw" else element.text
+        elif entry.kind:
+            element.text = value
+        yield Change(_robot(entry, [])[0], _robot(entry, tags if attribute else tags[:-1])[0], after)
 
 
 def judge(entry: Entry) -> Verdict:
-    """Change an entry alone; return what becomes of it, the least of several values."""
-    values = [_value(entry)]
-    if entry.kind and entry.kind in ("double", "int", "unsigned int", "float") and entry.default not in ("0", "0.0"):
-        values.append("0")
-    verdicts = [_judge(entry, value) for value in values]
-    return min(verdicts)
-
-
-def _judge(entry: Entry, value: str) -> Verdict:
+    """Return what becomes of an entry, the least of several values."""
     path, _, attribute = entry.path.partition("@")
-    robot = "hand" if path.startswith("world/include") else "arm"
-    bare, _ = _robot(entry, [])
-    made, element = _robot(entry, path.split("/"), is_new=not attribute)
-    if attribute:
-        element.set(attribute, value)
-    elif entry.kind:
-        element.text = value
-    before, _ = _robot(entry, path.split("/") if attribute else path.split("/")[:-1])
-    _, known = _read(bare, robot)
-    first, _ = _read(before, robot)
-    second, findings = _read(made, robot)
-    names = {attribute, path.split("/")[-1], *({*path.split("/")} - {each.tag for each in bare.iter()})} - {""}
-    names |= {"pose"} if attribute == "placement_frame" else set()  # it places the frame of the pose
-    told = {each.severity for each, text in findings.items() if text not in known.values() and _names(text, names)}
-    return Verdict(first != second, bool(told - {Severity.NOTE}), Severity.NOTE in told)
+    robot, verdicts = "hand" if path.startswith("world/include") else "arm", list[Verdict]()
+    for change in changes(entry):
+        (_, known), (first, _), (second, findings) = (_read(each, robot) for each in change)
+        around = {*path.split("/")} - {each.tag for each in change.bare.iter()}
+        names = {attribute, path.split("/")[-1], *around} - {""}
+        names |= {"pose"} if attribute == "placement_frame" else set()  # it places the frame of the pose
+        told = {each.severity for each, text in findings.items() if text not in known.values() and _names(text, names)}
+        is_translated = first is not None and second is not None and first != second
+        verdicts.append(Verdict(is_translated, bool(told - {Severity.NOTE}), Severity.NOTE in told))
+    return min(verdicts)
 
 
 def _names(text: str, names: set[str]) -> bool:
@@ -229,19 +247,19 @@ def _robot(entry: Entry, tags: list[str], *, is_new: bool = False) -> tuple[Elem
             kinds = [word for word in places if word in _SENSORS]
             element.set("type", kinds[0] if kinds else "force_torque" if "joint" in places else "imu")
         if tag == "pose" and not (is_last and is_new):
-            element.text = "0.1 0.2 0.3 0.4 0.5 0.6" + " 0.7" * (element.get("rotation_format") == "quat_xyzw")
+            element.text = "0.1 0.2 0.3 0.4 0.5 0.6"
     return root, element
 
 
-def _read(root: Element, robot: str) -> tuple[Robot | str, dict[Diagnostic, str]]:
-    """Return the robot, or why there is none, and the text of each finding."""
+def _read(root: Element, robot: str) -> tuple[Robot | None, dict[Diagnostic, str]]:
+    """Return the robot, if there is one, and the text of each finding."""
     try:
-        found = reading(tostring(root, "unicode"), _FILES, robot)
+        found = reading(tostring(root, "unicode"), _FILES, root.findtext("world/include/name") or robot)
     except TranslationError as error:
         problem = error.problem("sdf")
         finding = Diagnostic(Severity.ERROR, problem.code, problem.message)
-        return problem.message, {finding: problem.message}
+        return None, {finding: problem.message}
     findings = {each: "\n".join((each.message, *each.details)) for each in (*found.diagnostics, *found.unmodelled)}
     if found.robot is None:
-        return "", findings
+        return None, findings
     return msgspec.structs.replace(found.robot, extensions={}), findings
