@@ -41,7 +41,7 @@ PART = (
 MORE = (
     '<frame name="mark" attached_to="base"><pose>0 0 1 0 1 0</pose></frame>'
     "<include><uri>hand</uri><name>grip</name><pose>0 0 2 0 0 0</pose></include>"
-    '<include merge="1"><uri>hand</uri><placement_frame>palm</placement_frame></include>'
+    '<include merge="1"><uri>hand</uri><pose>1 0 0 0 0 0</pose></include>'
     + hinge("first", "part", "grip::palm")
     + hinge("second", "grip::palm", "tip", "<pose>0 0 0.5 0 0 0</pose><axis/>")
     + hinge("third", "tip", "palm")

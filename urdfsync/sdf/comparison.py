@@ -45,6 +45,8 @@ class _Part(NamedTuple):
     """The beginning of the full names around it, and the full name of the model's frame there."""
     base: str
     """The frame in which the pose is given, unless the pose names one."""
+    inner: tuple[str, str] = ("", "")
+    """The scope in a model."""
     anchor: str = ""
     """The frame in a model that gets the model's pose; empty for the model's own frame."""
 
@@ -117,16 +119,17 @@ class _Reading:
             if part.tag == "include":
                 try:
                     path = self._find(file, part.findtext("uri").strip())
+                    self._files.check_inside(path, (file, part.sourceline))
                     model = _root(self._files.read(path)).find("model")
                 except TranslationError:  # scenery may be absent
                     continue
                 name = part.findtext("name") or model.get("name")
             is_merged = part.get("merge") in ("true", "1") and scope[1] != _WORLD
-            prefix = scope[0] if is_merged else f"{scope[0]}{name.strip()}::"
-            own = f"{prefix}_merged__{name.strip()}__model__" if is_merged else prefix + _MODEL
+            around = f"{scope[0]}{name.strip()}::"
+            inner = (scope[0] if is_merged else around), around + _MODEL
             anchor = (part.findtext("placement_frame") or model.get("placement_frame") or "").strip()
-            self.parts[own] = _Part(model if part.find("pose") is None else part, scope, _MODEL, anchor)
-            self._enter(model, path, (prefix, own))
+            self.parts[inner[1]] = _Part(model if part.find("pose") is None else part, scope, _MODEL, inner, anchor)
+            self._enter(model, path, inner)
 
     def _find(self, file: str, uri: str) -> str:
         """Return the file that an `<include>` in another file names."""
@@ -162,8 +165,7 @@ class _Reading:
         part = self.parts[name]
         local = _pose(part.element)
         if part.anchor:
-            anchor = self._named((name.removesuffix(_MODEL), name), part.anchor)
-            local = local @ np.linalg.inv(self.place(anchor, name))
+            local = local @ np.linalg.inv(self.place(self._named(part.inner, part.anchor), name))
         return self.place(self._base(part, part.element, part.base), end) @ local
 
     def things(self, part: _Part, name: str) -> Iterator[tuple[str, Any, Any]]:
