@@ -44,6 +44,7 @@ _TRANSLATORS = {
             },
             # an XML whose root element is <sdf>
             re.compile(rb"(?s)\A(?:\xef\xbb\xbf)?\s*+(?>(?:<\?.*?\?>|<!--.*?-->)\s*+)*+<sdf\b"),
+            compares=True,
         ),
     ),
 }

@@ -12,7 +12,10 @@ from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.sdfs import ARM, hinge, model, sdf
 
-from urdfsync import cli
+from urdfsync import cli, config
+from urdfsync.checks import robot as checks
+from urdfsync.checks.results import CheckOptions
+from urdfsync.engine.sources.exchange import Answer
 
 RECORD = Path("modelica/Arm/Links/UpperParameters.mo")
 HAND = sdf('<model name="hand"><link name="palm"><inertial><mass>0.25</mass></inertial></link></model>')
@@ -158,3 +161,21 @@ def test_a_urdf_may_have_any_suffix_and_an_sdf_too(folder: Path, execute: Execut
     execute("init", "odd.sdf", "arm.urdf")
     execute("build")
     assert [path.name for path in Path(".urdfsync/robots").glob("*.expanded")] == ["arm.expanded"]
+
+
+@pytest.mark.slow
+def test_a_check_reads_masses_and_shapes_again(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "run_compilations", lambda *_: None)  # other tests compile
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: project / "cache")
+    (robot,) = (loaded := config.load(Path("urdfsync.toml"))).robots
+    result = checks.check_robot(loaded, robot, CheckOptions())
+    assert result.numbers is not None
+    assert result.numbers.right == result.numbers.total > 110  # 72 of them in the records
+    assert any(sentence.startswith("joints, contacts and sensors of the SDF") for sentence in result.unchecked)
+    assert not result.diagnostics
+    monkeypatch.setattr(checks, "compare", lambda *_: Answer(differences=("mass of link upper differs by 1.0e-03",)))
+    edit("<mass>1.5</mass>", "<mass>1.75</mass>")  # a right result is remembered
+    (found,) = [
+        each for each in checks.check_robot(loaded, robot, CheckOptions()).diagnostics if "differs" in each.code
+    ]
+    assert str(found).startswith("sdf/arm.sdf: error: mass of link upper differs by 1.0e-03")

@@ -5,11 +5,14 @@ Drake is no dependency: `pip install drake` lets these tests run.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
+from xml.etree.ElementTree import Element, tostring
 
 import numpy as np
 import pytest
 from support.random_sdfs import example
+from support.sdf_walk import changes, every_entry, judge
 from support.sdfs import arm, urdf
 
 parsing = pytest.importorskip("pydrake.multibody.parsing")
@@ -67,3 +70,34 @@ def test_drake_computes_the_same_inertia_of_shapes(shape: str, mass: str) -> Non
     )
     for first, second in zip(source, translation, strict=True):
         assert np.allclose(first, second, rtol=1e-12, atol=1e-12)
+
+
+def applied(root: Element) -> Iterator[Any]:
+    """Yield what Drake makes of an SDF; nothing if Drake refuses it."""
+    try:
+        read = plant(tostring(root, "unicode"), "sdf")
+    except (RuntimeError, ValueError):
+        return
+    context = read.CreateDefaultContext()
+    positions = read.GetPositions(context)
+    read.SetPositions(context, positions + np.linspace(0.1, 0.3, len(positions)))
+    yield from (read.CalcMassMatrixViaInverseDynamics(context), read.CalcGravityGeneralizedForces(context), positions)
+    for bound in ("Position", "Velocity", "Acceleration", "Effort"):
+        yield from (getattr(read, f"Get{bound}{side}Limits")() for side in ("Lower", "Upper"))
+    joints = [read.get_joint(index) for index in read.GetJointIndices()]
+    yield np.array([value for joint in joints for value in joint.default_damping_vector()])
+
+
+@pytest.mark.slow
+def test_what_drake_applies_is_translated_or_told() -> None:
+    """`tests/sdf/test_whole_format.py` says what acts by sdformat's descriptions; this asks a program."""
+    acting, quiet = 0, list[str]()
+    for entry in every_entry():
+        for _, before, after in changes(entry):
+            pairs = [*zip(applied(before), applied(after), strict=False)]
+            if any(np.shape(first) != np.shape(second) or (first != second).any() for first, second in pairs):
+                acting += 1
+                verdict = judge(entry)
+                quiet += [] if any(verdict) else [entry.path]
+    assert acting > 30
+    assert quiet == []

@@ -219,3 +219,15 @@ def test_a_world_gives_its_robot_a_place() -> None:
     inside = f'<pose relative_to="box">0 1 0 0 0 0</pose><link name="a"/>{hinge("h", "world", "a")}'
     robot = f'<model name="leg">{inside}</model>'
     assert joint(read(sdf(f'<world name="w">{box}{robot}</world>')), "h").origin.xyz == (0, 1, 4)
+
+
+@pytest.mark.parametrize("name", ["world", "__model__", "__a__"])
+def test_a_name_was_not_reserved_in_sdf_1_6(name: str) -> None:
+    """It stands for the link; in URDF, the link has another name than the world."""
+    text = model(f'<link name="{name}"/><link name="part"/>' + hinge("turn", name, "part"), "1.6")
+    assert joint(read(text)).parent == {"world": "world_link"}.get(name, name)
+
+
+@pytest.mark.parametrize("name", ["__", "___"])
+def test_a_name_of_few_lines_is_not_reserved(name: str) -> None:
+    assert joint(read(model(f'<link name="{name}"/><link name="part"/>' + hinge("turn", name, "part")))).parent == name

@@ -7,6 +7,7 @@ from support.sdfs import arm, link, noted, problem, read, reading
 
 from urdfsync.urdf.robot import (
     Box,
+    Camera,
     Capsule,
     Contact,
     Cylinder,
@@ -120,6 +121,19 @@ def test_a_contact_means_what_it_means_in_a_urdf() -> None:
     assert noted(text) == "not modelled: 1 <mu2>"
 
 
+@pytest.mark.parametrize(
+    ("inside", "told"),
+    [
+        ("<contact><collide_bitmask>0</collide_bitmask></contact>", "1 <collide_bitmask>"),
+        ("<friction><ode><mu2>0</mu2><slip1>0</slip1></ode></friction>", "1 <mu2>"),
+        ("<bounce><threshold>1</threshold></bounce>", "1 <bounce>"),
+    ],
+)
+def test_a_property_of_a_contact_that_no_model_has_is_counted(inside: str, told: str) -> None:
+    text = shape("<box/>", "collision").replace("</collision>", f"<surface>{inside}</surface></collision>")
+    assert noted(arm(text)) == f"not modelled: {told}"
+
+
 def sensor(kind: str, inside: str = "") -> str:
     return f'<sensor name="s" type="{kind}"><pose>0 0 3 0 0 0</pose><update_rate>50</update_rate>{inside}</sensor>'
 
@@ -135,6 +149,19 @@ def test_a_sensor_has_its_numbers() -> None:
     (found,) = read(arm(sensor("gpu_lidar", f"<lidar>{scan}</lidar>"))).sensors
     assert found.lidar is not None
     assert (found.kind, found.lidar.samples, found.lidar.max_range) == ("lidar", 9, 7)
+
+
+def test_a_sensor_has_the_numbers_of_gazebo_if_it_states_none() -> None:
+    (camera,) = read(arm(sensor("camera", "<camera><image><width>10</width></image></camera>"))).sensors
+    assert camera.camera == Camera(10, 240, 1.047, 0.1, 100)
+    (scanner,) = read(arm(sensor("ray", "<ray/>"))).sensors
+    assert scanner.lidar is not None
+    assert (scanner.lidar.samples, scanner.lidar.vertical_samples) == (640, 1)
+
+
+def test_noise_of_a_sensor_is_counted() -> None:
+    noise = '<angular_velocity><x><noise type="gaussian"><stddev>0.1</stddev></noise></x></angular_velocity>'
+    assert noted(arm(sensor("imu", f"<imu>{noise}</imu>"))) == "not modelled: 1 <angular_velocity>"
 
 
 def test_a_sensor_of_a_joint() -> None:

@@ -109,6 +109,15 @@ def test_a_joint_may_lead_towards_the_root() -> None:
     assert found.limit == Limit(-1, 2)
 
 
+WIND = "<wind><linear_velocity>0 3 0</linear_velocity></wind>"
+
+
+def in_world(inside: str, link: str = "", more: str = "", version: str = "1.9") -> str:
+    """The arm in a world with these elements."""
+    robot = arm(link, more=more)
+    return sdf(f"<world name='w'>{inside}{robot[robot.index('<model') : -6]}</world>", version)
+
+
 FOUR_BAR = "".join(
     f'<link name="{name}"><pose>{place}</pose></link>'
     for name, place in (("a", "0 0 0 0 0 0"), ("b", "0 0 1 0 0 0"), ("c", "1 0 0 0 0 0"))
@@ -155,10 +164,18 @@ def test_a_loop_loses_its_numbers() -> None:
         (arm("<velocity_decay><linear>0</linear><angular>1</angular></velocity_decay>"), ["velocity_decay part"]),
         (arm("<inertial><fluid_added_mass><xx>1</xx></fluid_added_mass></inertial>"), ["fluid_added_mass part"]),
         (arm(more="<static>true</static>"), ["static model arm"]),
+        (arm(joint="<axis/><physics><ode><max_force>3</max_force></ode></physics>"), ["max_force of <physics> turn"]),
+        (
+            arm(joint="<axis/><physics><ode><suspension><cfm>1</cfm></suspension></ode></physics>"),
+            ["suspension/cfm of <physics> turn"],
+        ),
         (
             sdf(f"<world name='w'><gravity>0 0 -1.6</gravity>{arm()[arm().index('<model') : -6]}</world>"),
             ["gravity 0 0 -1.6"],
         ),
+        (in_world("<physics><gravity>0 0 -1.6</gravity></physics>", version="1.5"), ["gravity 0 0 -1.6"]),
+        (in_world(WIND, "<enable_wind>1</enable_wind>"), ["wind by enable_wind part"]),
+        (in_world(WIND, more="<enable_wind>true</enable_wind>"), ["wind by enable_wind arm"]),
         (
             sdf(f"<world name='w'>{arm()[arm().index('<model') : -6]}<joint name='j' type='fixed'/></world>"),
             ["joint of the world j"],
@@ -175,6 +192,10 @@ def test_what_acts_on_the_robot_is_left_out_by_name(inside: str, told: list[str]
         arm("<gravity>true</gravity><kinematic>0</kinematic><velocity_decay/>"),
         arm(joint=numbers("<dynamics><spring_reference>3</spring_reference></dynamics>")),
         sdf(f"<world name='w'><gravity>0 0 -9.81</gravity>{arm()[arm().index('<model') : -6]}</world>"),
+        in_world("<physics><gravity>0 0 -9.8</gravity></physics>", version="1.5"),
+        in_world("<physics><gravity>0 0 -1.6</gravity></physics>"),  # libsdformat reads none there
+        in_world("<wind><linear_velocity>0 0 0</linear_velocity></wind>", "<enable_wind>1</enable_wind>"),
+        in_world(WIND),
     ],
 )
 def test_what_does_not_act_is_not(inside: str) -> None:
@@ -188,6 +209,11 @@ def test_what_does_not_act_is_not(inside: str) -> None:
         (arm("<self_collide>true</self_collide><enable_wind>false</enable_wind>"), "not modelled: 1 <self_collide>"),
         (arm(joint="<axis/><physics><ode/></physics>"), "not modelled: 1 <physics>"),
         (arm(joint=numbers("<limit><stiffness>1e8</stiffness></limit>")), "not modelled: 1 <stiffness>"),
+        (model('<pose>0 0 1 0 0 0</pose><link name="a"/><link name="b"/>' + hinge("h", "a", "b")), "1 <start-pose>"),
+        (
+            model('<link name="a"><pose>0 0 1 0 0 0</pose></link><link name="b"/>' + hinge("h", "a", "b")),
+            "<start-pose>",
+        ),
         (arm(joint=numbers("<use_parent_model_frame>1</use_parent_model_frame>")), "1 <use_parent_model_frame>"),
         (arm(more='<gripper name="g"/>'), "not modelled: 1 <gripper>"),
         (arm(more='<x:own name="g"/>'), "not modelled: 1 <x:own>"),

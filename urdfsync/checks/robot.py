@@ -220,16 +220,19 @@ def _compare_translation(config: Config, package: RobotPackage, result: CheckRes
         if translator is None or not translator.compares:
             return
         inputs = SourceFiles(config.root, robot.source, robot.package_paths)
-        compared, differences = compare(inputs, robot.arguments or {}, made.text, translator)
+        answer = compare(inputs, robot.arguments or {}, made.text, translator)
     except (OSError, UrdfsyncError) as error:
         result.gaps += (f"the translation was not compared with its source: {error}",)
         return
-    for difference in differences:
+    for difference in answer.differences:
         hint = "please report this, with the source: the translation is wrong"
         diagnostic = Diagnostic(Severity.ERROR, "translation-differs", difference, shown(robot.source), hint=hint)
         result.add([diagnostic])
-    numbers, right = result.numbers or Numbers(), 0 if differences else compared
-    result.numbers = msgspec.structs.replace(numbers, right=numbers.right + right, total=numbers.total + compared)
+    numbers, right = result.numbers or Numbers(), 0 if answer.differences else answer.compared
+    result.numbers = msgspec.structs.replace(
+        numbers, right=numbers.right + right, total=numbers.total + answer.compared
+    )
+    result.unchecked += answer.uncompared
 
 
 def _sample(package: RobotPackage) -> Sample:

@@ -100,7 +100,8 @@ class Frames:
         self._count += 1
         if self._count > _MOST_FRAMES:
             raise self.document.fault(frame.element, f"the model has more than {_MOST_FRAMES:,} elements with a name")
-        if name == WORLD or (name.startswith("__") and name.endswith("__")):
+        is_special = name == WORLD or (len(name) > 3 and name.startswith("__") and name.endswith("__"))
+        if is_special and scope.version >= (1, 7):
             raise self.document.fault(frame.element, f"the name {name!r} is reserved", f"rename the <{frame.kind}>")
         other = scope.names.setdefault(name, frame)
         # before SDF 1.7, a joint could have the name of a link: then the name stands for the link
@@ -164,11 +165,8 @@ class Frames:
 
     def look_up(self, scope: Scope, name: str, element: Element) -> Frame:
         """Return the frame with a name in a scope; `element` has the name. Raises TranslationError."""
-        if name == _MODEL:
-            return scope.own
-        if name == WORLD:
-            return self.world
-        found, rest = scope.names.get(name), name
+        # before SDF 1.7, a part could have one of the two names: then the name stands for the part
+        found, rest = scope.names.get(name) or {_MODEL: scope.own, WORLD: self.world}.get(name), name
         inner: Scope | None = scope
         while found is None and inner is not None and "::" in rest:
             first, _, rest = rest.partition("::")

@@ -2,59 +2,82 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
+from xml.etree.ElementTree import Element
 
 from urdfsync.sdf.frames import Scope
-from urdfsync.sdf.joints import MODEL_AXES, TAGS, SdfJoint
+from urdfsync.sdf.joints import MODEL_AXES, SdfJoint
 from urdfsync.sdf.urdf import Urdf
 
-_MODEL = frozenset({"link", "joint", "frame", "model", "include", "pose", "static", "plugin"})
-_INCLUDE = frozenset({"uri", "name", "placement_frame"})
-_JOINT = frozenset({"parent", "child", "pose", *TAGS, "sensor", "drake:gear_ratio", "drake:rotor_inertia"})
 _AXIS = frozenset({"xyz", "limit", "dynamics", "mimic"})
-_LIMIT = frozenset({"lower", "upper", "effort", "velocity", "drake:acceleration"})
-"""Elements that are read: all others are counted."""
+_READ: Mapping[str, Collection[str]] = {
+    "link": {"pose", "inertial", "visual", "collision", "sensor", "gravity", "kinematic", "velocity_decay"},
+    "visual": {"pose", "geometry", "material", "transparency"},
+    "collision": {"pose", "geometry", "surface", "density", "auto_inertia_params"},
+    "geometry": {"box", "sphere", "ellipsoid", "cylinder", "capsule", "mesh"},
+    "mesh": {"uri", "scale"},
+    "surface": {"friction", "contact"},
+    "friction": {"ode"},
+    "contact": {"ode"},
+    "ode": {"mu", "kp", "kd", "min_depth"},
+    "joint": {"parent", "child", "pose", "axis", "axis2", "sensor", "drake:gear_ratio", "drake:rotor_inertia"},
+    "axis": _AXIS,
+    "axis2": _AXIS,
+    "limit": {"lower", "upper", "effort", "velocity", "drake:acceleration"},
+}
+"""Elements that are read, by the tag around them: all others there are counted."""
+_MODEL = frozenset({"link", "joint", "frame", "model", "include", "pose", "static", "uri", "name", "placement_frame"})
+_ODE = {"max_force": 0.0, "suspension/cfm": 0.0, "suspension/erp": 0.2}
+"""Numbers in the `<physics>` of a joint that are a motor or a spring, and without effect at these values."""
 _DOWN, _FEW = (0.0, 0.0, -9.8), 0.02
 """The usual gravity, in m/s², and the greatest difference from it."""
+_STILL = (0.0, 0.0, 0.0)
 
 
 def add_leftovers(urdf: Urdf, model: Scope, joints: Iterable[SdfJoint]) -> None:
     """Add the leftovers of joints, models and world."""
-    for joint in joints:
-        _add_of_joint(urdf, joint)
+    document, world = urdf.document, urdf.frames.top.element
+    for frame, kind, *_ in joints:
+        if kind in ("screw", "gearbox"):
+            urdf.leave_out(f"{kind} joint", frame.name, frame.element)
+        for path, usual in _ODE.items():
+            if document.number(frame.element, f"physics/ode/{path}", usual) != usual:
+                urdf.leave_out(f"{path} of <physics>", frame.name, frame.element)
+    has_wind = any(document.vector(world, "wind/linear_velocity", _STILL))
     for scope in model.each():
-        if urdf.document.flag(scope.static_holder, "static"):
+        if document.flag(scope.static_holder, "static"):
             urdf.leave_out("static model", scope.own.name, scope.static_holder)
+        for element in (scope.element, *scope.element.iterfind("link")) if has_wind else ():
+            if document.flag(element, "enable_wind"):
+                urdf.leave_out("wind by enable_wind", element.get("name", ""), element)
         full = {name: frame.name for name, frame in scope.names.items()}
         for part in [*scope.element, *(scope.holder if scope.holder is not scope.element else ())]:
             if part.tag == "plugin":  # in Gazebo's words, which URDF has, too
-                urdf.copy(urdf.root.add("gazebo", urdf.document.places[part]), part, full)
+                urdf.copy(urdf.root.add("gazebo", document.places[part]), part, full)
             elif part.tag == "experimental:params":
                 urdf.leave_out("changes of an included model", scope.own.name, part)
-            elif part.tag not in _MODEL | _INCLUDE:
+            elif part.tag not in _MODEL:
                 urdf.note(part, scope.own.name)
-    world = urdf.frames.top.element
+            else:
+                _note_unread(urdf, scope, part, scope.own.name)
+    # before SDF 1.6, the gravity stood in <physics>
+    for holder in (world, *(world.iterfind("physics") if urdf.frames.top.version < (1, 6) else ())):
+        gravity = document.vector(holder, "gravity", _DOWN)
+        if any(abs(value - usual) > _FEW for value, usual in zip(gravity, _DOWN, strict=True)):
+            urdf.leave_out("gravity", " ".join(map("{:g}".format, gravity)), holder.find("gravity", holder))
     for part in world if world.tag == "world" else ():
-        if part.tag == "gravity":
-            gravity = urdf.document.vector(world, "gravity", _DOWN)
-            if any(abs(value - usual) > _FEW for value, usual in zip(gravity, _DOWN, strict=True)):
-                urdf.leave_out("gravity", " ".join(map("{:g}".format, gravity)), part)
-        elif part.tag == "joint":
+        if part.tag == "joint":
             urdf.leave_out("joint of the world", part.get("name", ""), part)
-        elif part is not model.holder:
+        elif part is not model.holder and part.tag != "gravity":
             urdf.note(part)
 
 
-def _add_of_joint(urdf: Urdf, joint: SdfJoint) -> None:
-    frame = joint.frame
-    if joint.kind in ("screw", "gearbox"):
-        urdf.leave_out(f"{joint.kind} joint", frame.name, frame.element)
-    for part in frame.element:
-        if part.tag not in _JOINT:
-            urdf.note(part, frame.name)
-        for inner in part if part.tag in TAGS else ():
-            if inner.tag not in _AXIS and not (inner.tag == MODEL_AXES and frame.scope.version < (1, 7)):
-                urdf.note(inner, frame.name)
-            for number in inner if inner.tag == "limit" else ():
-                if number.tag not in _LIMIT:
-                    urdf.note(number, frame.name)
+def _note_unread(urdf: Urdf, scope: Scope, element: Element, name: str) -> None:
+    """Count the elements in an element of a model that are not read."""
+    name = element.get("name") or name
+    known = _READ.get(element.tag, frozenset())
+    for part in element if known else ():
+        if part.tag in known:
+            _note_unread(urdf, scope, part, name)
+        elif part.tag != MODEL_AXES or scope.version >= (1, 7):
+            urdf.note(part, name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from typing import Any
-from xml.etree.ElementTree import Element
+from xml.etree.ElementTree import Element, SubElement
 
 from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frame
@@ -17,10 +17,18 @@ from urdfsync.urdf.robot import SENSOR_KINDS
 _SENSORS = {word for kind, model in SENSOR_KINDS.items() for word in (kind, *model.types)}
 _MOMENTS = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
 """The inertia of a link that states none."""
-_LINK = frozenset({"pose", "inertial", "visual", "collision", "sensor", "gravity", "kinematic", "velocity_decay"})
-_VISUAL = frozenset({"pose", "geometry", "material", "transparency"})
-_COLLISION = frozenset({"pose", "geometry", "surface", "density", "auto_inertia_params"})
-"""Elements that are read: a note counts all others."""
+_CONTACT = {
+    "friction/ode/mu": "mu1",
+    "contact/ode/kp": "kp",
+    "contact/ode/kd": "kd",
+    "contact/ode/min_depth": "minDepth",
+}
+"""Numbers of a `<surface>`, and their tags in the `<gazebo>` of a URDF."""
+
+_SCAN = {"scan/horizontal/samples": "640", "scan/vertical/samples": "1"}
+_IMAGE = {"horizontal_fov": "1.047", "image/width": "320", "image/height": "240", "clip/near": "0.1", "clip/far": "100"}
+_DEFAULTS = {"camera": _IMAGE, "ray": _SCAN, "lidar": _SCAN}
+"""Numbers of sensors that state none; all others are 0."""
 
 
 def add_link(urdf: Urdf, frame: Frame) -> None:
@@ -39,9 +47,6 @@ def add_link(urdf: Urdf, frame: Frame) -> None:
         urdf.leave_out("kinematic link", frame.name, element)
     if any(document.number(element, f"velocity_decay/{name}", 0.0) for name in ("linear", "angular")):
         urdf.leave_out("velocity_decay", frame.name, element)
-    for part in element:
-        if part.tag not in _LINK:
-            urdf.note(part, frame.name)
 
 
 def _add_inertial(urdf: Urdf, link: UrdfElement, frame: Frame) -> None:
@@ -74,13 +79,10 @@ def _add_shape(urdf: Urdf, link: UrdfElement, frame: Frame, element: Element) ->
         holder.add(tag, document.places[kind]).attributes |= attributes
     if element.tag == "visual" and (color := _color(document, element)):
         shape.add("material", name="").add("color", rgba=color)
-    surface = element.find("surface") if element.tag == "collision" else None
-    if surface is not None and len(surface):  # in Gazebo's words, which URDF has, too
-        line = document.places[surface]
-        urdf.copy(urdf.root.add("gazebo", line, reference=urdf.links[frame]).add("collision", line), surface)
-    for part in element:
-        if part.tag not in (_VISUAL if element.tag == "visual" else _COLLISION):
-            urdf.note(part, element.get("name", ""))
+    for path, tag in _CONTACT.items() if element.tag == "collision" else ():
+        if (number := element.find(f"surface/{path}")) is not None:
+            line = document.places[number]
+            urdf.root.add("gazebo", line, reference=urdf.links[frame]).add(tag, line, (number.text or "").strip())
 
 
 def _geometry(document: SdfDocument, element: Element) -> tuple[str, dict[str, Any]]:
@@ -97,7 +99,8 @@ def _geometry(document: SdfDocument, element: Element) -> tuple[str, dict[str, A
             return element.tag, {"radius": radius, "length": document.number(element, "length", 1.0)}
         case "mesh" if element.find("submesh") is None:
             scale = document.vector(element, "scale", (1.0, 1.0, 1.0))
-            return "mesh", {"filename": _filename(document, element), "scale": scale}
+            way = element.get("optimization")
+            return "mesh", {"filename": _filename(document, element), "scale": scale, "optimization": way}
     return "submesh" if element.tag == "mesh" else element.tag, {}
 
 
@@ -133,5 +136,21 @@ def add_sensor(urdf: Urdf, element: Element, link: Frame, parent: dict[str, str]
     given_in = urdf.frames.given_in(link.scope, element, default)
     urdf.add_origin(sensor, urdf.place(given_in, link, urdf.document.pose(element)))
     for part in element:
-        if part.tag != "pose":
+        if part.tag == "imu":  # its elements concern noise and orientation
+            for inner in part:
+                urdf.note(inner, sensor.attributes["name"])
+        elif part.tag != "pose":
+            _add_defaults(urdf.document, part)
             urdf.copy(sensor, part)
+
+
+def _add_defaults(document: SdfDocument, element: Element) -> None:
+    """Add the numbers to a part of a sensor that it has if it does not state them."""
+    for path, value in _DEFAULTS.get(element.tag, {}).items():
+        part = element
+        for tag in path.split("/"):
+            inner = part.find(tag)
+            if inner is None:
+                document.places[inner := SubElement(part, tag)] = document.places[part]
+            part = inner
+        part.text = (part.text or "").strip() or value

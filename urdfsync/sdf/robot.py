@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from urdfsync.sdf.frames import WORLD, Frame, Frames, Scope
+from urdfsync.sdf.frames import Frame, Frames, Scope
 from urdfsync.sdf.joints import JointAxis, SdfJoint, read_joints
 from urdfsync.sdf.leftovers import add_leftovers
 from urdfsync.sdf.parts import add_link, add_sensor
@@ -23,9 +23,13 @@ def translated(frames: Frames, model: Scope) -> UrdfElement:
     tree = find_tree(frames.world, list(model.of_kind("link")), joints, frames.link_of(model.own))
     urdf, is_fixed = Urdf(frames, model, tree), tree.root is frames.world
     if is_fixed:
-        urdf.root.add("link", document.places[model.element], name=WORLD)
+        urdf.root.add("link", document.places[model.element], name=urdf.links[frames.world])
     elif not document.flag(model.static_holder, "static"):
         urdf.root.add("free_root", document.places[tree.root.element], link=urdf.links[tree.root])
+        if frames.pose(tree.root, frames.world) != IDENTITY:
+            poses = (holder.find("pose") for holder in (model.holder, model.element, tree.root.element))
+            place = next((pose for pose in poses if pose is not None), model.holder)
+            urdf.root.add("start-pose", document.places[place], name=model.own.name)
     links = [*([] if is_fixed else [tree.root]), *(joint.child for joint in tree.joints)]
     for link in links:
         add_link(urdf, link)

@@ -16,6 +16,10 @@ from urdfsync.urdf.robot import Vector
 _TAGS = {"include": "model"} | {tag: f"{tag}-of-sdf" for tag in ("gazebo", "material", "ros2_control", "transmission")}
 """Tags that mean something else in URDF, by the tags that a note counts instead."""
 _OFF = frozenset({"", "0", "false"})
+_USUALLY_OFF = frozenset(
+    "self_collide enable_wind must_be_base_link laser_retro initial_position slip1 slip2 soft_cfm".split()
+)
+"""Elements that are not counted if they are off, as without them."""
 
 
 def turn(rotation: Matrix) -> Vector:
@@ -40,9 +44,12 @@ class Urdf:
     def __init__(self, frames: Frames, model: Scope, tree: JointTree) -> None:
         self.frames, self.document = frames, frames.document
         self.root = UrdfElement("robot", self.document.places[model.element], name=model.own.name, version="1.2")
-        self.links = {link: link.name for link in model.of_kind("link")} | {frames.world: WORLD}
-        """Names of all links."""
-        self.taken = {*self.links.values()}
+        self.taken = {WORLD, *(link.name for link in model.of_kind("link"))}
+        self.links = {
+            link: free_name("world_link", self.taken) if link.name == WORLD else link.name
+            for link in model.of_kind("link")
+        } | {frames.world: WORLD}
+        """Names of all links; before SDF 1.7, one could have the name of the world."""
         joints = (*tree.joints, *tree.loops)
         self.taken_joints = {joint.frame.name for joint in joints if len(joint.axes) < 2}
         self.joint_names = {joint.frame: [*self._names(joint)] for joint in joints}
@@ -72,8 +79,8 @@ class Urdf:
         self.root.add("left_out", self.document.places[element], what=what, name=name)
 
     def note(self, element: Element, name: str = "") -> None:
-        """Count an element without an effect on the robot; one that switches something off is not counted."""
-        if not len(element) and not element.attrib and (element.text or "").strip().lower() in _OFF:
+        """Count an element without an effect on the robot; one that is off as usual is not counted."""
+        if element.tag in _USUALLY_OFF and (element.text or "").strip().lower() in _OFF:
             return
         self.root.add(
             _TAGS.get(element.tag, element.tag), self.document.places[element], name=element.get("name") or name or None

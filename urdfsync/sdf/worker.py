@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from pathlib import Path
 
 import msgspec
 
 from urdfsync.engine.sources.exchange import Answer, Request, serve
+from urdfsync.engine.sources.ros_packages import Packages
 from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frames, Scope
 from urdfsync.sdf.joints import FIXED
@@ -19,18 +21,24 @@ from urdfsync.translation.writer import write
 
 
 def translate(request: Request) -> Answer:
-    """Translate a file."""
+    """Translate a file, or compare its translation."""
     folders = (request.folder, os.path.dirname(request.source), *request.package_paths)  # noqa: PTH120
     files = Files(request.contents, folders)
     document = SdfDocument(request.source, files, request.package_paths)
 
-    def translate_model() -> Answer:
+    def translate_or_compare() -> Answer:
+        if request.text:
+            from urdfsync.sdf import comparison  # a late import saves translations a second
+
+            packages = Packages(list(map(Path, request.package_paths)), Path(request.source))
+            compared, differences = comparison.compare(files, packages, request.source, request.text)
+            return Answer(compared=compared, differences=differences, uncompared=(comparison.UNCOMPARED,))
         frames = Frames(document)
         model = choose_model(frames, request.arguments.get("model", ""))
         return Answer(*write(translated(frames, model)))
 
     too_deep = "its models or frames are nested too deep"
-    made = program.answer(request, files, "sdf", ("model",), translate_model, too_deep)
+    made = program.answer(request, files, "sdf", ("model",), translate_or_compare, too_deep)
     return msgspec.structs.replace(made, packages=document.packages)
 
 

@@ -66,6 +66,8 @@ class Answer(msgspec.Struct, frozen=True):
     """The count of numbers that were compared, if the request has a text."""
     differences: tuple[str, ...] = ()
     """A clause for each quantity of the text that differs from the source."""
+    uncompared: tuple[str, ...] = ()
+    """Parts of the source that this does not compare."""
 
 
 def not_unicode(code: str) -> Problem:

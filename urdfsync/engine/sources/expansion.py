@@ -180,19 +180,14 @@ def expand(
     )
 
 
-def compare(
-    inputs: SourceFiles, arguments: Mapping[str, str], text: str, translator: Translator
-) -> tuple[int, Sequence[str]]:
-    """Let a translator compare a text with its source, in a process of its own. Raises SourceError.
-
-    Return the count of compared numbers, and a clause for each quantity that differs.
-    """
+def compare(inputs: SourceFiles, arguments: Mapping[str, str], text: str, translator: Translator) -> Answer:
+    """Let a translator compare a text with its source, in a process of its own. Raises SourceError."""
     folders = tuple(map(str, inputs.package_paths))
     request = Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root), text=text)
     answer = _ask(translator, request)
     if answer.problem:
         raise SourceError.of(answer.problem.code, answer.problem.message, shown(inputs.source))
-    return answer.compared, answer.differences
+    return answer
 
 
 def _ask(translator: Translator, request: Request) -> Answer:
