@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeVar
 import msgspec
 
 from urdfsync import spelling
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Detail, Diagnostic, Severity
 from urdfsync.engine.sources import file_kinds
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
@@ -234,7 +234,7 @@ def diagnostic(
     line: int,
     hint: str = "",
     column: int = 0,
-    details: tuple[str, ...] = (),
+    details: tuple[Detail, ...] = (),
     element: str = "",
 ) -> Diagnostic:
     """Return a diagnostic with the severity and the advice of its code; the caller adds the file."""
