@@ -164,8 +164,8 @@ _WARNINGS = {
     # valid, but probably a mistake
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "write masses in kg",
-    "mass-jump": "check the unit and the material in the exporter",
-    "unit-jump": "check the unit in the exporter",
+    "mass-jump": "if the new one is wrong, check the unit and the material in the exporter",
+    "unit-jump": "if the new one is wrong, check the unit in the exporter",
     "inertial-lost": "check the material and the mass in the exporter",
     "mesh-size": "export it in m",
     "density": "correct the mass or the shapes",
