@@ -91,7 +91,7 @@ def test_the_action_reports_what_changed_and_that_the_package_is_out_of_step(arm
     assert code == Exit.OUT_OF_STEP
     summary = Path("runner/summary").read_text(encoding="utf-8")
     assert summary == Path(outputs["comment"]).read_text(encoding="utf-8")
-    assert summary.startswith("<h3>⚠️ arm: 1 file to write")
+    assert summary.startswith("<h3>! arm: 1 file to write")
     assert "since HEAD~1" in summary
     log = json.loads(Path(outputs["sarif"]).read_text())
     validate(log, "sarif")
@@ -130,7 +130,7 @@ def test_the_pipeline_comments_and_fails_if_the_package_is_out_of_step(arm: Repo
     assert "https://host/api/projects/7/merge_requests/3/notes" in Path("posted").read_text().splitlines()
     assert "body@comment" in Path("posted").read_text().splitlines()
     comment = Path("comment").read_text(encoding="utf-8")
-    assert comment.index("since HEAD") < comment.index("⚠️ arm")
+    assert comment.index("since HEAD") < comment.index("! arm")
 
 
 # What a pull request checks out

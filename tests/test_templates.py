@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import pytest
 from jinja2.exceptions import UndefinedError
-from support.golden import TEMPLATES, Piece, pieces
+from support.golden import GOLDEN, TEMPLATES, VARIANTS, Piece, of_variants, pieces
 from support.marks import lines_shown, marked_lines
 
 from urdfsync.domain import Artifact
@@ -31,6 +31,15 @@ def test_each_line_of_each_template_is_in_a_golden_text() -> None:
     missing = [line for number, line in enumerate(marked_lines()) if number not in shown]
     assert missing == [], "run `python -m tests --renew`; what stays needs a variant in tests/support/golden.py"
     assert len(shown) > 1000
+
+
+def test_a_documentation_names_nothing_that_the_robot_lacks() -> None:
+    """A name in `<code>` stands in another text of the golden package, too, or ends names there."""
+    for variant in VARIANTS:
+        texts = [piece.text() for piece in of_variants() if piece.file.is_relative_to(GOLDEN / variant)]
+        code = re.sub("<html>.*?</html>", "", "\n".join(texts), flags=re.DOTALL)
+        names = {name for text in texts for name in re.findall(r"<code>(\w+)</code>", text)}
+        assert {name for name in names - {"Axis", "Support"} if not re.search(rf"\b{name}\b", code)} == set()
 
 
 # Faults in tags

@@ -22,6 +22,8 @@ IGNORABLE = frozenset(
 
 _LONGEST = 1000
 """The greatest number of characters of a message, a hint or a detail: a name in the text may have any length."""
+_PLACES = 8
+"""The greatest number of places that a sentence lists."""
 
 
 def cut(text: str, longest: int) -> str:
@@ -40,6 +42,20 @@ class Severity(enum.StrEnum):
     NOTE = "note"
 
 
+class Detail(msgspec.Struct, frozen=True):
+    """A further place of a finding."""
+
+    line: int
+    text: str = ""
+    """What stands there; empty for another finding like the first."""
+    file: str = ""
+    """Empty for the finding's own file."""
+
+    def __str__(self) -> str:
+        """Return the place with its text: `line 3: <camera> eye`, or `arm.xacro:3: <camera> eye`."""
+        return f"{f'{self.file}:' if self.file else 'line '}{self.line}: {self.text}".rstrip(": ")
+
+
 class Diagnostic(msgspec.Struct, frozen=True):
     """One finding about one place of the user's input.
 
@@ -55,8 +71,8 @@ class Diagnostic(msgspec.Struct, frozen=True):
     line: int = 0
     column: int = 0
     hint: str = ""
-    details: tuple[str, ...] = ()
-    """Details: lines that only `--verbose` shows."""
+    details: tuple[Detail, ...] = ()
+    """Further places, which `--verbose` lists."""
     element: str = ""
     """The part of the model, as `diff` names it: `link hand / inertial`; empty if the finding is about no part."""
     is_new: bool = False
@@ -67,8 +83,6 @@ class Diagnostic(msgspec.Struct, frozen=True):
         for field, text in (("message", self.message), ("hint", self.hint)):
             if len(text) > _LONGEST:
                 msgspec.structs.force_setattr(self, field, cut(text, _LONGEST))
-        if any(len(detail) > _LONGEST for detail in self.details):
-            msgspec.structs.force_setattr(self, "details", tuple(cut(detail, _LONGEST) for detail in self.details))
 
     def __str__(self) -> str:
         """Return the finding as one line: `file:line:column: severity: message; hint [code]`."""
@@ -80,7 +94,19 @@ class Diagnostic(msgspec.Struct, frozen=True):
     def sentence(self) -> str:
         """The message with its hint."""
         since = "since this export: " if self.is_new else ""
-        return since + "; ".join(filter(None, (self.message, self.hint)))
+        return since + "; ".join(filter(None, (self.statement, self.hint)))
+
+    @property
+    def statement(self) -> str:
+        """The message with the places of further findings like it."""
+        more = [detail for detail in self.details if not detail.text]
+        if not more:
+            return self.message
+        has_others = any(detail.file not in ("", self.file) for detail in more)
+        places = dict.fromkeys(f"{detail.file or self.file}:{detail.line}" for detail in more)
+        words = [place if has_others else place.rpartition(":")[2] for place in places]
+        listed = ", ".join(words[:_PLACES]) + (", …" if len(words) > _PLACES else "")
+        return f"{self.message} (and {len(more)} more like it: line{'s' * (len(words) > 1)} {listed})"
 
 
 def internal_error(error: Exception, what: str = "") -> Diagnostic:

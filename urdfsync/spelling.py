@@ -1,4 +1,4 @@
-"""Compares texts: similar names, common beginnings; and escapes texts for terminals."""
+"""Compares texts and numbers: similar names, common beginnings, growth; and escapes texts for terminals."""
 
 from __future__ import annotations
 
@@ -35,6 +35,11 @@ def same_count(old: Sequence[str], new: Sequence[str]) -> int:
 def counted(count: int, noun: str) -> str:
     """`1 file`, `2 files`."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def growth(old: float, new: float) -> float | None:
+    """Return by how many percent the size of a number grew; None after zero, or a change of sign."""
+    return None if old == 0 or new / old < 0 else 100 * (abs(new) - abs(old)) / abs(old)
 
 
 def visible(text: str) -> str:

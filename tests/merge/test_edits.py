@@ -36,6 +36,11 @@ EDITS = {
         ("`connect(b.frame_a, frame_b)`", "added"), ("`connect(b.frame_a, frame_a)`", "removed"),
     ]),
     "an element": (("equation", "  Real x;\nequation"), [("component `x`", "added")]),
+    "an initial equation": (("equation", 'initial equation\n  assert(true, "a ( b");\nequation'), [
+        ('initial equation `assert(true, "a ( b")`', "added"),
+    ]),
+    "a sign of zero": (("{{0, 0}, {20, 20}}", "{{-0.0, +0}, {20, 20}}"), []),
+    "a difference": (("mass = 2", "mass = 2 - 0"), [("component `b`", "inertial.mass 2 → 2 - 0")]),
     "a comment": (("equation", "equation // mine"), [("comments", "changed")]),
     "a value": (("m = b.m + c.m", "m = 1"), [("component `m`", "m b.m + c.m → 1")]),
     "an order of items": (("{b.m, c.m}", "{c.m, b.m}"), [("component `w`", "w {b.m, c.m} → {c.m, b.m}")]),

@@ -12,7 +12,7 @@ record B "Numbers, of (something; else)"
   extends UrdfSync.Records.Link(
     name = "x\\"y", // said = 1
     inertial(
-      mass = 3,
+      mass = 3 /* weighed 3 March */,
       origin(xyz = {1, -2, 3e-4})));
 
   parameter Modelica.Units.SI.Angle corners[2, 3] = {{0, 0, 1},

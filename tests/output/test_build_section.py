@@ -69,7 +69,7 @@ def test_a_check_says_what_a_build_would_do_structure_first(arm: Path, execute: 
     with unchanged(arm):
         text = markdown(execute, "build", "--check")
     head, advice, rest = text.split("\n", 2)
-    assert head.startswith("<h3>⚠️ arm: 9 files to write")
+    assert head.startswith("<h3>! arm: 9 files to write")
     assert advice == "<p>Run <code>urdfsync build</code>, and commit what it writes.</p>"
     structure, tables = rest.split("</ul>")
     assert "<li>link grip|: added</li>" in structure
@@ -105,13 +105,13 @@ def test_a_conflict_stands_at_the_first_edited_line(arm: Path, execute: Execute)
 def test_what_is_wrong_with_a_source_stands_at_its_line(arm: Path, execute: Execute) -> None:
     edit("arm.urdf", 'type="fixed"', 'type="bent"')
     assert place(results(execute, "build", "--check", code=Exit.ERROR)["unknown-joint-type"]) == ("arm.urdf", 8)
-    assert "<h3>❌ arm: 1 error" in markdown(execute, "build", "--check", code=Exit.ERROR)
+    assert "<h3>✗ arm: 1 error" in markdown(execute, "build", "--check", code=Exit.ERROR)
 
 
 def test_a_built_package_is_fine_in_one_line(arm: Path, execute: Execute) -> None:
     execute("build", "-q")
     text = markdown(execute, "build", "--check", code=Exit.IN_STEP)
-    assert re.fullmatch(r"<ul>\n<li>✅ arm: in step, \d+ files</li>\n</ul>\n", text)
+    assert re.fullmatch(r"<ul>\n<li>✓ arm: in step, \d+ files</li>\n</ul>\n", text)
     assert results(execute, "build", "--check", code=Exit.IN_STEP) == {}
 
 

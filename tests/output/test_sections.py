@@ -11,8 +11,8 @@ ERROR = Diagnostic(Severity.ERROR, "no-link", "there is no link", "arm.urdf", 3,
 def test_findings_have_their_place_and_the_worst_are_first() -> None:
     note = Diagnostic(Severity.NOTE, "texture", "textures become colours")
     assert findings_table([note, ERROR]).rows == [
-        ("❌ error", "arm.urdf:3", "there is no link; export it again", "no-link"),
-        ("ℹ️ note", "", "textures become colours", "texture"),
+        ("✗ error", "arm.urdf:3", "there is no link; export it again", "no-link"),
+        ("note", "", "textures become colours", "texture"),
     ]
 
 

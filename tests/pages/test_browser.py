@@ -248,7 +248,7 @@ def test_a_hand_moves_the_arm_by_dragging_typing_and_poses(arm: Path, report: Re
     page.run("toggle('label'), toggle('world'), render(1)")
     assert {"forearm", "x", "y", "z"} <= {*page.run("[...element('labels').children].map((each) => each.textContent)")}
     page.run("toggle('label'), data.findings['joint elbow'] = ['too weak'], doubted.add('link forearm'), paint()")
-    assert "⚠" in page.run("[...element('labels').children].map((each) => each.textContent)")
+    assert "!" in page.run("[...element('labels').children].map((each) => each.textContent)")
     page.press("u")
     page.click(*place_of(page, "link base_link"))
     page.click(*place_of(page, "link forearm"))

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support import xacros
@@ -15,6 +16,9 @@ from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.patches import patch_and_told
 from support.urdfs import ELBOW_ARM
+
+from urdfsync.engine.sources import expansion
+from urdfsync.state.expansion import Expansion
 
 pytestmark = NEEDS_GIT
 CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
@@ -111,6 +115,14 @@ def test_a_patch_names_file_and_line(repository: Repository, execute: Execute) -
     )
 
 
+def test_a_zero_has_no_sign(repository: Repository, execute: Execute) -> None:
+    """`-0.0` is the zero that the source and the generated text have then: no conflict."""
+    build(execute, {"arm.urdf": ELBOW_ARM})
+    edit(ELBOW, ("upper = 1,", "upper = -0.0,"), ("xyz = {0, 0, 0}", "xyz = {-0.0, 0, 0.5}"))
+    spelled = ["arm: 1 file edited", f"  {ELBOW}  joint elbow", "    only blanks, or the order of things"]
+    assert apply(repository, execute, spelled) == []
+
+
 def test_nothing_is_edited(repository: Repository, execute: Execute) -> None:
     build(execute, {"arm.urdf": ELBOW_ARM})
     assert patch_and_told() == (b"", [])
@@ -134,6 +146,13 @@ def test_what_the_source_leaves_out_is_inserted(repository: Repository, execute:
     text = Path("arm.urdf").read_text()
     assert '<origin xyz="0 0 0.5"/>' in text
     assert '<axis xyz="0 1 0"/>' in text
+
+
+def test_a_new_element_has_all_new_attributes(repository: Repository, execute: Execute) -> None:
+    build(execute, {"arm.urdf": ELBOW_ARM})
+    edit(ELBOW, ("xyz = {0, 0, 0}", "xyz = {0, 0, 0.5}"), ("rpy = {0, 0, 0}", "rpy = {0, 1.5, 0}"))
+    assert apply(repository, execute) == []
+    assert '\n    <origin xyz="0 0 0.5" rpy="0 1.5 0"/>\n' in Path("arm.urdf").read_text()
 
 
 def test_an_attribute_is_inserted_in_the_quotes_of_its_tag(repository: Repository, execute: Execute) -> None:
@@ -281,6 +300,38 @@ def test_an_expression_is_not_inverted(
     assert patch_and_told() == (b"", [f"{record}: inertial.mass {value} → 6: stays, since {why}"])
 
 
+@pytest.mark.slow
+def test_readings_do_not_grow_with_the_edits(
+    repository: Repository, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A mass that also feeds an inertia stays, and names its own line alone; the positions of its joints go back."""
+    wheel = WHEEL.replace('ixx="1"', 'ixx="${0.1*mass}"').replace('params="name mass"', 'params="name mass x"')
+    wheel = wheel.replace("<axis", '<origin xyz="${x} 0 0"/><axis')
+    calls = [CALL.format(f"w{n}", 2 + n / 8).replace("/>", f' x="{3 + n / 8}"/>') for n in range(6)]
+    text = f"{HEAD}{wheel}{BASE}{''.join(calls)}</robot>"
+    build(execute, {"arm.xacro": text}, CONFIG.replace("arm.urdf", "arm.xacro"))
+    readings = list[int]()
+    expand = expansion.expand
+
+    def counted(*given: Any) -> Expansion:
+        readings.append(1)
+        return expand(*given)
+
+    monkeypatch.setattr(expansion, "expand", counted)
+    counts = list[int]()
+    for number in range(6):
+        edit(f"modelica/Arm/Links/W{number}Parameters.mo", (f"mass = {2 + number / 8:g},", "mass = 9,"))
+        edit(f"modelica/Arm/Joints/To_w{number}Parameters.mo", (f"{{{3 + number / 8:g}, 0, 0}}", "{7, 0, 0}"))
+        if number in (0, 5):
+            readings.clear()
+            patch, told = patch_and_told()
+            counts.append(len(readings))
+            assert patch.count(b"\n+<") == len(told) == number + 1
+    assert counts == [3, 3]
+    line = text[: text.index('name="w5"')].count("\n") + 1
+    assert told[5].endswith(f"stays, since its number in arm.xacro:{line} also feeds inertial.inertia.ixx of link w5")
+
+
 # --- places -------------------------------------------------------------------------------------------------------
 
 
@@ -329,7 +380,7 @@ def test_a_source_of_two_robots(repository: Repository, execute: Execute) -> Non
     other = CONFIG.replace("[robots.arm]", "[robots.second]").replace('"Arm"', '"Second"')
     build(execute, {"arm.urdf": ELBOW_ARM}, CONFIG + other)
     edit(FORE, ("mass = 2.5", "mass = 3"))
-    why = "its number also feeds robot `second`"
+    why = "its number in arm.urdf:4 also feeds robot `second`"
     assert patch_and_told("arm") == (b"", [f"{FORE}: inertial.mass 2.5 → 3: stays, since {why}"])
 
 
@@ -376,19 +427,49 @@ def test_positions_in_the_configuration(repository: Repository, execute: Execute
 
 
 def test_cells_of_a_table(repository: Repository, execute: Execute) -> None:
-    """Numbers with a factor between the units of cell and record stay, and so do those of an arm with these motors."""
+    """A number goes back in the unit of its cell. Numbers of an arm with these motors stay."""
     shutil.copytree(Path(__file__).parents[1] / "table/examples/servos", repository.folder, dirs_exist_ok=True)
     execute("build", "--quiet")
     record, joint = "modelica/Servos/Records/S41.mo", "modelica/Arm/Joints/ElbowParameters.mo"
     edit(joint, ("reduction = 353.5", "reduction = 360"))
-    why = "its number also feeds robot `servos`"
+    why = "its number in servos.csv:3 also feeds robot `servos`"
     assert patch_and_told() == (b"", [f"{joint}: transmission.reduction 353.5 → 360: stays, since {why}"])
     Path("urdfsync.toml").write_text(Path("urdfsync.toml").read_text().partition("[robots.arm]")[0])
     edit(record, ("= 353.5", "= 360"), ("= 4.1", "= 4.2"))
-    patch, (line,) = patch_and_told()
+    patch, told = patch_and_told()
     assert b"\n-S41,410,46,353.5,0.6,20,0.05," in patch
-    assert b"\n+S41,410,46,360,0.6,20,0.05," in patch
-    assert line.startswith(f"{record}: stall_torque 4.1 → 4.2: stays, since no number of the source")
+    assert b"\n+S41,420,46,360,0.6,20,0.05," in patch
+    assert told == []
+
+
+@pytest.mark.parametrize(
+    ("rows", "edits", "changed", "why"),
+    [
+        ("name,power [kW]\nA,3\nB,3\n", ("power = 3000", "3200"), "A,3.2\n", ""),
+        ("name;power [kW];dp [bar]\nA;3,0;3,5\nB;1,5;4\n", ("power = 3000", "3200"), "A;3,2;3,5\n", ""),
+        ("name;speed [km/h]\n3-B;100\n", ("speed = 27.77777777777778", "30"), "3-B;108\n", ""),
+        ("name,speed [m/s]\nA,0\n", ("speed = 0", "2"), "A,2\n", ""),
+        ("name,power [kW]\nA,0\n", ("power = 0", "200"), "A,0.2\n", ""),
+        ("name,speed [rpm]\nA,30\n", ("speed = 3.141592653589793", "3.5"), "",
+         "parts.csv:2 has it in another unit, in which 3.5 is no plain number"),
+        ("name,t [degC]\nA,20\n", ("t = 293.15", "300"), "", "it is computed from the number in parts.csv:2"),
+    ],
+)  # fmt: skip
+def test_units_of_cells(
+    repository: Repository, execute: Execute, rows: str, edits: tuple[str, str], changed: str, why: str
+) -> None:
+    Path("parts.csv").write_text(rows)
+    execute("init", "--domain", "table", "parts.csv", "--quiet")
+    execute("build", "--quiet")
+    record = next(iter(sorted(Path("modelica/Parts/Records").glob("*.mo"))))
+    name, _, old = edits[0].partition(" = ")
+    edit(str(record), (f" = {old}", f" = {edits[1]}"))
+    if why:
+        told = f"{record.as_posix()}: {name} {old} → {edits[1]}: stays, since {why}"
+        assert patch_and_told() == (b"", [told])
+    else:
+        assert apply(repository, execute, ["parts: nothing is edited"]) == []
+        assert changed in Path("parts.csv").read_text()
 
 
 @pytest.mark.parametrize(

@@ -116,7 +116,7 @@ def edit_records(random: Random, package: Path, count: int) -> set[tuple[Path, s
     for _ in range(20 * count):
         file = random.choice(records)
         text = file.read_text()
-        values = [value for value in read_values(text) if NUMBER.search(value.text) and value.text[:1] != '"']
+        values = [value for value in read_values(text) if NUMBER.search(value.text) and value.text[:1] not in '"f']
         if not values or len(edited) == count:
             continue
         value = random.choice(values)

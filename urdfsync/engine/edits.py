@@ -85,12 +85,15 @@ def find_edits(paths: Sequence[str], config: Config, options: BuildOptions) -> I
     for robot in config.select(paths):
         try:
             inputs = inspect(config, robot, options)
-            files = tuple(find_edited(inputs, generate_robot(inputs)))
+            yield RobotEdits(robot.name, config.root, find_edited_at(paths, inputs, generate_robot(inputs)))
         except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
             yield RobotEdits(robot.name, config.root, diagnostics=findings_of(error), failed=True)
-            continue
-        places = {text: Path(os.path.normpath(working_folder() / text)) for text in paths}
-        if paths and robot.name not in paths and robot.source not in places.values():
-            here = [(file, config.root / file.path) for file in files]
-            files = tuple(file for file, path in here if any(map(path.is_relative_to, places.values())))
-        yield RobotEdits(robot.name, config.root, files)
+
+
+def find_edited_at(paths: Sequence[str], inputs: Inputs, generation: Generation) -> tuple[EditedFile, ...]:
+    """Return the edited files of a robot at these paths, or all of a named robot. Raises UrdfsyncError."""
+    files, root, robot = tuple(find_edited(inputs, generation)), inputs.config.root, inputs.robot
+    places = {text: Path(os.path.normpath(working_folder() / text)) for text in paths}
+    if not paths or robot.name in paths or robot.source in places.values():
+        return files
+    return tuple(file for file in files if any(map((root / file.path).is_relative_to, places.values())))

@@ -159,4 +159,4 @@ def still(findings: Sequence[Diagnostic]) -> str:
 def finding_key(finding: Diagnostic) -> str:
     """Return a hash of a finding, the same from each working folder."""
     file = os.path.abspath(finding.file)  # noqa: PTH100 - strings: many robots have many findings
-    return digest(f"{finding.code}\0{finding.message}\0{file}".encode(errors="surrogatepass"))
+    return digest(f"{finding.code}\0{finding.statement}\0{file}".encode(errors="surrogatepass"))

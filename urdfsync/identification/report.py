@@ -8,7 +8,7 @@ from urdfsync.checks.results import JointFit
 from urdfsync.domain.regressor import NUMBERS
 from urdfsync.identification.results import Excitation, FittedNumber, Identification, Unexcited
 from urdfsync.output.console import StyledLine, file_lines, findings, html, line, table_lines
-from urdfsync.spelling import counted
+from urdfsync.spelling import counted, growth
 
 _JOINTS = ("joint", "measured", "before", "after", "explained", "unit")
 _NUMBERS = ("element", "number", "before", "after", "± error", "change")
@@ -76,7 +76,8 @@ def _joint(joint: JointFit) -> tuple[str, ...]:
 
 def _number(number: FittedNumber) -> tuple[str, ...]:
     change = number.after - number.before
-    share = f"{100 * change / number.before:+.1f} %" if number.before else f"{change:+.3g}"
+    percent = growth(number.before, number.after)
+    share = f"{change:+.3g}" if percent is None else f"{percent:+.1f} %"
     sure = share if abs(change) > _SURE * number.error else f"{share} (not sure)"
     values = f"{number.before:.5g}", f"{number.after:.5g}", f"{number.error:.2g}"
     return number.element, _short(number.path), *values, sure

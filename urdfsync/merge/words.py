@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import re
+
 from urdfsync.merge.lines import Contradiction
+from urdfsync.modelica.tree import INITIAL
 from urdfsync.spelling import same_count
 
 _LONGEST = 60
 """The greatest number of characters of a text that a sentence quotes."""
+_BLANK = re.compile(r'("(?:[^"\\]|\\.)*")| (?=[,)\]])|(?<=[(\[]) |(?<=\w) (?=[(\[])')
+"""A blank between the words of a key that no user writes; a string stays."""
 _SILENT = frozenset("body value expression definition import components".split())
 """Parts that sentences do not name, since they contain things with names."""
 _ROLES = {
@@ -28,7 +33,9 @@ _ROLES = {
 def place_of(path: tuple[str, ...]) -> tuple[str, str]:
     """Return the element at a path of keys, and the part of this element: ("component `body`", "m")."""
     names = [key for key in path if key not in _SILENT and key not in _ROLES]
-    kind, _, name = names[0].partition(" ") if names else ("class", "", "")
+    key = names[0] if names else "class"
+    kind, _, name = key.removeprefix(INITIAL).partition(" ")
+    name = _BLANK.sub(r"\1", name)
     role = _ROLES.get(path[-1], "") if path else ""
     if path[-1:] == ("expression",) and len(names) == 1:
         names.append(name)  # the value of a declaration
@@ -36,6 +43,7 @@ def place_of(path: tuple[str, ...]) -> tuple[str, str]:
         return f"statements {name}", ""
     if kind == "connect":
         kind, name = "", f"connect({name.replace(' ', ', ')})"
+    kind = f"initial {kind}" if key.startswith(INITIAL) else kind
     return f"{kind} `{quoted(name)}`".lstrip() if name else f"the {kind}", " ".join(
         filter(None, (".".join(names[1:]), role))
     )

@@ -26,12 +26,14 @@ LAYOUT = frozenset({"Placement", "Line", "Icon", "Diagram"})
 _REMARK = re.compile(r"[^\S\n]*+(?://[^\n]*+|/\*(?:(?!\*/)[^\n])*\*/)(?=\s*\n)")
 """A comment that ends a line."""
 
-_INITIAL = "initial equation "
-_EQUATION = re.compile(rf"(?:{_INITIAL})?(?:equation|if|for|when) ")
+INITIAL = "initial equation "
+"""The beginning of the key of an initial equation."""
+_EQUATION = re.compile(rf"(?:{INITIAL})?(?:equation|if|for|when) ")
 """The beginning of the key of an equation; connections have other keys."""
 _PASSED = frozenset({"input", "output"})
 _OPEN, _CLOSED = frozenset("([{"), frozenset(")]}")
 _PUNCTUATION = _OPEN | _CLOSED | {",", ";"}
+_BEFORE_SIGN = _OPEN | {",", ";", "="}
 _LONGEST_INTEGER = 20
 
 _GEOMETRY = frozenset({"extent", "points", "origin", "rotation"})
@@ -255,7 +257,7 @@ def _variable(part: Part) -> str:
 def _keyed(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
     for part in parts:
         if _variable(part) in variables and isinstance(part.node, SyntaxTree):
-            kind = _INITIAL if part.key.startswith(_INITIAL) else ""
+            kind = INITIAL if part.key.startswith(INITIAL) else ""
             words = _said(words_of(part.node.parts[0].node.text))
             part = msgspec.structs.replace(part, key=f"{kind}equation {words}")
         yield part
@@ -276,7 +278,11 @@ def words_of(text: str) -> Words:
 
 
 def _words(tokens: Sequence[str]) -> Words:
-    return tuple(_number(token) if is_number(token) else token.replace("\r\n", "\n") for token in tokens)
+    """Return words with numbers as values; a zero has no sign, as in generated texts."""
+    words = [_number(token) if is_number(token) else token.replace("\r\n", "\n") for token in tokens]
+    pairs = zip(["(", *words], words, [*words[1:], ""], strict=False)
+    is_sign = [word in ("-", "+") and number == 0 and before in _BEFORE_SIGN for before, word, number in pairs]
+    return tuple(word for word, leave_out in zip(words, is_sign, strict=True) if not leave_out)
 
 
 def _number(text: str) -> float:
@@ -516,7 +522,7 @@ class _TreeReader(Parser):
             return f"connect {' '.join(self._ends(first))}"
         if first.key != "equation":
             return first.key
-        kind = _INITIAL if self._body.section == _INITIAL.strip() else ""
+        kind = INITIAL if self._body.section == INITIAL.strip() else ""
         ends = [span for span in first.inner if span.key in ("header", "left")]
         if ends and ends[0].key == "header":
             return f"{kind}{_said(_words(self.words[ends[0].start : ends[0].stop]))}"

@@ -28,7 +28,7 @@ class Value(NamedTuple):
     type: str
     """The base class, or the component's type with prefixes."""
     text: str
-    """The expression."""
+    """The expression, without comments around it."""
     line: int
     start: int = 0
     """Where the expression begins in the text."""
@@ -55,9 +55,15 @@ def literals(text: str) -> tuple[float, ...] | str | None:
             return str(json.loads(text, strict=False))
         except ValueError:
             return None
+    text = without_comments(text)
     if not _NUMBERS.fullmatch(text):
         return text if text in ("true", "false") else None
     return tuple(float(re.sub(r"\s|Modelica\.Constants\.", "", number)) + 0.0 for number in re.findall(_NUMBER, text))
+
+
+def without_comments(text: str) -> str:
+    """Return an expression without strings, with blanks for its comments."""
+    return re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.DOTALL)
 
 
 def _of_statement(text: str, tokens: list[Token]) -> Iterator[Value]:
@@ -79,7 +85,7 @@ def _of_statement(text: str, tokens: list[Token]) -> Iterator[Value]:
         at = _close(words, at) + 1
     if words[at] == "=":
         end = next(k for k in range(at + 2, len(words)) if words[k] in (";", "annotation") or words[k].startswith('"'))
-        yield _value(text, path, type_, tokens[at + 1], tokens[end])
+        yield _value(text, path, type_, tokens[at + 1 : end])
 
 
 def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: str) -> Iterator[Value]:
@@ -98,7 +104,7 @@ def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: st
         if words[at + 1] == "(":
             yield from _modifiers(text, tokens, at + 1, inner, type_)
         elif words[at + 1] == "=":
-            yield _value(text, inner, type_, tokens[at + 2], tokens[end])
+            yield _value(text, inner, type_, tokens[at + 2 : end])
         at = end + 1
 
 
@@ -112,6 +118,6 @@ def _close(words: Sequence[str], at: int) -> int:
     return len(words) - 1
 
 
-def _value(text: str, path: str, type_: str, first: Token, after: Token) -> Value:
-    line = text.count("\n", 0, first.start) + 1
-    return Value(path, type_, text[first.start : after.start].strip(), line, first.start)
+def _value(text: str, path: str, type_: str, tokens: Sequence[Token]) -> Value:
+    start, line = tokens[0].start, text.count("\n", 0, tokens[0].start) + 1
+    return Value(path, type_, text[start : tokens[-1].start + len(tokens[-1].text)], line, start)

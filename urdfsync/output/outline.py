@@ -18,7 +18,7 @@ from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.domain.changes import Change, Effect, is_number
 from urdfsync.output.sections import TextTable
-from urdfsync.spelling import same_count
+from urdfsync.spelling import growth, same_count
 
 _NAMES = 140
 """The greatest number of characters of the names in a title; a title has one name at least."""
@@ -224,10 +224,10 @@ def _details(value: Any) -> str:
 
 
 def _percent(old: Any, new: Any) -> str:
-    """Return a number relative to an older one; empty if the ratio means nothing, as after a change of sign."""
-    if not (is_number(old) and is_number(new)) or old == 0 or new / old < 0:
+    """Return how much a number's size grew; empty if the ratio means nothing, as after a change of sign."""
+    percent = growth(old, new) if is_number(old) and is_number(new) else None
+    if percent is None:
         return ""
-    percent = 100 * (new - old) / abs(old)
     return f"{percent:+.3g} %" if abs(percent) < 999 else f"× {new / old:.3g}"
 
 

@@ -13,16 +13,16 @@ from urdfsync.output.console import StyledLine
 
 
 class Mark(enum.StrEnum):
-    """The sign before a robot's name; the worst first."""
+    """The sign before a robot's name, which no program draws as a picture; the worst first."""
 
-    WRONG = "❌ "
-    OPEN = "⚠️ "
+    WRONG = "✗ "
+    OPEN = "! "
     NONE = ""
     """No verdict: versions may differ."""
-    FINE = "✅ "
+    FINE = "✓ "
 
 
-_SEVERITIES = {Severity.ERROR: Mark.WRONG, Severity.WARNING: Mark.OPEN, Severity.NOTE: "ℹ️ "}
+_SEVERITIES = {Severity.ERROR: Mark.WRONG, Severity.WARNING: Mark.OPEN, Severity.NOTE: Mark.NONE}
 
 
 class TextTable(msgspec.Struct, frozen=True):

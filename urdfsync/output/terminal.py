@@ -9,7 +9,7 @@ from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.sections import Mark, Section
 from urdfsync.streams import has_marks
 
-_MARKS = {Mark.WRONG: ("✗ ", "bold red"), Mark.OPEN: ("! ", "yellow"), Mark.NONE: ("", ""), Mark.FINE: ("✓ ", "green")}
+_STYLES = {Mark.WRONG: "bold red", Mark.OPEN: "yellow", Mark.NONE: "", Mark.FINE: "green"}
 _FILES = {
     "green": "update create restore merge undo move stale missing",
     "magenta": "delete moved-away",
@@ -23,7 +23,7 @@ _CHANGES = {"added": "green", "removed": "red", "renamed": "cyan", "rounding": "
 
 def text(section: Section, *, verbose: bool = False, quiet: bool = False) -> Iterator[StyledLine]:
     """Yield all lines about a robot but its findings; with `quiet`, the first line and what to do."""
-    marks = [_MARKS[section.mark]] if has_marks(sys.stdout) else []
+    marks = [(section.mark.value, _STYLES[section.mark])] if has_marks(sys.stdout) else []
     yield line(*marks, (section.robot, "bold"), (f": {section.summary}", ""))
     yield from details(section, verbose=verbose) if not quiet else _hints(section)
 

@@ -129,8 +129,8 @@ function paintStage() {
   ["x", "y", "z"].forEach((name, place) => labels.set(`world ${name}`, name, axes.visible && (() => new THREE.Vector3().setComponent(place, 1.06 * axes.userData.length)), `axis-${name}`));
   const origin = (name) => () => new THREE.Vector3().setFromMatrixPosition(page.now.bodies.get(name).group.matrixWorld);
   for (const name of page.now.bodies.keys()) {
-    labels.set(name, `${nameOf(name)}${doubted.has(name) ? " ⚠" : ""}`, page.layers.label && origin(name));
-    labels.set(`finding ${name}`, "⚠", doubted.has(name) && !page.layers.label && page.version !== "before" && origin(name), "finding");
+    labels.set(name, `${nameOf(name)}${doubted.has(name) ? " !" : ""}`, page.layers.label && origin(name));
+    labels.set(`finding ${name}`, "!", doubted.has(name) && !page.layers.label && page.version !== "before" && origin(name), "finding");
   }
 }
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from urdfsync.engine.edits import EditedFile
 from urdfsync.merge.edits import Edit, in_words
-from urdfsync.modelica.values import literals, read_values
+from urdfsync.modelica.values import literals, read_values, without_comments
 from urdfsync.patches.literals import NUMBER
 from urdfsync.patches.sources import Key
 
@@ -56,7 +56,7 @@ def edited_values(file: EditedFile, path: str) -> Iterator[EditedValue | Staying
     base = {value.path: value.text for value in read_values(file.base)}
     for value in read_values(file.mine):
         before = base.get(value.path, "")
-        old, new, words = literals(before), literals(value.text), tuple(NUMBER.findall(value.text))
+        old, new, words = literals(before), literals(value.text), NUMBER.findall(without_comments(value.text))
         is_same = value.text == before or (old == new and old is not None)
         if is_same or isinstance(new, str) or isinstance(old, str):
             continue
@@ -66,7 +66,7 @@ def edited_values(file: EditedFile, path: str) -> Iterator[EditedValue | Staying
         elif old and len(old) != len(new):
             yield Staying(file.path, told, "it has another count of numbers")
         else:
-            yield EditedValue((path, value.path), old or (), new, words, told)
+            yield EditedValue((path, value.path), old or (), new, tuple(words), told)
 
 
 def other_edits(file: EditedFile, values: Sequence[str]) -> Iterator[Staying]:

@@ -8,16 +8,19 @@ from __future__ import annotations
 
 import codecs
 import re
-import struct
 from collections.abc import Iterable, Mapping
+from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
+
+from urdfsync.numerals import find_separator
 
 NUMBER = re.compile(
     r"(?:(?<![\w.)\]}])[-+])?(?<![\w.])(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?+(?![\w.])", re.ASCII
 )
-_TINY = 1e-200
-"""Stands for zero in `neighbour`: half of it is no other neighbour of zero, as it would be of the smallest float."""
+_DECLARATION = re.compile(r".{0,3}<\?xml\b[^>]*>")
+"""Its numbers are no numbers of a robot; a byte order mark may stand before it."""
+_WITH_COMMA = re.compile(r"(?<![\w.,])\d+,\d+(?![\w.,])", re.ASCII)
 _WIDE = (
     (codecs.BOM_UTF32_LE, "utf-32-le"),
     (codecs.BOM_UTF32_BE, "utf-32-be"),
@@ -30,12 +33,23 @@ _WIDE = (
 
 
 class Literal(NamedTuple):
-    """A piece of a file's text: a number, or the empty place where something is inserted."""
+    """A piece of a file's text: a number, or the empty place of a new attribute or element."""
 
     file: Path
     start: int
     text: str
     line: int
+    decimal: str = "."
+    """The decimal mark."""
+    element: str = ""
+    """The beginning of a new element with line end and indentation, such as `<origin`."""
+    attribute: str = ""
+    """The beginning of a new attribute, such as ` xyz="`; a new element has one, too."""
+
+    @property
+    def value(self) -> float:
+        """The number."""
+        return float(self.text.replace(self.decimal, ".")) + 0.0
 
 
 def decoded(content: bytes) -> str:
@@ -48,23 +62,25 @@ def _encoding(content: bytes) -> str:
 
 
 def find_literals(file: Path, content: bytes) -> list[Literal]:
-    """Return all numbers in a file; none if the file is no text."""
+    """Return all numbers in a file; none if the file is no text. A table may have decimal commas."""
     try:
         text = decoded(content)
     except UnicodeDecodeError:
         return []
     if "\0" in text:
         return []
-    return literals_in(file, text, 0, len(text))
+    is_european = "<" not in text and find_separator(text)[0] != "," and _WITH_COMMA.search(text)
+    declaration = _DECLARATION.match(text)
+    return literals_in(file, text, declaration.end() if declaration else 0, len(text), "," if is_european else ".")
 
 
-def literals_in(file: Path, text: str, start: int, end: int) -> list[Literal]:
+def literals_in(file: Path, text: str, start: int, end: int, decimal: str = ".") -> list[Literal]:
     """Return the numbers of a piece of a file's text."""
     found, line, last = list[Literal](), text.count("\n", 0, start) + 1, start
-    for match in NUMBER.finditer(text, start, end):
+    for match in NUMBER.finditer(text.replace(decimal, "."), start, end):
         line += text.count("\n", last, match.start())
         last = match.start()
-        found.append(Literal(file, last, match[0], line))
+        found.append(Literal(file, last, text[last : match.end()], line, decimal))
     return found
 
 
@@ -77,14 +93,16 @@ def replaced(contents: Mapping[Path, bytes], changes: Mapping[Literal, str]) -> 
 
 
 def _with_texts(content: bytes, changes: Iterable[tuple[Literal, str]]) -> bytes:
-    text = decoded(content)
-    for literal, new in sorted(changes, reverse=True):
-        text = f"{text[: literal.start]}{new}{text[literal.start + len(literal.text) :]}"
-    return text.encode(_encoding(content))
+    """Return a content with new texts of literals, written with decimal points. Attributes join one new element."""
+    text, parts, end = decoded(content), list[str](), 0
+    for (start, element), group in groupby(sorted(changes, key=_place), _place):
+        parts += [text[end:start], element]
+        for literal, new in group:
+            parts.append(f"{literal.attribute}{new.replace('.', literal.decimal)}{literal.attribute[-1:]}")
+            end = start + len(literal.text)
+        parts.append("/>" * bool(element))
+    return "".join([*parts, text[end:]]).encode(_encoding(content))
 
 
-def neighbour(value: float, number: int) -> float:
-    """Return the float that is `number` steps of the last binary digit away from a value; from a tiny one for zero."""
-    (bits,) = struct.unpack("<q", struct.pack("<d", value or _TINY))
-    (result,) = struct.unpack("<d", struct.pack("<q", bits + number))
-    return float(result)
+def _place(change: tuple[Literal, str]) -> tuple[int, str]:
+    return change[0].start, change[0].element

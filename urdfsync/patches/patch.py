@@ -13,16 +13,19 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, UrdfsyncError, findings_of
 from urdfsync.domain import Role
-from urdfsync.engine.edits import RobotEdits, find_edits
+from urdfsync.engine.edits import find_edited_at
 from urdfsync.engine.generation import generate_robot
-from urdfsync.engine.inspect.inputs import inspect
+from urdfsync.engine.inspect.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.sources.source import read_source
 from urdfsync.files import shown
 from urdfsync.patches.edited import EditedValue, Staying, edited_values, other_edits
+from urdfsync.patches.feeds import NewTexts
 from urdfsync.patches.literals import replaced
-from urdfsync.patches.search import NewTexts, Search
-from urdfsync.patches.sources import Contents, SourceReader, look
+from urdfsync.patches.search import Search
+from urdfsync.patches.sources import SourceReader, look
 from urdfsync.patches.unified import path_in, top_of, unified
+from urdfsync.state.store import Store
 
 
 class RobotPatch(msgspec.Struct, frozen=True):
@@ -38,41 +41,37 @@ class RobotPatch(msgspec.Struct, frozen=True):
 
 def find_patches(paths: Sequence[str], config: Config, options: BuildOptions) -> Iterator[RobotPatch]:
     """Yield the changes for the edits in the files at these paths, or in all files. Raises ConfigError as `edits`."""
-    for edited in find_edits(paths, config, options):
-        robot = next(robot for robot in config.robots if robot.name == edited.robot)
-        if edited.failed:
-            yield RobotPatch(edited.robot, diagnostics=edited.diagnostics, failed=True)
-            continue
+    for robot in config.select(paths):
         try:
-            yield _find_patch(config, robot, options, edited)
+            yield _find_patch(paths, inspect(config, robot, options))
         except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
-            yield RobotPatch(edited.robot, diagnostics=findings_of(error), failed=True)
+            yield RobotPatch(robot.name, diagnostics=findings_of(error), failed=True)
 
 
-def _find_patch(config: Config, robot: RobotConfig, options: BuildOptions, edited: RobotEdits) -> RobotPatch:
+def _find_patch(paths: Sequence[str], inputs: Inputs) -> RobotPatch:
     """Return the changes of one robot's source. Raises UrdfsyncError."""
-    if robot.command and edited.files:
+    config, robot, generation = inputs.config, inputs.robot, generate_robot(inputs)
+    files = find_edited_at(paths, inputs, generation)
+    if robot.command and files:
         message = f"robot `{robot.name}`: its source is made by a command, so no patch of it would last"
         hint = "change what the command reads"
         raise ConfigError.of("made-by-command", message, shown(config.file), robot.lines.get("command", 0), hint=hint)
-    inputs = inspect(config, robot, options)
-    generation, values, staying = generate_robot(inputs), list[EditedValue](), list[Staying]()
+    values, staying = list[EditedValue](), list[Staying]()
     artifacts, places = generation.package.artifacts, dict[str, str]()
-    for file in edited.files:
+    for file in files:
         path = inputs.folder.path(file.path)
         is_record = path in artifacts and artifacts[path].role is Role.RECORD and file.edits is not None
         found = list(edited_values(file, path)) if is_record else []
-        of_file = [each for each in found if isinstance(each, EditedValue)]
+        values += [each for each in found if isinstance(each, EditedValue)]
         staying += [each for each in found if isinstance(each, Staying)]
         staying += other_edits(file, [each.told.partition(" ")[0] for each in found])
-        values, places = [*values, *of_file], {**places, path: file.path}
+        places[path] = file.path
     if not values:
         return RobotPatch(robot.name, {}, tuple(staying))
-    reader = SourceReader(config, robot, options)
-    contents = reader.contents()
-    owners = generation.package.owners
-    refused = partial(_refusals, config, list(_other_readers(config, robot, options)))
-    search = Search(partial(look, reader, inputs, generation), contents, owners, values, refused)
+    reader = SourceReader(config, robot, inputs.options, inputs.source)
+    others = list(_other_readers(config, robot, inputs.options))
+    look_with = partial(look, reader, inputs, generation)
+    search = Search(reader, look_with, generation.package.owners, values, others, top_of(config.root))
     search.run()
     staying += [
         Staying(places[value.key[0]], value.told, search.reasons[value.key])
@@ -87,15 +86,7 @@ def _other_readers(config: Config, robot: RobotConfig, options: BuildOptions) ->
     for other in config.robots:
         if other.name != robot.name:
             with contextlib.suppress(UrdfsyncError):
-                yield SourceReader(config, other, options)
-
-
-def _refusals(config: Config, others: Sequence[SourceReader], contents: Contents) -> list[str]:
-    """Return why changed contents can't be in the patch: outside of the project, or read by another robot."""
-    top = top_of(config.root)
-    outside = [file for file in contents if path_in(top, file) is None]
-    reasons = [f"its number is in {shown(file)}, outside of {shown(top)}" for file in outside]
-    return [*reasons, *(f"its number also feeds robot `{other.name}`" for other in others if other.is_fed(contents))]
+                yield SourceReader(config, other, options, read_source(config, other, Store(config.root), options))
 
 
 def patch_text(config: Config, patches: Sequence[RobotPatch]) -> bytes:

@@ -1,34 +1,45 @@
 """Finds the literals of a source that an edit of a record comes from, by trying and looking.
 
-1. Each number of the source that equals an edited one gets a value of its own, a neighbour of the number. The robot is
-   read again: a record that shows this value shows where its number comes from, through all of xacro.
-2. An edit that shows nowhere, such as an axis, is tried at the tags of its element.
-3. Each change is tried: the robot is read with it. It is right if all edited values are as the user wrote them, and no
-   other one changed. So a wrong guess leaves an edit out, and never gets into the patch.
+1. All numbers of the source that may be behind an edit are moved a little, at once: two readings show the numbers that
+   each of them feeds (see `feeds`). An edit whose literal feeds another number, too, stays.
+2. An edit that shows nowhere, such as an axis, is tried at the tags of its element. One reading with all new attributes
+   and elements shows which of them an edit may be.
+3. All changes are tried together: the robot is read with them. They are right if all edited values are as the user
+   wrote them, and no other one changed. Else the halves are tried. So a wrong guess leaves an edit out, and never gets
+   into the patch.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from decimal import Decimal
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple
 
 from urdfsync.config import working_folder
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.diagnostics import Severity, UrdfsyncError
+from urdfsync.files import shown
 from urdfsync.patches.edited import EditedValue
-from urdfsync.patches.literals import Literal, decoded, find_literals, literals_in, neighbour, replaced
-from urdfsync.patches.sources import Contents, Key, Look
+from urdfsync.patches.feeds import Feeds, NewTexts, Place
+from urdfsync.patches.literals import Literal, decoded, find_literals, replaced
+from urdfsync.patches.sources import Contents, Key, Look, SourceReader
+from urdfsync.patches.tags import find_empty, find_same, start_tags
+from urdfsync.patches.unified import path_in
 
-NewTexts: TypeAlias = dict[Literal, str]
-"""The new texts of literals."""
-_TAG = re.compile(r"""<[\w:.-]++(?:[^<>"']++|"[^"]*"|'[^']*')*+>""")
-_ATTRIBUTE = re.compile(r"""\s([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
-_LINE_END = re.compile(r"\r\n|\r|\n")
-_FEEDS = " also feeds "
 _WHOLE = "robot"
 """The owner of records that repeat or derive numbers of elements, such as positions at the start."""
+_LONGEST = 12
+"""The greatest number of digits of a number that is converted into the unit of its cell."""
+
+
+class _Trial(NamedTuple):
+    """Edits that belong together, and changes of the source that may be these edits."""
+
+    values: Sequence[EditedValue]
+    changes: NewTexts
 
 
 class Search:
@@ -36,16 +47,22 @@ class Search:
 
     def __init__(
         self,
+        reader: SourceReader,
         look: Callable[[Contents], Look],
-        contents: Contents,
         owners: Mapping[str, str],
         values: Sequence[EditedValue],
-        refused: Callable[[Contents], Sequence[str]],
+        others: Sequence[SourceReader],
+        top: Path,
     ) -> None:
-        """`refused` tells why changed contents can't be in the patch; `owners` has the element of each record."""
-        self._look, self._contents, self._owners, self._refused = look, contents, owners, refused
+        """`look` reads the robot with other contents; `owners` has the element of each record.
+
+        The `others` read robots that must not change. The patch has no files outside of `top`.
+        """
+        self._reader, self._look, self._owners, self._robots, self._top = reader, look, owners, others, top
         self._values = {value.key: value for value in values}
-        self.before = look({})
+        self._contents = reader.contents()
+        self.before, numbers = self._read({})
+        self._feeds = Feeds(lambda texts: self._read(texts)[1], numbers)
         self.changes: NewTexts = {}
         self._accepted = list[EditedValue]()
         self.reasons = dict[Key, str]()
@@ -53,204 +70,218 @@ class Search:
 
     def run(self) -> None:
         """Find the changes."""
-        known = list[EditedValue]()
         for value in self._values.values():
             if value.old and self.before.values.get(value.key) != value.old:
                 self.reasons[value.key] = "the source has changed it, too: build first"
-            else:
-                known.append(value)
-        origins = self._find_origins(
-            {(value.key, k): value.old[k] for value in known if value.old for k in value.changed}
+        known = [value for value in self._values.values() if value.key not in self.reasons]
+        self._trace_literals([value for value in known if value.old])
+        trials = list(self._by_literal(known))
+        hidden = [value for value in known if not any(value in trial.values for trial in trials)]
+        candidates = self._at_tags(hidden)
+        while trials or any(candidates[value.key] for value in hidden):
+            trials += [_Trial([value], candidates[value.key].pop(0)) for value in hidden if candidates[value.key]]
+            self._settle([trial for trial in trials if not self._is_shared(trial)])
+            trials, hidden = [], [value for value in hidden if value not in self._accepted]
+        for value in hidden:
+            self.reasons.setdefault(value.key, self._why_unknown(value))
+
+    def _read(self, texts: NewTexts) -> tuple[Look, dict[Place, float]]:
+        """Return the robot, and all numbers of its records, of an expanded text, and of the other robots' sources."""
+        contents = replaced(self._contents, texts)
+        look = self._look(contents)
+        records = ((key, value) for key, value in look.values.items() if isinstance(value, tuple))
+        numbers = {(*key, k): number for key, value in records for k, number in enumerate(value)}
+        for k, literal in enumerate(find_literals(Path(), look.text.content) if look.text.expansion else ()):
+            numbers["", "{}:{}".format(*look.text.place(literal.line)), k] = literal.value
+        for other in self._robots:
+            numbers |= {(other.name, "", k): number for k, number in enumerate(other.numbers(contents))}
+        return look, numbers
+
+    # --- candidates -----------------------------------------------------------------------------------------------
+
+    def _trace_literals(self, values: Sequence[EditedValue]) -> None:
+        """Find the numbers that the literals behind these edits feed."""
+        wanted = {(*value.key, k): value.old[k] for value in values for k in value.changed}
+        literals = [each for file, content in self._contents.items() for each in find_literals(file, content)]
+        numbers, cells = {*wanted.values()}, {*self._cells({self._owner(value) for value in values}, literals)}
+        possible = {each: (each.value,) for each in literals if each.value in numbers or each in cells}
+        moved = self._feeds.trace(possible, wanted.keys())
+        # 0 and 1 may stand beside a number without an effect, as in `1.0*m + 0`, and were moved with it
+        for sizes in ((lambda size: size not in (0, 1)), (lambda size: size == 1), (lambda size: size == 0)):
+            shown = self._feeds.direct.keys()
+            hidden = {place for place in moved & wanted.keys() - shown if sizes(abs(wanted[place]))}
+            if hidden and self.before.text.expansion:
+                self._feeds.trace({each: own for each, own in possible.items() if sizes(abs(each.value))}, hidden)
+
+    def _cells(self, owners: set[str], literals: Sequence[Literal]) -> Iterator[Literal]:
+        """Yield the numbers in the lines of elements: they may have other units. An expanded source has none."""
+        places = sorted(
+            (Path(working_folder() / file), line, path) for path, (file, line) in self.before.places.items()
         )
-        groups = list(_by_literal(known, origins))
-        together = {literal: text for _, changes in groups for literal, text in changes.items()}
-        if groups and not self._misfit([value for values, _ in groups for value in values], together):
-            groups = [([value for values, _ in groups for value in values], together)]
-        for values, changes in groups:
-            if (misfit := self._misfit(values, changes)) and not self._retry(values):
-                self.reasons |= dict.fromkeys((value.key for value in values), misfit)
-            elif not misfit:
-                self._accept(values, changes)
-        for value in known:
-            if value not in self._accepted and value.key not in self.reasons and not self._retry([value]):
-                self.reasons.setdefault(value.key, self._why_unknown(value))
+        for number, (file, line, path) in enumerate(places if not self.before.text.expansion else ()):
+            if path in owners:
+                end = next((other for at, other, _ in places[number:] if at == file and other > line), math.inf)
+                names = re.split(r"[\s-]", path)
+                of_file = (each for each in literals if each.file == file and line <= each.line < end)
+                yield from (each for each in of_file if each.text not in names)
 
-    def _accept(self, values: Sequence[EditedValue], changes: NewTexts) -> None:
-        self._accepted += values
-        self.changes = self._with(changes)
+    def _by_literal(self, values: Sequence[EditedValue]) -> Iterator[_Trial]:
+        """Yield the edits whose literals are known: those with a literal in common together, with its new text."""
+        groups = list[tuple[list[EditedValue], set[tuple[Literal, str]]]]()
+        for value in values:
+            found = [self._change(value, k) for k in value.changed] if value.old else [None]
+            changes = {change for change in found if change}
+            if None in found:
+                continue
+            group = [value]
+            for other in [other for other in groups if {*dict(other[1])} & {*dict(changes)}]:
+                groups.remove(other)
+                group, changes = [*other[0], *group], other[1] | changes
+            groups.append((group, changes))
+        for group, changes in groups:
+            yield _Trial(group, dict(changes))
 
-    def _with(self, changes: NewTexts) -> NewTexts:
-        """Return the accepted changes with further ones; what is inserted at one place follows each other."""
-        inserted = {
-            literal: f"{self.changes.get(literal, '')}{new}" for literal, new in changes.items() if not literal.text
-        }
-        return self.changes | changes | inserted
+    def _change(self, value: EditedValue, k: int) -> tuple[Literal, str] | None:
+        """Return the literal behind an edited number with its new text, in the unit of its cell; None if unknown."""
+        place, word = (*value.key, k), value.words[k]
+        if literal := self._feeds.direct.get(place):
+            return literal, word
+        literal, factor = self._feeds.computed.get(place, (None, 0.0))
+        if literal is None or not self._has_other_unit(place):
+            return None
+        old = Decimal(repr(value.old[k])) / Decimal(repr(literal.value)) if literal.value else Decimal(f"{factor:.6g}")
+        number = Decimal(f"{Decimal(word) / old:.14g}").normalize()
+        return (literal, f"{number:f}") if len(number.as_tuple().digits) <= _LONGEST else None
 
-    def _find_origins(self, numbers: Mapping[tuple[Key, int], float]) -> dict[tuple[Key, int], Literal]:
-        """Return the literals behind numbers of records, by the value and the place in it."""
-        by_number = dict[float, list[Literal]]()
-        for file, content in self._contents.items():
-            for literal in find_literals(file, content):
-                by_number.setdefault(float(literal.text), []).append(literal)
-        wanted = {*numbers.values()} & by_number.keys()
-        origins = self._trace([literal for number in wanted for literal in by_number[number]])
-        # a factor `1.0*` beside a number was changed with it: try each number alone
-        for number in {numbers[place] for place in numbers.keys() - origins.keys()} & wanted if len(wanted) > 1 else ():
-            origins |= self._trace(by_number[number])
-        return origins
+    def _has_other_unit(self, place: Place) -> bool:
+        """Whether a number is a multiple of one number of a plain source."""
+        literal, factor = self._feeds.computed[place]
+        is_multiple = math.isclose(factor * literal.value, self._values[place[:2]].old[place[2]], rel_tol=1e-6)
+        return is_multiple and self.before.text.expansion is None
 
-    def _trace(self, literals: Sequence[Literal]) -> dict[tuple[Key, int], Literal]:
-        """Return the literal behind each number of the records that is one of these literals."""
-        if not literals:
-            return {}
-        marks = {neighbour(float(literal.text), number): literal for number, literal in enumerate(literals, 1)}
-        try:
-            seen = self._look(replaced(self._contents, {literal: repr(mark) for mark, literal in marks.items()})).values
-        except UrdfsyncError:
-            seen = {}
-        if seen.keys() != self.before.values.keys():  # one of them must stay, such as a count: try the others
-            half = len(literals) // 2
-            return self._trace(literals[:half]) | self._trace(literals[half:]) if half else {}
-        numbers = ((key, k, number) for key, value in seen.items() for k, number in enumerate(value or ()))
-        return {(key, k): marks[number] for key, k, number in numbers if number in marks}
+    def _at_tags(self, values: Sequence[EditedValue]) -> dict[Key, list[NewTexts]]:
+        """Return changes of the tags of its element that each edit may be; one reading tries all new attributes."""
+        candidates = {value.key: list[NewTexts]() for value in values}
+        empty = {value.key: list[Literal]() for value in values}
+        for value in values:
+            for file, line, present in self._lines(value):
+                text = decoded(self._contents[file])
+                for tag in start_tags(text, line):
+                    candidates[value.key] += find_same(file, text, tag, value)
+                    if self._reader.can_grow:
+                        empty[value.key] += find_empty(file, text, line, tag, value, present)
+        moved = self._feeds.trace({each: value.new for value in values for each in empty[value.key]}, frozenset())
+        for value in values:
+            places = [(*value.key, k) for k in range(len(value.new))]
+            shown = [each for each in empty[value.key] if each in map(self._feeds.direct.get, places)]
+            possible = shown or (empty[value.key] if moved & {*places} else [])
+            candidates[value.key] += [{each: " ".join(value.words)} for each in possible]
+        return candidates
+
+    def _lines(self, value: EditedValue) -> Iterator[tuple[Path, int, list[str]]]:
+        """Yield the lines of the parts of an edited element, with the names of elements below these parts."""
+        parts, owner = dict[tuple[str, int], list[str]](), self._owner(value)
+        for path, place in sorted(self.before.places.items(), key=lambda item: item[1]):
+            if path == owner or path.startswith(f"{owner} / "):
+                parts.setdefault(place, []).append(path)
+        for (name_of_file, line), paths in parts.items():
+            below = (each.rpartition(" / ") for each in self.before.places)
+            if (file := Path(working_folder() / name_of_file)) in self._contents:
+                yield file, line, [name for above, _, name in below if above in paths]
+
+    # --- trials ---------------------------------------------------------------------------------------------------
+
+    def _settle(self, trials: Sequence[_Trial], *, is_faulty: bool = False) -> bool:
+        """Accept the trials that are right, and tell why others are not; return whether all are right.
+
+        `is_faulty` says that one of several trials is known to be wrong.
+        """
+        values = [value for trial in trials for value in trial.values]
+        if not trials:
+            return True
+        changes = {literal: text for trial in trials for literal, text in trial.changes.items()}
+        is_known = is_faulty and len(trials) > 1
+        if not is_known and not (misfit := self._misfit(values, changes)):
+            self._accepted += values
+            self.changes |= changes
+            for value in values:
+                self.reasons.pop(value.key, None)
+            return True
+        if len(trials) == 1:
+            self.reasons |= {value.key: misfit for value in values}
+        else:
+            half = len(trials) // 2
+            self._settle(trials[half:], is_faulty=self._settle(trials[:half]))
+        return False
+
+    def _is_shared(self, trial: _Trial) -> bool:
+        """Whether the readings have shown that the changes can't be these edits; tell why."""
+        sources = {place: literal for place, (literal, _) in self._feeds.computed.items()} | self._feeds.direct
+        fed = [place for place in self._feeds.before if sources.get(place) in trial.changes]
+        others = self._others(fed, self._values, _count(trial.values, trial.changes))
+        outside = {shown(each.file) for each in trial.changes if path_in(self._top, each.file) is None}
+        reasons = [f"its number is in {file}, outside of {shown(self._top)}" for file in outside]
+        reason = "; ".join(reasons) if outside else _also_feeds(trial.changes, others)
+        self.reasons |= {value.key: reason for value in trial.values if reason}
+        return bool(reason)
+
+    def _others(self, places: Iterable[Place], edited: Collection[Key], most: int) -> list[str]:
+        """Return the places of numbers that are none of the edited ones, in words.
+
+        Records of the whole robot follow. If not more than `most` numbers of the source's text are among the places,
+        they are the edited ones.
+        """
+        files, others, lines = {path for path, _ in edited}, list[str](), list[str]()
+        for path, name, _ in places:
+            owner = self._owners.get(path, path)
+            if not path:
+                lines.append(name)
+            elif (path, name) not in edited and (owner != _WHOLE or path in files):
+                others.append(f"{name} of {owner}" if name else f"robot `{path}`")
+        return others or (lines if len(lines) > most else [])
 
     def _misfit(self, values: Sequence[EditedValue], changes: NewTexts) -> str:
         """Return why changes are not exactly these edits; empty if they are. Accepted changes are made, too."""
-        changes = self._with(changes)
-        contents = replaced(self._contents, changes)
         try:
-            if reasons := self._refused(contents):
-                return "; ".join(reasons)
-            now = self._look(contents)
+            look, numbers = self._read(self.changes | changes)
         except UrdfsyncError as error:
-            return f"the source would be wrong: {error.diagnostics[0].message}"
-        edited = [*self._accepted, *values]
-        if any(now.values.get(value.key) != value.new for value in edited):
+            fault = min(error.diagnostics, key=lambda each: each.severity is not Severity.ERROR)
+            return f"the source would be wrong: {fault.message}"
+        edited = {value.key: value for value in [*self._accepted, *values]}
+        if any(look.values.get(key) != value.new for key, value in edited.items()):
             return "the source computes it, or another edit changes the same number"
-        if others := self._others(now, edited):
-            places = ", ".join(sorted({f"{literal.file.name}:{literal.line}" for literal in changes}))
-            return f"its number in {places}{_FEEDS}{', '.join(others[:3])}{', …' * (len(others) > 3)}"
-        return ""
+        sides = self._feeds.before, numbers
+        # an inserted element moves all lines below: numbers of the text are only counted
+        before, now = (Counter(number for place, number in side.items() if not place[0]) for side in sides)
+        keys = {**self.before.values, **look.values}
+        changed = [(*key, 0) for key in keys if self.before.values.get(key) != look.values.get(key)]
+        places = (place for place in {**sides[0], **sides[1]} if sides[0].get(place) != sides[1].get(place))
+        changed += [place for place in places if not place[1] or (not place[0] and numbers.get(place) in now - before)]
+        return _also_feeds(changes, self._others(changed, edited, _count(edited.values(), self.changes | changes)))
 
-    def _others(self, now: Look, edited: Sequence[EditedValue]) -> list[str]:
-        """Return the places that change beside the edited values."""
-        wanted = {value.key: value.new for value in edited}
-        files = {path for path, _ in wanted}
-        others = list[str]()
-        for key in dict.fromkeys([*self.before.values, *now.values]):
-            follows = self._owners.get(key[0]) == _WHOLE and key[0] not in files
-            if key not in wanted and not follows and self.before.values.get(key) != now.values.get(key):
-                others.append(f"{key[1]} of {self._owners.get(key[0], key[0])}")
-        return others or (self._lines_beyond(now, edited) if self.before.text.expansion else [])
-
-    def _lines_beyond(self, now: Look, edited: Sequence[EditedValue]) -> list[str]:
-        """Return the places of changed lines of the expanded source, if more changed than the edited values."""
-        old, new = (look.text.content.decode().splitlines() for look in (self.before, now))
-        if len(old) != len(new):  # an element was inserted
-            added = Counter(new) - Counter(old)
-            return [] if added.total() <= len(edited) else [line.strip() for line in added]
-        pairs = [(n, a.split(), b.split()) for n, (a, b) in enumerate(zip(old, new, strict=True), 1) if a != b]
-        words = sum(sum(map(str.__ne__, a, b)) + abs(len(a) - len(b)) for _, a, b in pairs)
-        if words <= sum(len(value.changed) for value in edited):
-            return []
-        return list(dict.fromkeys("{}:{}".format(*self._place(line)) for line, _, _ in pairs))
-
-    def _place(self, line: int) -> tuple[str, int]:
-        """Return the file and the line that the user wrote, by a line of the source that is read."""
-        return self.before.text.place(line)
-
-    def _retry(self, values: Sequence[EditedValue]) -> bool:
-        """Try an edit at the tags of its element; return whether one of them is right."""
-        if len(values) != 1:
-            return False
-        value, owner = values[0], self._owners.get(values[0].key[0], "")
-        for changes in self._at_tags(value, owner):
-            if not (misfit := self._misfit(values, changes)):
-                self._accept(values, changes)
-                self.reasons.pop(value.key, None)
-                return True
-            if _FEEDS in misfit:
-                self.reasons[value.key] = misfit
-        return False
-
-    def _at_tags(self, value: EditedValue, owner: str) -> Iterator[NewTexts]:
-        """Yield changes of the tags of an element that may be an edit."""
-        parts = dict[tuple[str, int], list[str]]()
-        for path, line in sorted(self.before.lines.items(), key=lambda item: item[1]):
-            if path == owner or path.startswith(f"{owner} / "):
-                parts.setdefault(self._place(line), []).append(path)
-        *_, around, name = ["", *map(_snake, value.key[1].split("."))]
-        pairs = [(around, name), (name, "xyz" if len(value.new) > 1 else "value")]
-        for (place, line), paths in parts.items():
-            file = Path(working_folder() / place)
-            text = decoded(self._contents[file]) if file in self._contents else ""
-            # a second element would take the place of the first one, with a warning
-            missing = [pair for pair in pairs if not any(f"{path} / {pair[0]}" in self.before.lines for path in paths)]
-            for tag in _tags(text, line):
-                yield from _replacing(file, text, tag, value)
-                ends = [match.end() for match in _ATTRIBUTE.finditer(tag[0])] or [len(tag[0].rstrip("/>"))]
-                if words := _new_attribute(value, tag[0], name):
-                    yield {Literal(file, tag.start() + ends[-1], "", line): words}
-                for element, attribute in missing if not tag[0].endswith("/>") else ():
-                    new = f"<{element}{_new_attribute(value, '', attribute)}/>"
-                    yield {Literal(file, tag.end(), "", line): f"{_indented(text, tag)}{new}"}
+    def _owner(self, value: EditedValue) -> str:
+        return self._owners.get(value.key[0], "")
 
     def _why_unknown(self, value: EditedValue) -> str:
-        owner = self._owners.get(value.key[0], "")
-        line = self.before.lines.get(owner, 0)
-        place = " ({}:{})".format(*self._place(line)) if line else ""
-        return f"no number of the source{place} is this one: it is computed, or a default"
+        for k in value.changed:
+            place = (*value.key, k)
+            if place in self._feeds.computed:
+                literal, _ = self._feeds.computed[place]
+                at = f"{shown(literal.file)}:{literal.line}"
+                if self._has_other_unit(place):
+                    return f"{at} has it in another unit, in which {value.words[k]} is no plain number"
+                return f"it is computed from the number in {at}"
+        line = "{}:{}".format(*self.before.places[owner]) if (owner := self._owner(value)) in self.before.places else ""
+        return f"no number of the source{line and f' ({line})'} is this one: it is computed, or a default"
 
 
-def _by_literal(
-    values: Sequence[EditedValue], origins: Mapping[tuple[Key, int], Literal]
-) -> Iterator[tuple[list[EditedValue], NewTexts]]:
-    """Yield the edits whose literals are known: those with a literal in common together, with its new text."""
-    groups = list[tuple[list[EditedValue], NewTexts]]()
-    for value in values:
-        if not value.old or not all((value.key, k) in origins for k in value.changed):
-            continue
-        group, changes = [value], {origins[value.key, k]: value.words[k] for k in value.changed}
-        for other in [other for other in groups if other[1].keys() & changes.keys()]:
-            groups.remove(other)
-            group, changes = [*other[0], *group], other[1] | changes
-        groups.append((group, changes))
-    yield from groups
+def _count(values: Iterable[EditedValue], changes: NewTexts) -> int:
+    """Return how many numbers of a text may change: an edit may change some, and a new attribute has others, too."""
+    return max(sum(len(value.changed) for value in values), len(" ".join(changes.values()).split()))
 
 
-def _snake(name: str) -> str:
-    return re.sub("([A-Z])", lambda match: f"_{match[1].lower()}", name)
-
-
-def _tags(text: str, line: int) -> Iterator[re.Match[str]]:
-    """Yield the start tags that begin in a line of a text."""
-    starts = [0, *(match.end() for match in _LINE_END.finditer(text)), len(text)]
-    for match in _TAG.finditer(text, starts[min(line, len(starts) - 1) - 1]):
-        if match.start() >= starts[min(line, len(starts) - 1)]:
-            return
-        yield match
-
-
-def _indented(text: str, tag: re.Match[str]) -> str:
-    """Return the line end and the indentation of a new child of a tag; empty if its children are in the tag's line."""
-    end = _LINE_END.match(text, tag.end())
-    before = text[: tag.start()]
-    line = before[max(before.rfind("\n"), before.rfind("\r")) + 1 :]
-    return f"{end[0]}{line[len(line.rstrip()) :]}  " if end else ""
-
-
-def _replacing(file: Path, text: str, tag: re.Match[str], value: EditedValue) -> Iterator[NewTexts]:
-    """Yield the new numbers of each attribute that has the old ones."""
-    for attribute in _ATTRIBUTE.finditer(tag[0]):
-        group = 2 if attribute[2] is not None else 3
-        start, end = (tag.start() + place for place in attribute.span(group))
-        found = literals_in(file, text, start, end)
-        if value.old and tuple(float(literal.text) + 0.0 for literal in found) == value.old:
-            yield {found[k]: value.words[k] for k in value.changed}
-
-
-def _new_attribute(value: EditedValue, tag: str, name: str) -> str:
-    """Return a new attribute for a tag, in the quotes of its others; empty if the tag has the attribute."""
-    names = [match[1] for match in _ATTRIBUTE.finditer(tag)]
-    quote = "'" if "'" in tag and '"' not in tag else '"'
-    return "" if name in names else f" {name}={quote}{' '.join(value.words)}{quote}"
+def _also_feeds(changes: Iterable[Literal], others: Sequence[str]) -> str:
+    """Return that the literals feed these places, too; empty without places."""
+    places = ", ".join(f"{name}:{line}" for name, line in sorted({(each.file.name, each.line) for each in changes}))
+    others = list(dict.fromkeys(others))
+    return f"its number in {places} also feeds {', '.join(others[:3])}{', …' * (len(others) > 3)}" if others else ""

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -23,7 +22,7 @@ from urdfsync.engine.sources.source import Source
 from urdfsync.engine.sources.translators import XACRO, find_translator
 from urdfsync.files import shown
 from urdfsync.modelica.values import literals, read_values
-from urdfsync.state.store import Store
+from urdfsync.patches.literals import find_literals
 
 Key: TypeAlias = tuple[str, str]
 """A value of a record: the path of its file below the package's folder, and its path in the record."""
@@ -35,48 +34,50 @@ class Look(NamedTuple):
     """A robot as its source gives it."""
 
     text: Source
-    texts: Mapping[str, str]
-    """The generated records, by path below the package's folder."""
     values: Mapping[Key, tuple[float, ...] | str | None]
-    """Numbers of all values in these records, or texts."""
-    lines: Mapping[str, int]
-    """Line of each element in the expanded source."""
+    """Numbers of all values in the records, or texts."""
+    places: Mapping[str, tuple[str, int]]
+    """File and line of each element, as the user wrote them."""
 
 
 class SourceReader:
     """Reads the source of one robot."""
 
-    def __init__(self, config: Config, robot: RobotConfig, options: BuildOptions) -> None:
-        """Raises UrdfsyncError for a source that can't be read."""
-        self._config, self._robot, self._options = config, robot, options
-        self._text = source.read_source(config, robot, Store(config.root), options)
+    def __init__(self, config: Config, robot: RobotConfig, options: BuildOptions, text: Source) -> None:
+        self._config, self._robot, self._text = config, robot, text
         paths = (config.root, robot.source, (*robot.package_paths, *options.package_paths))
         self._inputs = expansion.SourceFiles(*paths)
         content = read_unrecorded(robot.source) if self._text.expansion and not robot.command else b""
         self._translator = find_translator(robot.domain, robot.source, content) or XACRO
         names = self._text.expansion.files if self._text.expansion else ()
         found = [path for name in names if (path := self._inputs.path(name)) and path.is_file()]
-        others = [robot.source, *(path for _, path in self._companions(robot)), config.file, *robot.command_inputs]
+        others = [robot.source, *(path for _, path in self._companions(robot)), *robot.command_inputs]
         self.files = [path for path in dict.fromkeys([*found, *others]) if path.is_file()]
+        self._unchanged: Sequence[float] = ()
+        self._unchanged = self.numbers({})
 
     def contents(self) -> dict[Path, bytes]:
         """Return the contents of all files that the source is made of, and of the configuration. Raises OSError."""
-        return {path: read_unrecorded(path) for path in self.files}
+        return {path: read_unrecorded(path) for path in (*self.files, self._config.file)}
+
+    @property
+    def can_grow(self) -> bool:
+        """Whether the source may have any further attribute: a translator may refuse one."""
+        return not self._text.expansion or self._translator is XACRO
 
     @property
     def name(self) -> str:
         """The robot's name."""
         return self._robot.name
 
-    def is_fed(self, contents: Contents) -> bool:
-        """Whether these contents change what the robot is read from. Raises UrdfsyncError."""
-        if not contents.keys() & {*self.files}:
-            return False
-        return bool(contents.keys() & {*self._robot.command_inputs}) or self.read(contents) != self._unchanged
-
-    @functools.cached_property
-    def _unchanged(self) -> tuple[RobotConfig, Source]:
-        return self.read({})
+    def numbers(self, contents: Contents) -> Sequence[float]:
+        """Return all numbers of the source with these contents, of its companions, and of the inputs of a command."""
+        if self._unchanged and not contents.keys() & {*self.files, self._config.file}:
+            return self._unchanged
+        robot, text = self.read(contents) if contents else (self._robot, self._text)
+        given = [contents.get(path) or read_unrecorded(path) for path in robot.command_inputs]
+        texts = [text.content, *(each.content for each in text.companions), msgspec.json.encode(robot.options), *given]
+        return [each.value for content in texts for each in find_literals(Path(), content)]
 
     def _companions(self, robot: RobotConfig) -> list[tuple[str, Path]]:
         """Return the companions of the source: option and path of each, in the order of `Source.companions`."""
@@ -109,16 +110,22 @@ class SourceReader:
 
 def look(reader: SourceReader, inputs: Inputs, generation: Generation, contents: Contents) -> Look:
     """Read a robot's source with these contents, and generate its records. Raises UrdfsyncError."""
-    robot, text = reader.read(contents)
-    snapshot, reading = source.read(inputs.domain, robot.options, text)
-    source.check_options(inputs.config, robot, reading)
-    version = Version(snapshot, generation.imported.imports)
-    package = generate(inputs.domain, version, robot.target, robot.options, inputs.templates)
-    records = [path for path, artifact in package.artifacts.items() if artifact.role is Role.RECORD]
-    texts = {path: package.content(path).decode() for path in records}
+    text, reading, package = inputs.source, generation.reading, generation.package
+    if contents:
+        robot, text = reader.read(contents)
+        snapshot, reading = source.read(inputs.domain, robot.options, text)
+        source.check_options(inputs.config, robot, reading)
+        version = Version(snapshot, generation.imported.imports)
+        package = generate(inputs.domain, version, robot.target, robot.options, inputs.templates)
     values = {
         (path, value.path): value.text if (number := literals(value.text)) is None else number
-        for path, text_of_record in texts.items()
-        for value in read_values(text_of_record)
+        for path, artifact in package.artifacts.items()
+        if artifact.role is Role.RECORD
+        for value in read_values(package.content(path).decode())
     }
-    return Look(text, texts, values, reading.lines)
+    places = {path: reading.place(path, text.name) for path in reading.lines}
+    return Look(
+        text,
+        values,
+        {path: text.place(line) if file == text.name else (file, line) for path, (file, line) in places.items()},
+    )

@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeVar
 import msgspec
 
 from urdfsync import spelling
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.diagnostics import Detail, Diagnostic, Severity
 from urdfsync.engine.sources import file_kinds
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
@@ -164,8 +164,8 @@ _WARNINGS = {
     # valid, but probably a mistake
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "write masses in kg",
-    "mass-jump": "check the unit and the material in the exporter",
-    "unit-jump": "check the unit in the exporter",
+    "mass-jump": "if the new one is wrong, check the unit and the material in the exporter",
+    "unit-jump": "if the new one is wrong, check the unit in the exporter",
     "inertial-lost": "check the material and the mass in the exporter",
     "mesh-size": "export it in m",
     "density": "correct the mass or the shapes",
@@ -234,7 +234,7 @@ def diagnostic(
     line: int,
     hint: str = "",
     column: int = 0,
-    details: tuple[str, ...] = (),
+    details: tuple[Detail, ...] = (),
     element: str = "",
 ) -> Diagnostic:
     """Return a diagnostic with the severity and the advice of its code; the caller adds the file."""

@@ -274,7 +274,7 @@ def _with_version(
         current = _VersionedSource(text, (source,))
         new, imported, reading, told = _read(domain, robot, current, imports.Imported(), options)
         old, imported_before, _, told_before = _read(domain, robot, other, imported, options)
-    known = {(finding.code, finding.message) for finding in told_before}
+    known = {(finding.code, finding.statement) for finding in told_before}
     has_other_format = is_pair or text.format != other.text.format
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed, has_other_format=has_other_format)
     if is_pair:
@@ -287,7 +287,9 @@ def _with_version(
         matching = Matching(renames)  # no file has the name of a doubtful element
     differences = changes.compare(old, new, domain, robot.options, matching)
     if is_pair:
-        told = tuple(robot.without_ignored(finding for finding in told if (finding.code, finding.message) not in known))
+        told = tuple(
+            robot.without_ignored(finding for finding in told if (finding.code, finding.statement) not in known)
+        )
         result = msgspec.structs.replace(result, diagnostics=told, changes=differences if differences.changes else None)
         asked = domain.effects
         effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
@@ -295,7 +297,7 @@ def _with_version(
     judged = judge(domain, new, reading, current.text.name, old, differences)
     judged += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
     new_findings = [current.text.locate(finding) for finding in judged if finding.is_new]
-    new_findings += [finding for finding in told if (finding.code, finding.message) not in known]
+    new_findings += [finding for finding in told if (finding.code, finding.statement) not in known]
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
     versions = (old, imported_before.contents), (new, imported.contents)
     encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]

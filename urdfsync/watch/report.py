@@ -343,7 +343,7 @@ class Report:
 
 def _key(finding: Diagnostic) -> Hashable:
     """Return the identity of a finding, without the line number, which edits above the place change."""
-    return finding.code, finding.message, finding.file
+    return finding.code, finding.statement, finding.file
 
 
 def _changes(result: Result) -> list[str]:

@@ -158,10 +158,11 @@ def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute)
     assert note["message"] == "not modelled: 4 <spring>"
     file = str(Path("urdf/parts/beam.xacro"))
     assert note["details"] == [
-        f"line {file}:14: <spring> coil",
-        f"line {file}:15: <spring> joint to_upper",
-        f"line {file}:15: <spring> joint to_lower",
+        {"line": 14, "text": "<spring> coil", "file": file},
+        {"line": 15, "text": "<spring> joint to_upper", "file": file},
+        {"line": 15, "text": "<spring> joint to_lower", "file": file},
     ]
+    assert f"  {file}:15: <spring> joint to_lower" in execute("build", "--verbose").err
 
 
 @pytest.mark.slow
@@ -385,6 +386,16 @@ def test_lines_in_another_file_are_told_with_it(project: Path, execute: Execute)
     words = execute("build").words
     assert "urdf/arm.urdf.xacro:5: warning: <gazebo> refers to 'pinion'" in words
     assert f"(and 3 more like it: lines {places})" in words
+
+
+def test_lines_of_other_files_in_a_message_stay(project: Path, execute: Execute) -> None:
+    """The reader of a mesh names lines of the mesh."""
+    mesh = '<visual><geometry><mesh filename="bad.dae"/></geometry></visual>'
+    beam = xacros.BEAM.replace("<visual>", f"{mesh}\n      <visual>")
+    xacros.write(project, {"parts/beam.xacro": beam, "bad.dae": "<a>\n" * 7})
+    (told,) = [line for line in execute("build").err.splitlines() if "can't be read" in line]
+    assert told.startswith("urdf/parts/beam.xacro:")
+    assert "Premature end of data in tag a line 7," in told
 
 
 def test_what_xacro_says_and_arguments_that_it_does_not_have(project: Path, execute: Execute) -> None:

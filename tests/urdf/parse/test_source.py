@@ -375,7 +375,7 @@ def test_many_warnings_of_a_kind_are_told_once() -> None:
     visuals = '\n<visual><geometry><sphere radius="1"/></geometry><material name="m"/></visual>' * 12
     (diagnostic,) = read(in_link(visuals)).diagnostics
     assert (diagnostic.code, diagnostic.line) == ("unknown-material", 4)
-    assert diagnostic.message.endswith("(and 11 more like it: lines 5, 6, 7, 8, 9, 10, 11, 12, …)")
+    assert diagnostic.statement.endswith("(and 11 more like it: lines 5, 6, 7, 8, 9, 10, 11, 12, …)")
 
 
 LEADER = '<link name="c"/><joint name="k" type="continuous"><parent link="b"/><child link="c"/></joint></robot>'

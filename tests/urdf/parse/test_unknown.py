@@ -152,7 +152,7 @@ def test_ten_thousand_unknown_attributes_are_one_line_for_each_name() -> None:
     first, second = read(robot(*TREE, joint("j", "fixed", "base", "arm"), joints)).diagnostics
     assert "'a'" in first.message
     assert "'b'" in second.message
-    assert "and 4999 more like it" in first.message
+    assert "and 4999 more like it" in first.statement
 
 
 TEXTS = {

@@ -47,6 +47,14 @@ def test_the_ratio_of_two_units_is_told(old: list[str], new: list[str], words: s
     assert [message.endswith(ending) for message in found] == [True] * bool(words)
 
 
+def test_a_jump_back_does_not_blame_the_exporter() -> None:
+    """Nobody knows which of two numbers is right: the advice is for the case that the new one is wrong."""
+    for old, new in ((1.0, 2000.0), (2000.0, 1.0)):
+        (mass,) = find_jumps(version(link("base", old)), version(link("base", new)), {})
+        (place,) = find_jumps(version(*two(xyz=f"0 0 {old / 1000}")), version(*two(xyz=f"0 0 {old}")), {})
+        assert all(found.hint.startswith("if the new one is wrong, check") for found in (mass, place))
+
+
 def test_a_lost_inertial_is_told() -> None:
     bare = [two()[0], f'<link name="arm">{BOX}</link>', two()[2]]
     (found,) = find_jumps(version(*two(shape=BOX)), version(*bare), {})

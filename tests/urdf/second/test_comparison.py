@@ -318,6 +318,16 @@ def test_a_wrong_number_in_a_record_is_found(fault: str, sound: Package) -> None
     assert (file, quantity) in {(each.file, each.quantity) for each in numbers.differences}
 
 
+@pytest.mark.parametrize(("written", "given"), [
+    ("0.5 /* weighed 3 March */", []), ("0.6 /* weighed 3 March */", ["0.6"]),
+    ("2 /* weighed 3 March */ * x", ["2 /* weighed 3 March */ * x"]),
+])  # fmt: skip
+def test_a_comment_is_no_part_of_a_number(written: str, given: list[str], sound: Package) -> None:
+    file = "Joints/SlideParameters.mo"
+    texts = {**sound.texts, file: sound.texts[file].replace("upper = 0.5", f"upper = {written}")}
+    assert [each.given for each in of_package(sound, URDF.encode(), texts).differences] == given
+
+
 NUMBER = re.compile(r"(?<=[ ={,])-?\d+(?:\.\d+)?(?:e-?\d+)?(?=[,)};\n])")
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import re
 import stat
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,7 +26,7 @@ from urdfsync.dependencies.reads import (
     list_folder,
     read_file,
 )
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
+from urdfsync.diagnostics import ConfigError, Detail, Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Companion, CompanionKind, Domain, Reading, Snapshot, Translator
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources.translators import XACRO, find_translator
@@ -42,8 +41,6 @@ if TYPE_CHECKING:
 MAX_TEMPLATE = 10_000_000
 """The greatest number of bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
 
-_LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
-"""The references to lines in a message."""
 NEVER: tuple[str, ...] = ("no expansion is recorded",)
 """The only entry of `Source.stale` if no expansion is recorded."""
 
@@ -79,9 +76,11 @@ class Source(msgspec.Struct, frozen=True):
         if not self.places or found.file != self.name or not found.line:
             return found
         file, line = self.place(found.line)
-        message = self._with_places(found.message, file)
-        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # calls of one macro repeat details
-        return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
+        places = [self.place(detail.line) for detail in found.details]
+        details = tuple(Detail(n, one.text, name) for one, (name, n) in zip(found.details, places, strict=True))
+        if any(detail.text for detail in details):
+            details = tuple(dict.fromkeys(details))  # calls of one macro repeat details
+        return msgspec.structs.replace(found, file=file, line=line, column=0, details=details)
 
     def place(self, line: int) -> tuple[str, int]:
         """Return the original place of the element at a line of the text; above the root element, the root's place."""
@@ -89,20 +88,6 @@ class Source(msgspec.Struct, frozen=True):
             return self.name, line
         number = bisect_right(self.places, line, key=lambda place: place[0])
         return self.places[max(number - 1, 0)][1:]
-
-    def _with_places(self, text: str, told: str = "") -> str:
-        """Return a message with original files and lines instead of expanded lines; leave out the file `told`."""
-
-        def replace(match: re.Match[str]) -> str:
-            lines = [int(line) for line in match[2].split(", ")]
-            if all(self.place(line) == (self.name, line) for line in lines):
-                return match[0]
-            places = dict.fromkeys(map(self.place, lines))
-            alone = all(file == told for file, _ in places)
-            listed = ", ".join(str(line) if alone else f"{file}:{line}" for file, line in places)
-            return f"line{'s' * (len(places) > 1)} {listed}"
-
-        return _LINES.sub(replace, text)
 
     @contextlib.contextmanager
     def locating(self) -> Iterator[None]:

@@ -22,7 +22,7 @@ from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity, cut
+from urdfsync.diagnostics import Detail, Diagnostic, Severity, cut
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.robot import (
     SHAPES,
@@ -61,7 +61,6 @@ _MASS_WORDS = re.compile("mass|inerti", re.IGNORECASE)
 _BY_KIND = frozenset({"unknown-attribute", "unknown-element"})
 """Codes of warnings about unknown names: a file gets one warning for each name."""
 _SHOWN_ALONE = 3
-_LINES_SHOWN = 8
 _TEXT_SHOWN = 60
 
 
@@ -430,8 +429,5 @@ def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, .
         if severity is Severity.ERROR or len(group) <= (1 if kind else _SHOWN_ALONE):
             shown += group
             continue
-        lines = list(dict.fromkeys(str(entry.line) for entry in group[1:]))
-        listed = ", ".join(lines[:_LINES_SHOWN]) + (", …" if len(lines) > _LINES_SHOWN else "")
-        more = f"(and {len(group) - 1} more like it: line{'s' * (len(lines) > 1)} {listed})"
-        shown.append(msgspec.structs.replace(group[0], message=f"{group[0].message} {more}"))
+        shown.append(msgspec.structs.replace(group[0], details=tuple(Detail(entry.line) for entry in group[1:])))
     return tuple(sorted(shown, key=lambda entry: (entry.file != file, entry.line, entry.column)))

@@ -14,7 +14,7 @@ from xml.etree.ElementTree import Element
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, SourceError, cut
+from urdfsync.diagnostics import Detail, Diagnostic, SourceError, cut
 from urdfsync.domain import Companion
 from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
@@ -106,7 +106,7 @@ def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
     if len(kinds) > _KINDS:
         kinds[_KINDS:] = [f"{len(kinds) - _KINDS} other kinds"]
     if kinds:
-        details = tuple(f"line {line}: {word} {name}".rstrip() for line, word, name in lines)
+        details = tuple(Detail(line, cut(f"{word} {name}".rstrip(), 4 * _LONGEST)) for line, word, name in lines)
         yield validate.diagnostic("not-modelled", f"not modelled: {', '.join(kinds)}", lines[0][0], details=details)
 
 

@@ -41,7 +41,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     reading = read_robot(sample.content, file, options, *sample.companions)
     # the package lacks a part of the robot; a translated source lacks its part, too
     allowed = {*options.allow} - {"part-left-out"}
-    if left_out := [entry.message for entry in reading.diagnostics if entry.code in allowed]:
+    if left_out := [entry.statement for entry in reading.diagnostics if entry.code in allowed]:
         return left_out[0]
     robot = _robot(reading)
     has_package = "package" in options.approach

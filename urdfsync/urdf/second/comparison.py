@@ -349,9 +349,9 @@ class _Comparison:
 
 
 def _read(text: str) -> Any:
-    """Return the value of a literal, or an expression without blanks."""
+    """Return the value of a literal, or an expression in one line."""
     value = literals(text)
-    return re.sub(r"\s", "", text) if value is None else value
+    return " ".join(text.split()) if value is None else value
 
 
 def _bounds(corners: Value) -> tuple[float, ...]:

@@ -420,7 +420,7 @@ equation
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-116, -462}, {300, 34}})),
     Documentation(info="<html>
 <p>
-Links and joints of robot WheeledRobot, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+Links and joints of robot WheeledRobot, connected. Each can be exchanged in a model that extends this one. Each joint that can be driven has two flanges for its drive: its name with <code>Axis</code> and with <code>Support</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
 end WheeledRobot;
