@@ -184,8 +184,9 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def word(self) -> str:
-        """The word for people; an orphan has the word of its status, and `text` says why it stays."""
-        return "waiting" if self.is_waiting else str(Reason.ORPHAN if self.reason in ORPHANS else self.reason)
+        """The word for people; a conflict or an orphan has the word of its status, and `text` tells its reason."""
+        by_status = self.is_conflict or self.reason in ORPHANS
+        return "waiting" if self.is_waiting else str(self.status if by_status else self.reason)
 
     @property
     def replaces(self) -> str:

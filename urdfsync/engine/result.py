@@ -85,7 +85,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
             lost = "its merge base, the text that urdfsync wrote last, is not recorded"
             return texts.rejected or f"{'there is no base' if is_unowned else lost}, so it can't be merged"
         if self.merges:
-            told = f"{texts.renumbered}; " if texts.renumbered else ""
+            told = f"{texts.renamed}; " if texts.renamed else ""
             return f"{told}the changes fit together: --merge takes both"
         if texts.rejected:
             return f"--merge would not be right: {texts.rejected}"
