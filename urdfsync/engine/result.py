@@ -217,7 +217,7 @@ class Result(Outlook, frozen=True, kw_only=True):
         if self.is_unmerged:
             parts.insert(0, "unmerged in git")
         if self.is_broken:
-            parts.insert(0, "broken: a file that you edited does not fit the package")
+            parts.insert(0, "broken: an edited file does not fit the package")
         checked = [check_result(self.checked, self.diagnostics)] if self.checked else []
         return "; ".join([", ".join(parts), *checked])
 
@@ -237,13 +237,12 @@ class Result(Outlook, frozen=True, kw_only=True):
                 them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
                 phrase = reason.to_do if self.dry else reason.done
                 phrases.append(phrase.format(n=number, them=them, have=have, s=s))
+                if reason is Reason.CONFLICT and (waiting := sum(one.is_waiting for one in self.actions.decided)):
+                    phrases[-1] += f" ({counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} for {them})"
         if given_back := sum(one.choice is Choice.UNDO and one.is_conflict for one in self.actions.decided):
             phrases.insert(0, f"{counted(given_back, 'file')} set back to your former text")
         if self.renews and self.in_step and not (self.writes or self.dry or self.settled):
             phrases.append("recorded state renewed: commit .urdfsync")
-        if waiting := sum(action.is_waiting for action in self.actions.decided):
-            what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"
-            phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")
         return phrases
 
 
