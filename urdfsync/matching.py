@@ -121,7 +121,7 @@ class _Matcher:
         by_name |= self._take(named)
         self._take(self._remaining())
         self._unconfirmed = {key for key in by_name if not self._has_kept(key, votes)}
-        self._confirm({**dict(self._roots(are_equal=False)), **self._pairs})
+        self._confirm(self._pairs)
         self._removed = {
             (key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs and aspects
         }
@@ -225,22 +225,22 @@ class _Matcher:
         confirmed, waiting = dict[ElementKey, ElementKey](), [*matches.items()] if self._unconfirmed else []
         while waiting:
             old, new = waiting.pop()
-            if old in self._unconfirmed and old not in confirmed:
+            if old in self._unconfirmed:
                 continue
             before, after = self._old[old].neighbours, self._new[new].neighbours
-            around = [one for relation, one in before.items() if self._pairs.get(one) == after.get(relation)]
+            around = {one for relation, one in before.items() if self._pairs.get(one) == after.get(relation)}
             for relation, children in self._children[0].get(old, {}).items():
-                others = self._children[1].get(new, {}).get(relation, ())
-                around += [one for one in children if self._pairs.get(one) in others]
-            for one in self._unconfirmed.intersection(around):
-                self._unconfirmed.remove(one)
-                confirmed[one] = self._pairs[one]
-                waiting.append((one, confirmed[one]))
+                others = {*self._children[1].get(new, {}).get(relation, ())}
+                around |= {one for one in children if self._pairs.get(one) in others}
+            found = {one: self._pairs[one] for one in around & self._unconfirmed}
+            self._unconfirmed -= found.keys()
+            confirmed |= found
+            waiting += found.items()
         return confirmed
 
     def _spread(self, matches: Mapping[ElementKey, ElementKey], *, is_late: bool) -> None:
         """Match the neighbours of matched elements, and their neighbours, and so on."""
-        frontier, roots = dict(matches), self._roots(are_equal=True)
+        frontier, roots = dict(matches), self._roots()
         while frontier or roots:
             found = defaultdict[ElementKey, dict[ElementKey, None]](dict)
             for old, new in itertools.chain(roots, self._around(frontier)):
@@ -259,14 +259,14 @@ class _Matcher:
                 frontier = self._take(self._between())
             frontier |= self._confirm(frontier)
 
-    def _roots(self, *, are_equal: bool) -> list[tuple[ElementKey, ElementKey]]:
-        """Return the two roots, if each version has a single root; with `are_equal`, if their contents are equal."""
+    def _roots(self) -> list[tuple[ElementKey, ElementKey]]:
+        """Return the two roots, if each version has a single root and their contents are equal."""
         tops = [
             [key for key, features in elements.items() if not features.neighbours]
             for elements in (self._old, self._new)
         ]
         is_one = len(tops[0]) == len(tops[1]) == 1 and tops[0][0] in self._children[0]
-        is_one = is_one and (not are_equal or self._is_equal(tops[0][0], tops[1][0]))
+        is_one = is_one and self._is_equal(tops[0][0], tops[1][0])
         return [(tops[0][0], tops[1][0])] if is_one else []
 
     def _around(self, matches: Mapping[ElementKey, ElementKey]) -> Iterator[tuple[ElementKey, ElementKey]]:

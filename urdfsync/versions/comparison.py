@@ -305,49 +305,42 @@ def _with_version(
         renames = {key: to[1] for key, to in pairs if key in existing[0] and to in existing[1]}
         matching = Matching(renames)  # no file has the name of a doubtful element
     differences = changes.compare(old, new, domain, robot.options, matching)
-    compared = Comparison(result, shown(robot.source), against, changes=differences if differences.changes else None)
+    name = shown(robot.source)
     if is_pair:
         told = tuple(robot.without_ignored(finding for finding in told if (finding.code, finding.message) not in known))
         result = msgspec.structs.replace(result, diagnostics=told)
         asked = domain.effects
         effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
-        return msgspec.structs.replace(compared, result=result, effects=effects, is_pair=True)
-    judged = judge(domain, new, reading, current.text.name, old, differences)
-    judged += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
-    new_findings = [current.text.locate(finding) for finding in judged if finding.is_new]
-    new_findings += [finding for finding in told if (finding.code, finding.message) not in known]
-    new_findings += [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
-    versions = (old, imported_before.contents), (new, imported.contents)
+        news = differences if differences.changes else None
+        return Comparison(result, name, against, changes=news, effects=effects, is_pair=True)
+    findings = [*judge(domain, new, reading, current.text.name, old, differences)]
+    findings += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
+    findings = [current.text.locate(finding) for finding in findings if finding.is_new]
+    findings += [finding for finding in told if (finding.code, finding.message) not in known]
+    findings += [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
     encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]
     is_reordered = old.snapshot == new.snapshot and encoded[0] != encoded[1]
-    if not differences.changes and not is_reordered:
-        result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
-        return msgspec.structs.replace(compared, result=result, versions=versions)
-    templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
-    packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
-    if domain.describe is None:
-        differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
-    unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
-    owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
-    differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
-    new_findings += tell_unused(unused, differences.unshown, shown(robot.source), Reading(None, ()))
-    changed = packages[1].changed_since(packages[0])
-    older, newer = (_contents(*pair, changed) for pair in zip(packages, (old, new), strict=True))
-    files = dict[str, ChangeKind]()
-    for path in sorted(older.keys() | newer.keys()):
-        if path not in older or path not in newer or older[path] != newer[path]:
-            kind = (
-                ChangeKind.ADDED if path not in older else ChangeKind.CHANGED if path in newer else ChangeKind.REMOVED
-            )
-            files[Path(os.path.relpath(result.folder / path, result.root)).as_posix()] = kind
-    return msgspec.structs.replace(
-        compared,
-        result=msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings)),
-        changes=differences if differences.changes else None,
-        files=files,
-        effects=_effects(domain, old, new, differences, robot),
-        versions=versions,
-    )
+    files, effects = dict[str, ChangeKind](), tuple[Effect, ...]()
+    if differences.changes or is_reordered:
+        templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
+        packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
+        if domain.describe is None:
+            differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
+        unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
+        owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
+        differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
+        findings += tell_unused(unused, differences.unshown, name, Reading(None, ()))
+        changed = packages[1].changed_since(packages[0])
+        older, newer = (_contents(*pair, changed) for pair in zip(packages, (old, new), strict=True))
+        kinds = dict.fromkeys(older, ChangeKind.REMOVED) | dict.fromkeys(newer, ChangeKind.ADDED)
+        kinds |= dict.fromkeys(older.keys() & newer.keys(), ChangeKind.CHANGED)
+        for path in sorted(path for path, _ in older.items() ^ newer.items()):
+            files[Path(os.path.relpath(result.folder / path, result.root)).as_posix()] = kinds[path]
+        effects = _effects(domain, old, new, differences, robot)
+    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(findings))
+    news = differences if differences.changes else None
+    versions = (old, imported_before.contents), (new, imported.contents)
+    return Comparison(result, name, against, "", news, files, effects, versions=versions)
 
 
 def _configured_in(revision: Revision, robot: RobotConfig, config: Config | None) -> RobotConfig:
