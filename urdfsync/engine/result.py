@@ -227,17 +227,16 @@ class Result(Outlook, frozen=True, kw_only=True):
 
     def counts(self, silent: Container[Reason] = ()) -> list[str]:
         """Return a phrase with the number of files for each reason outside of `silent`, and one for waiting files."""
-        reasons = Counter(action.reason for action in self.actions.decided if not action.is_waiting)
+        decided = [action for action in self.actions.decided if not action.is_waiting]
+        reasons = Counter(Reason.CONFLICT if action.is_conflict else action.reason for action in decided)
         reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
-        for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED, Reason.RENAMED):
-            reasons[Reason.CONFLICT] += reasons.pop(conflict, 0)
         phrases = []
         for reason in Reason:  # in the order of their definition
             if (number := reasons[reason]) and reason not in silent and reason.done:
                 them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
                 phrase = reason.to_do if self.dry else reason.done
                 phrases.append(phrase.format(n=number, them=them, have=have, s=s))
-                if reason is Reason.CONFLICT and (waiting := sum(one.is_waiting for one in self.actions.decided)):
+                if reason is Reason.CONFLICT and (waiting := len(self.actions.decided) - len(decided)):
                     phrases[-1] += f" ({counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} for {them})"
         if given_back := sum(one.choice is Choice.UNDO and one.is_conflict for one in self.actions.decided):
             phrases.insert(0, f"{counted(given_back, 'file')} set back to your former text")
