@@ -115,7 +115,7 @@ def tell_all(document: Any, *sections: str, absent: Collection[str] = ()) -> boo
 
 
 DOCUMENT = {"version", "command", "exit", "results", "diagnostics", "shard"}
-OF_DOUBTS = {"former", "aspects", "moved_to"}
+OF_DOUBTS = {"former", "aspects", "moved_to", "is_named_alike"}
 FINDING = {"severity", "code", "message", "file", "line", "column", "hint", "details", "element", "is_new"}
 
 

@@ -185,6 +185,25 @@ def test_other_numbers_in_the_same_place_are_no_doubt(names: str) -> None:
     assert found == Matching()
 
 
+@pytest.mark.parametrize("name", "ed")
+@pytest.mark.parametrize(("parent", "mass", "x", "is_doubt"), [
+    ("a", 7, 0.6, True), ("a", 4, 0.6, False), ("a", 7, 0.4, False), ("c", 7, 0.6, False),
+])  # fmt: skip
+def test_a_name_alone_is_a_doubt(parent: str, mass: float, x: float, name: str, *, is_doubt: bool) -> None:
+    """The last part `d` is replaced: `to_d` has another parent, and another link with this name, or with another."""
+    old = chain("abcd", [9, 2, 3, 4], [0.2, 0.3, 0.4])
+    ends = {"child": ("link", name), "parent": ("link", parent)}
+    newcomer = {
+        ("link", name): Features({"mass": {"mass": mass, "inertia": [mass / 10, 0.0]}}, {"joint": ("joint", "to_d")}),
+        ("joint", "to_d"): Features({"position": {"xyz": [x, 0.0, 0.0]}}, ends),
+    }
+    found = match(old, {**chain("abc", [9, 2, 3], [0.2, 0.3]), **newcomer})
+    assert {key for key, doubt in found.doubts.items() if doubt.is_named_alike} == (
+        {("joint", "to_d"), ("link", name)} & old.keys() if is_doubt else set()
+    )
+    assert (links(found) == {"d": "e"}) is (name == "e" and not is_doubt)
+
+
 def test_what_is_declared_holds() -> None:
     old, new = chain("abc", [9, ALIKE, ALIKE]), chain("abc", [9, ALIKE, ALIKE])
     declared = {("link", "b"): ("link", "c"), ("link", "c"): ("link", "b")}

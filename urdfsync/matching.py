@@ -7,7 +7,8 @@ content is unique in both versions, its two elements match, whatever their names
 different elements, they prove nothing. But if one of these aspects stays with a name, the elements of this name match.
 If an element keeps its name and its neighbours, its numbers changed, whatever content it has now. 2.
 Neighbours of matched elements match if they are at the same place and have equal contents.
-3. Then names win: elements of the same name match.
+3. Then names win: elements of the same name match. If nothing but names agrees, neither contents nor the place beside
+a matched element, this is a doubt, and its place tells nothing in step 4.
 4. The remaining elements have other names. Two of these at the same place match if no other element has their content.
 They also match if another element has the old name now.
 
@@ -50,6 +51,8 @@ class Doubt(msgspec.Struct, frozen=True):
     """Whether the old element with this name is gone."""
     part: str = ""
     """The numbered part of the element, such as `visual2`, that the doubt is about; empty for the element itself."""
+    is_named_alike: bool = False
+    """Whether nothing but the name is that of the old element."""
 
 
 class Matching(msgspec.Struct, frozen=True):
@@ -103,6 +106,8 @@ class _Matcher:
         """New elements at the places of old elements, next to matched elements."""
         self._removed, self._added = set[Hashable](), set[Hashable]()
         """Contents of old and of new elements that have no match."""
+        self._unconfirmed = set[ElementKey]()
+        """Elements that match by their names alone."""
         self._take(declared.items())
 
     def run(self) -> Matching:
@@ -115,11 +120,13 @@ class _Matcher:
         self._spread(by_name, is_late=False)
         by_name |= self._take(named)
         self._take(self._remaining())
+        self._unconfirmed = {key for key in by_name if not self._has_kept(key, votes)}
+        self._confirm(self._pairs)
         self._removed = {
             (key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs and aspects
         }
         self._added = {(key[0], aspects) for key, aspects in self._after.items() if key not in self._taken and aspects}
-        self._spread(self._pairs, is_late=True)
+        self._spread({key: self._pairs[key] for key in self._pairs.keys() - self._unconfirmed}, is_late=True)
         renames = {old: self._pairs[old][1] for old in self._in_order() if self._pairs.get(old, old) != old}
         doubts = self._doubts(by_name, votes)
         return Matching(renames, {key: doubts[key] for key in sorted(doubts)})
@@ -204,6 +211,33 @@ class _Matcher:
                     return True
         return False
 
+    def _has_kept(self, key: ElementKey, votes: Mapping[ElementKey, Collection[ElementKey]]) -> bool:
+        """Whether contents speak for an element's name, all or a unique one, or its neighbours have no match yet."""
+        is_equal = bool(self._before[key]) and self._before[key] == self._after[key]
+        before, after = self._old[key].neighbours, self._new[key].neighbours
+        around = [(one, after[relation]) for relation, one in before.items() if relation in after]
+        known = [pair for pair in around if pair[0] in self._pairs or pair[1] in self._taken]
+        is_elsewhere = any(self._pairs.get(old) != new for old, new in known)
+        return is_equal or key in votes.get(key, ()) or (len(known) < max(len(around), 1) and not is_elsewhere)
+
+    def _confirm(self, matches: Mapping[ElementKey, ElementKey]) -> dict[ElementKey, ElementKey]:
+        """Confirm elements beside these matches, and beside those, and so on; return the newly confirmed matches."""
+        confirmed, waiting = dict[ElementKey, ElementKey](), [*matches.items()] if self._unconfirmed else []
+        while waiting:
+            old, new = waiting.pop()
+            if old in self._unconfirmed:
+                continue
+            before, after = self._old[old].neighbours, self._new[new].neighbours
+            around = {one for relation, one in before.items() if self._pairs.get(one) == after.get(relation)}
+            for relation, children in self._children[0].get(old, {}).items():
+                others = {*self._children[1].get(new, {}).get(relation, ())}
+                around |= {one for one in children if self._pairs.get(one) in others}
+            found = {one: self._pairs[one] for one in around & self._unconfirmed}
+            self._unconfirmed -= found.keys()
+            confirmed |= found
+            waiting += found.items()
+        return confirmed
+
     def _spread(self, matches: Mapping[ElementKey, ElementKey], *, is_late: bool) -> None:
         """Match the neighbours of matched elements, and their neighbours, and so on."""
         frontier, roots = dict(matches), self._roots()
@@ -223,6 +257,7 @@ class _Matcher:
             frontier = self._take((olds[0], new) for new, olds in claims.items() if len(olds) == 1 or new in olds)
             if not frontier and is_late:
                 frontier = self._take(self._between())
+            frontier |= self._confirm(frontier)
 
     def _roots(self) -> list[tuple[ElementKey, ElementKey]]:
         """Return the two roots, if each version has a single root and their contents are equal."""
@@ -355,6 +390,8 @@ class _Matcher:
                 former = next(filter(None, formers), "")
                 shared = self._shared((key[0], former), key) if former else ()
                 doubts[key] = Doubt(" ".join(key), former, shared, likely[1])
+        for key in self._unconfirmed - doubts.keys():
+            doubts[key] = Doubt(" ".join(key), is_named_alike=True)
         for key in by_name:
             around = self._new[key].neighbours.values()
             if key not in doubts and around and all(one in doubts for one in around):

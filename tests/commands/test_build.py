@@ -88,14 +88,14 @@ def test_conflict(edited: Path, execute: Execute) -> None:
     model = Path("modelica/Ladder/Ladder.mo")
     for arguments in (["build", "--dry-run"], ["build", "--check"], ["build"], ["build", "--verbose"]):
         lines = execute(*arguments, code=3).lines
-        assert lines[0] == "ladder: 1 conflict, 5 files wait until the conflict is resolved"
+        assert lines[0] == "ladder: 1 conflict (5 files wait for it)"
         assert f"  conflict   {model}  network" in lines
         shown = '    +  Elements.R3 elementR3 "Element R3";'
         assert (shown if "--verbose" in arguments else "    the export  component `elementR3`: added") in lines
         assert f"    urdfsync resolve {model} --merge" in lines
     assert execute("build", "--quiet", code=3).lines == [
-        "ladder: 1 conflict, 5 files wait until the conflict is resolved",
-        f"  conflict   {model}  the changes fit together: --merge takes both",
+        "ladder: 1 conflict (5 files wait for it)",
+        f"  conflict   {model}  element R2 renamed to R3; the changes fit together: --merge takes both",
         "",
         "  urdfsync resolve ladder --merge  merges it",
     ]

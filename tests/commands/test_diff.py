@@ -156,8 +156,8 @@ def test_two_files_without_a_configuration(arm: Path, execute: Execute) -> None:
                 "  robot mass 2 → 3 kg (+50 %)",
                 "",
                 "2 files of the package differ",
-                f"  update     {Path('Joints/ElbowParameters.mo')}",
-                f"  update     {Path('Links/TipParameters.mo')}",
+                f"  changed    {Path('Joints/ElbowParameters.mo')}",
+                f"  changed    {Path('Links/TipParameters.mo')}",
             ],
         )
         assert said(execute, "arm.urdf", "--against", str(arm / "arm.urdf"))[0] == 0
@@ -174,7 +174,7 @@ def test_a_file_from_another_folder_finds_its_meshes_beside_the_source(arm: Path
     code, lines = said(execute, "arm.urdf", "--against", "old/arm.urdf")
     assert code == 1
     assert lines[1].startswith("  mesh tip.stl: content ")
-    assert any(line.startswith("  update     Resources") for line in lines)
+    assert any(line.startswith("  changed    Resources") for line in lines)
 
 
 # a revision

@@ -187,6 +187,6 @@ def test_a_command_that_cannot_be_read_is_no_bug(
 def test_what_an_edited_text_uses_stays(contradictory: Path, execute: Execute, editor: Editor) -> None:
     editor(SETTLE.replace("Real mine", "Elements.R2 mine"))
     printed = execute("resolve", MODEL, "--edit")
-    assert "2 no longer generated but kept because your files need them" in printed.words
+    assert "2 orphans kept because your files need them" in printed.words
     assert "Elements.R2 mine" in Path(MODEL).read_text()
     assert Path(LADDER, "Elements/R2.mo").exists()

@@ -34,7 +34,7 @@ def test_what_waits_says_for_what() -> None:
     update = act(Reason.UPDATE)
     assert update.text == "it differs from its generated text"
     waiting = msgspec.structs.replace(update, is_waiting=True)
-    assert waiting.text == "it differs from its generated text; waits until the conflicts are resolved"
+    assert waiting.text == "it differs from its generated text; waits for the conflicts"
 
 
 def test_actions_have_the_order_of_their_paths() -> None:

@@ -34,7 +34,7 @@ def result(*reasons: Reason, **fields: Any) -> Result:
     ("build", "summary"),
     [
         (result(Reason.UNCHANGED, Reason.INCLUDED), "in step, 2 files, 1 that you edited already has all changes"),
-        (result(Reason.NEEDED), "in step, 0 files, 1 no longer generated but kept because your files need it"),
+        (result(Reason.NEEDED), "in step, 0 files, 1 orphan kept because your files need it"),
         (result(Reason.UNCHANGED), "in step, 1 file"),
         (result(Reason.UPDATE, Reason.CREATE, writes=True), "2 files written"),
         (result(Reason.UPDATE, writes=True), "1 file written"),
@@ -44,15 +44,15 @@ def result(*reasons: Reason, **fields: Any) -> Result:
         (result(Reason.UNCHANGED, renews=True), "in step, 1 file, recorded state renewed: commit .urdfsync"),
         (result(Reason.UPDATE, Reason.KEEP, writes=True, dry=True), "1 file to write, 1 kept because you edited it"),
         (result(Reason.CONFLICT, Reason.UNOWNED), "2 conflicts"),
-        (result(Reason.CONFLICT, waiting=[Reason.UPDATE]), "1 conflict, 1 file waits until the conflict is resolved"),
+        (result(Reason.CONFLICT, waiting=[Reason.UPDATE]), "1 conflict (1 file waits for it)"),
         (
             result(Reason.CONFLICT, Reason.UNOWNED, waiting=[Reason.UPDATE, Reason.DELETE]),
-            "2 conflicts, 2 files wait until all conflicts are resolved",
+            "2 conflicts (2 files wait for them)",
         ),
         (result(Reason.UNCHANGED, stale=("a",)), "inputs changed since the last build"),
         (
             result(Reason.KEEP, is_broken=True),
-            "broken: a file that you edited does not fit the package, 1 kept because you edited it",
+            "broken: an edited file does not fit the package, 1 kept because you edited it",
         ),
         (result(Reason.UNCHANGED, checked=Checked.RIGHT), "in step, 1 file; checked: compiles"),
         (result(Reason.UNCHANGED, checked=Checked.INCOMPLETE), "in step, 1 file; checked in part"),

@@ -182,7 +182,7 @@ def dog_mjcf(*, without_calf: str = "") -> str:
 def renamed(execute: Execute) -> dict[str, str]:
     """Return the new names of all elements."""
     (found,) = execute("diff", "--format=json", "dog.urdf", "dog.xml", code=1).json["results"]
-    changes = found["result"]["changes"]["changes"]
+    changes = found["changes"]["changes"]
     return {each["path"][0].partition(" ")[2]: each["new"] for each in changes if each["kind"] == "renamed"}
 
 

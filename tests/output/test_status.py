@@ -66,7 +66,7 @@ def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
         ([Reason.UNCHANGED], "in step, 1 file"),
         (
             [Reason.UNCHANGED, Reason.KEEP, Reason.ORPHAN, Reason.FORGET],
-            "in step, 2 files, 1 kept because you edited it, 1 no longer generated but kept because you edited it",
+            "in step, 2 files, 1 kept because you edited it, 1 orphan kept because you edited it",
         ),
         (
             [Reason.UPDATE, Reason.RESTORE, Reason.KEEP, Reason.CREATE],
@@ -121,5 +121,5 @@ def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
     waiting = [action(Reason.UPDATE, waits=True, path=path) for path in ("a.mo", "b.mo")]
     found = result_of(action(Reason.CONFLICT), *waiting, action(Reason.CREATE), changes=changed(ChangeClass.STRUCTURAL))
     shown = said(found)
-    assert shown[0].endswith("out of step: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved")
-    assert sum("waits until the conflicts are resolved" in line for line in shown) == 2
+    assert shown[0].endswith("out of step: 1 file to write, 1 conflict (2 files wait for it)")
+    assert sum("waits for the conflicts" in line for line in shown) == 2

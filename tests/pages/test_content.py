@@ -64,6 +64,22 @@ def test_a_revision_is_the_older_version(arm: Path, report: Report, monkeypatch:
 
 
 @pytest.mark.slow
+@NEEDS_GIT
+def test_a_page_against_a_revision_has_the_conflicts(
+    arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cli.main(["build", "--quiet"])
+    Repository(arm.parent, monkeypatch).commit("first")
+    numbers = Path("modelica/Arm/Links/ForearmParameters.mo")
+    numbers.write_text(numbers.read_text().replace("4.2", "4.35"))
+    arm.write_text(arm.read_text().replace('<mass value="4.2"/>', '<mass value="5.1"/>'))
+    words = " ".join(read(report("", "--against", "HEAD")).words.split())
+    assert "you edited it, and its generated text changed too: link forearm" in words
+    assert "urdfsync resolve modelica/Arm/Links/ForearmParameters.mo --merge" in words
+    assert "update" not in words.partition("What changed")[2].partition("In numbers")[0]
+
+
+@pytest.mark.slow
 def test_the_diagram_and_the_details_show_what_is_on_disk(arm: Path, report: Report) -> None:
     cli.main(["build", "--quiet"])
     numbers, robot = Path("modelica/Arm/Links/ForearmParameters.mo"), Path("modelica/Arm/Arm.mo")

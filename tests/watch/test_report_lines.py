@@ -230,7 +230,7 @@ def test_conflicts_are_shown_as_in_build_and_only_once_and_so_is_their_end() -> 
     assert told(CONFLICT, built(action(Reason.CONFLICT), recovered=True)) == [*first, f"{TIME}arm  1 conflict"]
     assert told(CONFLICT, IN_STEP, IN_STEP) == [*first, f"{TIME}arm  in step again"]
     waiting = built(action(Reason.UPDATE), action(Reason.CONFLICT), action(Reason.UPDATE, "Base", waits=True))
-    assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict, 1 file waits until the conflict is resolved"
+    assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict (1 file waits for it)"
 
 
 def test_what_is_broken_is_one_line_until_it_is_not() -> None:

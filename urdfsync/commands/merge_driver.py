@@ -6,13 +6,15 @@ import argparse
 import os
 import shlex
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from urdfsync import git
 from urdfsync.commands import arguments
+from urdfsync.config import STATE_FOLDER
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.result import Exit
-from urdfsync.files import put, shown
+from urdfsync.files import put, shown, text_digest
 from urdfsync.output.console import Console, line
 from urdfsync.spelling import counted
 
@@ -138,8 +140,26 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     merged, conflicts = merge_file(base, mine, other, markers)
     if merged != mine:
         args.mine.write_bytes(merged.encode())  # a temporary file of git's
+    if not conflicts:
+        return []
     message, hint = f"{counted(len(conflicts), 'conflict')} between markers", "settle them in the file"
-    return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)] if conflicts else []
+    if _is_generated(contents):
+        hint = "resolve the source first, then run `urdfsync build`: it writes this file anew, or asks about edits"
+    return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)]
+
+
+def _is_generated(contents: Sequence[bytes]) -> bool:
+    """Return whether a build of this clone wrote one of the versions. Then the next build decides about the file."""
+    from urdfsync.state.store import Store  # as above
+
+    try:
+        states = git.list_paths("ls-files", "--", f"*{STATE_FOLDER}/robots/*.state")
+    except git.GitError:  # somebody tries the driver outside of a clone
+        return False
+    top = Path(git.find_top(os.curdir) or os.curdir).absolute()
+    stores = [Store(folder) for folder in {(top / state).parents[2] for state in states}]
+    hashes = [*map(text_digest, contents)]
+    return any(store.has_written(name, sha256) for store in stores for name in store.names() for sha256 in hashes)
 
 
 def _label(given: str, default: str) -> str:

@@ -102,9 +102,9 @@ class Reason(enum.StrEnum):
     KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; its generated text did not change",
             "{n} kept because you edited {them}")
     ORPHAN = ("orphan", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept",
-              "{n} no longer generated but kept because you edited {them}")
+              "{n} orphan{s} kept because you edited {them}")
     NEEDED = ("needed", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but your files need it; kept",
-              "{n} no longer generated but kept because your files need {them}")
+              "{n} orphan{s} kept because your files need {them}")
     CONFLICT = ("conflict", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too",
                 "{n} conflict{s}")
     MARKERS = "markers", Kind.CONFLICT, FileStatus.CONFLICT, "git could not merge the edits of two branches"
@@ -184,8 +184,9 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def word(self) -> str:
-        """The word for people; an orphan has the word of its status, and `text` says why it stays."""
-        return "waiting" if self.is_waiting else str(Reason.ORPHAN if self.reason in ORPHANS else self.reason)
+        """The word for people; a conflict or an orphan has the word of its status, and `text` tells its reason."""
+        by_status = self.is_conflict or self.reason in ORPHANS
+        return "waiting" if self.is_waiting else str(self.status if by_status else self.reason)
 
     @property
     def replaces(self) -> str:
@@ -229,7 +230,7 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def waits_for(self) -> str:
         """Why the action waits, as a clause; empty if it does not wait."""
-        return "waits until the conflicts are resolved" if self.is_waiting else ""
+        return "waits for the conflicts" if self.is_waiting else ""
 
     @property
     def is_on_disk(self) -> bool:

@@ -85,7 +85,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
             lost = "its merge base, the text that urdfsync wrote last, is not recorded"
             return texts.rejected or f"{'there is no base' if is_unowned else lost}, so it can't be merged"
         if self.merges:
-            told = f"{texts.renumbered}; " if texts.renumbered else ""
+            told = f"{texts.renamed}; " if texts.renamed else ""
             return f"{told}the changes fit together: --merge takes both"
         if texts.rejected:
             return f"--merge would not be right: {texts.rejected}"
@@ -217,7 +217,7 @@ class Result(Outlook, frozen=True, kw_only=True):
         if self.is_unmerged:
             parts.insert(0, "unmerged in git")
         if self.is_broken:
-            parts.insert(0, "broken: a file that you edited does not fit the package")
+            parts.insert(0, "broken: an edited file does not fit the package")
         checked = [check_result(self.checked, self.diagnostics)] if self.checked else []
         return "; ".join([", ".join(parts), *checked])
 
@@ -227,23 +227,21 @@ class Result(Outlook, frozen=True, kw_only=True):
 
     def counts(self, silent: Container[Reason] = ()) -> list[str]:
         """Return a phrase with the number of files for each reason outside of `silent`, and one for waiting files."""
-        reasons = Counter(action.reason for action in self.actions.decided if not action.is_waiting)
+        decided = [action for action in self.actions.decided if not action.is_waiting]
+        reasons = Counter(Reason.CONFLICT if action.is_conflict else action.reason for action in decided)
         reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
-        for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED, Reason.RENAMED):
-            reasons[Reason.CONFLICT] += reasons.pop(conflict, 0)
         phrases = []
         for reason in Reason:  # in the order of their definition
             if (number := reasons[reason]) and reason not in silent and reason.done:
                 them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
                 phrase = reason.to_do if self.dry else reason.done
                 phrases.append(phrase.format(n=number, them=them, have=have, s=s))
+                if reason is Reason.CONFLICT and (waiting := len(self.actions.decided) - len(decided)):
+                    phrases[-1] += f" ({counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} for {them})"
         if given_back := sum(one.choice is Choice.UNDO and one.is_conflict for one in self.actions.decided):
             phrases.insert(0, f"{counted(given_back, 'file')} set back to your former text")
         if self.renews and self.in_step and not (self.writes or self.dry or self.settled):
             phrases.append("recorded state renewed: commit .urdfsync")
-        if waiting := sum(action.is_waiting for action in self.actions.decided):
-            what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"
-            phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")
         return phrases
 
 

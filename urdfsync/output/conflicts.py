@@ -132,15 +132,21 @@ def _choices(target: DisputedFile) -> dict[str, str]:
 def _element_lines(texts: Conflict) -> list[StyledLine]:
     """Return the changes of each side by element, if the changes merge and both texts are classes."""
     from urdfsync.merge.edits import find_edits, in_words  # only conflicts need the merge
+    from urdfsync.merge.renames import rename
 
     if texts.base is None or texts.merge is None or texts.merge.text is None:
         return []
-    sides = {"you": find_edits(texts.base, texts.mine), "the export": find_edits(texts.base, texts.generated)}
+    renamed_base, _ = rename(texts.base, "", texts.names)
+    sides = {"you": find_edits(texts.base, texts.mine), "the export": find_edits(renamed_base, texts.generated)}
     lines: list[StyledLine] = []
     for side, edits in sides.items():
         if edits is None:
             return []
-        told = [f"{element}: {what}" for element, what in in_words(edits)] or ["blanks, or the order of things"]
+        renamed = texts.renamed if side == "the export" else ""
+        if renamed:  # new names bring new descriptions and other lines in the diagram
+            edits = [edit for edit in edits if not (edit.is_for_readers or edit.part == "layout")]
+        told = [f"{element}: {what}" for element, what in in_words(edits)]
+        told = told or [renamed or "blanks, or the order of things"]
         more = [f"… {counted(len(told) - _ELEMENTS, 'more change')}"] if len(told) > _ELEMENTS else []
         for number, words in enumerate([*told[:_ELEMENTS], *more]):
             lines.append(line((f"    {'' if number else side:<12}", "bold"), (words, "")))

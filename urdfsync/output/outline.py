@@ -219,7 +219,8 @@ def _details(value: Any) -> str:
         return _value(value)
     if not isinstance(value, Mapping):
         return ""
-    told = (f"{key} {_details(item)}" for key, item in value.items() if item != "" and not _is_vector(item))
+    items = sorted(value.items(), key=lambda pair: isinstance(pair[1], Mapping))  # a mass stands before an inertia
+    told = (f"{key} {_details(item)}" for key, item in items if item != "" and not _is_vector(item))
     return _cut(", ".join(text for text in told if not text.endswith(" ")), 2 * _WIDTH)
 
 

@@ -13,7 +13,7 @@ _STYLES = {Mark.WRONG: "bold red", Mark.OPEN: "yellow", Mark.NONE: "", Mark.FINE
 _FILES = {
     "green": "update create restore merge undo move stale missing",
     "magenta": "delete moved-away",
-    "bold red": "conflict markers unowned asked",
+    "bold red": "conflict",
     "cyan": "included keep edited",
     "yellow": "orphan needed waiting unknown",
 }

@@ -84,7 +84,7 @@ def gather(
     generation = generate_robot(inputs)
     inputs = with_git_merges(inputs, generation.package)
     compared, older = _with_older(compared, inputs, generation.now, shown_before)
-    changes, result = compared.result.changes or Changes(), compared.result
+    changes, result = compared.changes or Changes(), compared.result
     decision = decide_package(inputs, generation)
     edits = RobotEdits(robot.name, config.root, tuple(find_edited(inputs, generation, decision.actions)))
     drawn = picture(inputs, generation, older if changes.changes else None)
@@ -113,13 +113,12 @@ def _with_older(
     """Return the comparison for the page, and its older version; see `gather`."""
     older = compared.versions[0] if compared.versions else _last_build(inputs)
     other = next((each for each in shown_before if each[0] != now), None)
-    if other is None or (compared.result.changes and compared.result.changes.changes):
+    if other is None or (compared.changes and compared.changes.changes):
         return compared, older
     domain, robot = inputs.domain, inputs.robot
     same = find_matching(domain, other[0].snapshot, now.snapshot, robot.renamed)
     changes = compare(other[0], now, domain, robot.options, same)
-    result = msgspec.structs.replace(compared.result, changes=changes)
-    return msgspec.structs.replace(compared, result=result, against="the picture before"), other
+    return msgspec.structs.replace(compared, changes=changes, against="the picture before"), other
 
 
 def _numbers(domain: Domain, now: Version) -> Sequence[Effect]:

@@ -1,7 +1,7 @@
 """Compares sources with the last build, or with another version. Writes nothing, and takes no lock.
 
-A comparison with the last build is a dry run: it has the run's changes and actions. Another version is read like the
-source, with the files of that version.
+The result of a dry run says what the next build does. A comparison with the last build has its changes. Another
+version is read like the source, with the files of that version: then the changes are those of the two versions.
 """
 
 from __future__ import annotations
@@ -19,10 +19,9 @@ from urdfsync import changes, registry
 from urdfsync.changes import Changes
 from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.config.load import parse as parse_config
-from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
-from urdfsync.domain import ChangeClass, Domain, Lookup, Reading, Role, Target, Version
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, findings_of
+from urdfsync.domain import ChangeClass, ChangeKind, Domain, Lookup, Reading, Target, Version
 from urdfsync.domain.changes import Effect
-from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
@@ -56,16 +55,23 @@ VersionContents: TypeAlias = tuple[Version, Mapping[str, bytes]]
 class Comparison(msgspec.Struct, frozen=True):
     """The comparison of a source with an older version."""
 
-    KEYS = ("source", "against", "in_step", "summary", "effects", "result")
+    KEYS = ("source", "against", "in_step", "summary", "changes", "files", "effects", "result")
 
     result: Result
-    """Result of a dry run; with `against`, it has an action for each different file."""
+    """Result of a dry run; without actions if no configuration names the source, or if two sources are compared.
+
+    With `against`, its findings are the new ones since that version, and the errors of the run.
+    """
     source: str
     """The source's name for people."""
     against: str | None = None
     """The user's name of the other version; None for the last build."""
     missing: str = ""
     """Why there is no older version; empty if there is an older version."""
+    changes: Changes | None = None
+    """Changes of the model since the older version; None if there are none, or if they are unknown."""
+    files: Mapping[str, ChangeKind] = {}
+    """With `against`: the files that differ between the packages of both versions, as paths in `result.actions`."""
     effects: tuple[Effect, ...] = ()
     """Properties of the whole model that changed."""
     is_pair: bool = False
@@ -80,11 +86,14 @@ class Comparison(msgspec.Struct, frozen=True):
 
     @property
     def in_step(self) -> bool:
-        """Return whether both versions give the same package, and the package on disk is in step."""
-        changes = self.result.changes or Changes()
-        has_files = self.against is not None and bool(self.result.actions)  # rows of a table may change places only
+        """Return whether both versions give the same package, and nothing is in conflict.
+
+        After a comparison with the last build, the package on disk must be in step, too.
+        """
+        is_settled = self.result.in_step if self.against is None else not (self.result.failed or self.result.conflicts)
         silent = (ChangeClass.NONE, ChangeClass.UNMODELLED)
-        return self.result.in_step and changes.change_class in silent and not has_files
+        is_same = (self.changes or Changes()).change_class in silent
+        return is_settled and is_same and not self.files  # rows of a table may change places only
 
     @property
     def summary(self) -> str:
@@ -95,7 +104,7 @@ class Comparison(msgspec.Struct, frozen=True):
             return self.missing
         since = f"since {'the last build' if self.against is None else self.against}"
         since = f"against {self.against}" if self.is_pair else since
-        changes = self.result.changes
+        changes = self.changes
         if changes is None and self.is_pair:
             return f"no difference in motion {since}"
         if changes is None:
@@ -184,14 +193,15 @@ def compare_sources(
     """
     dry = msgspec.structs.replace(options, dry=True)
     # all in one dry run, which looks at the robots' records once
-    results = build(config, robots, dry) if config is not None and against is None else itertools.repeat(None)
+    results = build(config, robots, dry) if config is not None and not is_pair else itertools.repeat(None)
     for count, (robot, result) in enumerate(zip(robots, results, strict=False)):
         options.progress(robot.name, count, len(robots))
         try:
+            plan = _result(robot, config) if result is None else result
             if against is not None:
-                yield _with_version(robot, against, config, options, folder, is_pair=is_pair)
-            elif config is not None and result is not None:
-                yield _with_last_build(robot, config, options, result)
+                yield _with_version(robot, against, config, options, folder, plan, is_pair=is_pair)
+            elif config is not None:
+                yield _with_last_build(robot, config, options, plan)
         except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
             failed = msgspec.structs.replace(_result(robot, config), failed=True, diagnostics=findings_of(error))
             yield Comparison(failed, shown(robot.source), against)
@@ -207,7 +217,7 @@ def _result(robot: RobotConfig, config: Config | None) -> Result:
 def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions, result: Result) -> Comparison:
     """Compare a source with the last build; `result` is that of a dry run."""
     if result.failed or (result.changes is None and not (result.writes or result.renews or result.conflicts)):
-        return Comparison(result, shown(robot.source))
+        return Comparison(result, shown(robot.source), changes=result.changes)
     inputs = inspect(config, robot, options)
     last, differences = inputs.last.version, result.changes
     missing = "" if last else "the record of the last build is lost" if inputs.last.record.files else "never built"
@@ -216,7 +226,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions, 
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source)
         with inputs.last.passing_over_invalid():
             effects = _effects(inputs.domain, last, Version(snapshot), differences, robot)
-    return Comparison(result, shown(robot.source), None, missing, effects)
+    return Comparison(result, shown(robot.source), None, missing, differences, effects=effects)
 
 
 def _is_file(against: str, source: Path, folder: Path) -> bool:
@@ -249,10 +259,19 @@ class _VersionedSource(NamedTuple):
 
 
 def _with_version(
-    robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path, *, is_pair: bool
+    robot: RobotConfig,
+    against: str,
+    config: Config | None,
+    options: BuildOptions,
+    folder: Path,
+    result: Result,
+    *,
+    is_pair: bool,
 ) -> Comparison:
-    """Compare a source with another version; the actions ignore edits of the package."""
-    domain, result = registry.domain(robot.domain), _result(robot, config)
+    """Compare a source with another version; `result` is that of a dry run."""
+    if result.failed:
+        return Comparison(result, shown(robot.source), against)
+    domain = registry.domain(robot.domain)
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
         source = robot.source
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
@@ -286,46 +305,44 @@ def _with_version(
         renames = {key: to[1] for key, to in pairs if key in existing[0] and to in existing[1]}
         matching = Matching(renames)  # no file has the name of a doubtful element
     differences = changes.compare(old, new, domain, robot.options, matching)
+    name = shown(robot.source)
     if is_pair:
         told = tuple(
             robot.without_ignored(finding for finding in told if (finding.code, finding.statement) not in known)
         )
-        result = msgspec.structs.replace(result, diagnostics=told, changes=differences if differences.changes else None)
+        result = msgspec.structs.replace(result, diagnostics=told)
         asked = domain.effects
         effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
-        return Comparison(result, shown(robot.source), against, effects=effects, is_pair=True)
-    judged = judge(domain, new, reading, current.text.name, old, differences)
-    judged += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
-    new_findings = [current.text.locate(finding) for finding in judged if finding.is_new]
-    new_findings += [finding for finding in told if (finding.code, finding.statement) not in known]
-    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
-    versions = (old, imported_before.contents), (new, imported.contents)
+        news = differences if differences.changes else None
+        return Comparison(result, name, against, changes=news, effects=effects, is_pair=True)
+    findings = [*judge(domain, new, reading, current.text.name, old, differences)]
+    findings += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
+    findings = [current.text.locate(finding) for finding in findings if finding.is_new]
+    findings += [finding for finding in told if (finding.code, finding.statement) not in known]
+    findings += [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
     encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]
     is_reordered = old.snapshot == new.snapshot and encoded[0] != encoded[1]
-    if not differences.changes and not is_reordered:
-        return Comparison(result, shown(robot.source), against, versions=versions)
-    templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
-    packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
-    if domain.describe is None:
-        differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
-    unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
-    owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
-    differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
-    told_unused = tell_unused(unused, differences.unshown, shown(robot.source), Reading(None, ()))
-    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored((*new_findings, *told_unused)))
-    changed = packages[1].changed_since(packages[0])
-    older, newer = (_files_of(*pair, changed) for pair in zip(packages, (old, new), strict=True))
-    actions = []
-    for path, (role, owner, _) in (older | newer).items():
-        if path in older and path in newer and older[path][2] == newer[path][2]:
-            continue
-        kind = Reason.CREATE if path not in older else Reason.DELETE if path not in newer else Reason.UPDATE
-        place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
-        actions.append(Action(place, kind, role, owner))
+    files, effects = dict[str, ChangeKind](), tuple[Effect, ...]()
+    if differences.changes or is_reordered:
+        templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
+        packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
+        if domain.describe is None:
+            differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
+        unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
+        owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
+        differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
+        findings += tell_unused(unused, differences.unshown, name, Reading(None, ()))
+        changed = packages[1].changed_since(packages[0])
+        older, newer = (_contents(*pair, changed) for pair in zip(packages, (old, new), strict=True))
+        kinds = dict.fromkeys(older, ChangeKind.REMOVED) | dict.fromkeys(newer, ChangeKind.ADDED)
+        kinds |= dict.fromkeys(older.keys() & newer.keys(), ChangeKind.CHANGED)
+        for path in sorted(path for path, _ in older.items() ^ newer.items()):
+            files[Path(os.path.relpath(result.folder / path, result.root)).as_posix()] = kinds[path]
+        effects = _effects(domain, old, new, differences, robot)
+    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(findings))
     news = differences if differences.changes else None
-    result = msgspec.structs.replace(result, actions=Actions(actions), changes=news)
-    effects = _effects(domain, old, new, differences, robot)
-    return Comparison(result, shown(robot.source), against, effects=effects, versions=versions)
+    versions = (old, imported_before.contents), (new, imported.contents)
+    return Comparison(result, name, against, "", news, files, effects, versions=versions)
 
 
 def _configured_in(revision: Revision, robot: RobotConfig, config: Config | None) -> RobotConfig:
@@ -361,17 +378,13 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
     return Source(recorded.text.encode(), label, expansion=recorded)
 
 
-def _files_of(
+def _contents(
     package: Package, version: Version, changed: Collection[str]
-) -> dict[str, tuple[Role, str, bytes | tuple[str, ...] | str | None]]:
-    """Return role, owner and content of each file of a package; render only texts in `changed`."""
-    texts = {
-        path: (artifact.role, artifact.owner, package.content(path) if path in changed else None)
-        for path, artifact in package.artifacts.items()
-    }
-    orders = {path: (Role.ORDER, "package", names) for path, names in package.orders.items()}
-    imported = {file.target: (Role.IMPORT, key, file.target_hash) for key, file in (version.imports or {}).items()}
-    return {**texts, **orders, **imported}
+) -> dict[str, bytes | tuple[str, ...] | str | None]:
+    """Return the content of each file of a package; None for texts that are not in `changed`: they are not rendered."""
+    texts = {path: package.content(path) if path in changed else None for path in package.artifacts}
+    imported = {file.target: file.target_hash for file in (version.imports or {}).values()}
+    return {**texts, **package.orders, **imported}
 
 
 def _effects(

@@ -28,20 +28,22 @@ _SILENT = frozenset({Reason.KEEP, Reason.FORGET})
 def to_section(compared: Comparison, *, verbose: bool | None = None) -> Section:
     """Return a comparison as a section. Only a comparison with the last build judges the package."""
     result, section = compared.result, build_section(compared.result)
-    points, tables = change_parts(result.changes, _CHANGES, verbose=bool(verbose))
+    points, tables = change_parts(compared.changes, _CHANGES, verbose=bool(verbose))
     effects = [tuple(row) for row in effect_rows(compared.effects)]
     tables.append(
         TextTable(
             "Effects", ("Property", "Change", "By"), effects, _effect_line, _EFFECTS, "effect", _heading("Effects")
         )
     )
-    decided = () if compared.in_step else result.actions.decided  # `in_step` reads all actions
-    actions = [action for action in decided if action.reason not in _SILENT]
-    words = f"Next build: {result.summary}"
-    if compared.against is not None:
-        words = f"{counted(len(actions), 'file')} of the package differ{'s' if len(actions) == 1 else ''}"
+    rows = [(result.shown(path), str(kind)) for path, kind in compared.files.items()]
+    words = f"{counted(len(rows), 'file')} of the package differ{'s' if len(rows) == 1 else ''}"
+    columns = "File", ""
+    tables.append(TextTable("Differing files", columns, rows, file_line, _FILES, "file", _heading(words)))
+    has_plan = not result.in_step and (compared.against is None or result.is_built or result.conflicts)
+    actions = [action for action in result.actions.decided if has_plan and action.reason not in _SILENT]
     most = max(_FILES, 1 + sum(action.reason in EDITED for action in actions))
-    tables.append(file_table(result, actions, line=_file_line, most=most, noun="file", heading=_heading(words)))
+    heading = _heading(f"Next build: {result.summary}")
+    tables.append(file_table(result, actions, line=_file_line, most=most, noun="file", heading=heading))
     is_judged = compared.against is None or result.failed
     return Section(
         result.robot,
@@ -71,7 +73,7 @@ def _file_line(path: str, word: str, why: str) -> StyledLine:
 
 def _doubts(compared: Comparison) -> Iterator[str]:
     """Yield the elements that may be other parts, and lines for the configuration that declare the renames."""
-    doubts = compared.result.changes.doubts if compared.result.changes else ()
+    doubts = compared.changes.doubts if compared.changes else ()
     yield from map(describe_doubt, doubts[:_DOUBTS])
     if len(doubts) > _DOUBTS:
         yield f"… and {counted(len(doubts) - _DOUBTS, 'more element')} like these"

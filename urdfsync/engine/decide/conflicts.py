@@ -36,8 +36,10 @@ class Conflict(msgspec.Struct, frozen=True):
     """Why the merge was rejected, as a clause; empty if it was not rejected."""
     moved_to: str = ""
     """The likely new name of the edited element, if the file may belong to another element now."""
-    renumbered: str = ""
-    """The new numbers of the parts in the file, as a clause; empty if all have their numbers."""
+    names: Mapping[str, str] = {}
+    """New names by old names, with which `merge` was made."""
+    renamed: str = ""
+    """The new names and numbers of the parts in the file, as a clause; empty if all have their names and numbers."""
     refused: Mapping[Choice, str] = {}
     """The choices of `PREFERENCES` that would bring an unknown name into the file, each with the reason as a clause."""
     is_of_branches: bool = False
@@ -83,7 +85,8 @@ def find_conflict(
         first = first.rejected
         rejected = "two branches recorded different bases, which give different merges"
     base = bases[0] if bases else None
-    return Conflict(action.path, base, mine, generated, first, origin=action.origin, rejected=rejected)
+    texts = base, mine, generated, first
+    return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, names=names or {})
 
 
 def only_names_changed(conflict: Conflict, names: Mapping[str, str]) -> bool:

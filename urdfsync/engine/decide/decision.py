@@ -19,6 +19,7 @@ from urdfsync.engine.decide.merges import merge_edits
 from urdfsync.engine.decide.misfits import look_for_misfits
 from urdfsync.engine.decide.orders import decide_orders
 from urdfsync.engine.decide.package_after import PackageAfter
+from urdfsync.engine.decide.package_names import describe_renames
 from urdfsync.engine.decide.rules import put_off
 from urdfsync.engine.decide.triage import find_unknown, triage
 from urdfsync.engine.generation import Generation
@@ -94,7 +95,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
         all_actions,
         texts,
         triaged.doubts,
-        followed.conflicts,
+        describe_renames(inputs, generation, differences.former, followed.conflicts),
         shared=tuple(file for file in orders.shared if files.key(file.path) not in waiting),
         misfits=tuple(one for one in misfits if one.key not in new_conflicts or one.use is None),
         names=inputs.settled.names or triaged.names,

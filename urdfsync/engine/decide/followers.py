@@ -50,9 +50,9 @@ def follow(
             texts[key] = followers[key][1]
             action = msgspec.structs.replace(action, reason=Reason.MOVE if action.origin else Reason.MERGE)
         elif key in followers:
-            mine, new = followers[key]
+            mine, new, names = followers[key]
             generated = package.content(inputs.folder.path(key)).decode() if action.generated else mine
-            conflicts[key] = Conflict(key, generated, mine, generated, Merge(new, new, ()))
+            conflicts[key] = Conflict(key, generated, mine, generated, Merge(new, new, ()), names=names)
             action = msgspec.structs.replace(action, reason=Reason.RENAMED)
         actions.append(action)
     return Verdicts(actions, texts, conflicts)
@@ -60,8 +60,8 @@ def follow(
 
 def _find_followers(
     after: PackageAfter, keys: Collection[str], renamed: Mapping[str, str]
-) -> dict[str, tuple[str, str]]:
-    """Return the text, and the text with new names, of those files of `keys` that can follow, by key.
+) -> dict[str, tuple[str, str, Mapping[str, str]]]:
+    """Return the text, the text with new names, and these names, of those files of `keys` that can follow, by key.
 
     `renamed` has new identifiers by old identifiers. A name follows if it is missing, and if its new name exists at the
     same place. A text that declares the old name itself does not follow.
@@ -73,7 +73,7 @@ def _find_followers(
     for misfit in find_misfits(after):
         if misfit.key in keys and misfit.use and new_name(misfit.use.part, renamed, misfit.use.candidates):
             names.setdefault(misfit.key, {}).setdefault(misfit.use.part, []).append(misfit)
-    found = dict[str, tuple[str, str]]()
+    found = dict[str, tuple[str, str, Mapping[str, str]]]()
     for key, misfits in names.items():
         text = after.merged.get(key) or after.inputs.files.text(key) or ""
         lines, own, news = text.splitlines(), declared_names([text]), dict[str, str]()
@@ -82,8 +82,8 @@ def _find_followers(
             if part not in own:
                 news[part] = new_name(part, renamed, candidates)
         used = "\n".join(lines[one.finding.line - 1] for uses in misfits.values() for one in uses)
-        found[key] = text, rename(used, text, news)[1]
-    texts = {key: new for key, (text, new) in found.items() if new != text}
+        found[key] = text, rename(used, text, news)[1], news
+    texts = {key: new for key, (text, new, _) in found.items() if new != text}
     if not texts:
         return {}
     merged = {**after.merged, **texts}

@@ -78,7 +78,7 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: T
             rejected = f"`{name}` is another part now, and the export has no part like the one that you edited"
             without = conflict.merge and conflict.merge.rejected
             return msgspec.structs.replace(conflict, merge=without, rejected=rejected)
-    return msgspec.structs.replace(conflict, renumbered=renumbered.describe(action, numbers)) if numbers else conflict
+    return msgspec.structs.replace(conflict, renamed=renumbered.describe(action, numbers)) if numbers else conflict
 
 
 def _names_since_undo(

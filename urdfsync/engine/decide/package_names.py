@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import PurePosixPath
 
+import msgspec
+
 from urdfsync.domain import Domain, ElementKey, Snapshot, Target, displaced
+from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.decide.differences import GONE, Differences
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
@@ -85,6 +88,28 @@ def identifier_of(part: str, identifiers: Collection[str]) -> str:
             if (start := first + part[1:end]) in identifiers:
                 return start
     return ""
+
+
+def describe_renames(
+    inputs: Inputs, generation: Generation, identifiers: Mapping[str, str], conflicts: Mapping[str, Conflict]
+) -> Mapping[str, Conflict]:
+    """Return the conflicts with the renamed elements that their texts use, in words: `link a renamed to upper`.
+
+    `identifiers` has new identifiers by old identifiers.
+    """
+    if not (identifiers and conflicts):
+        return conflicts
+    from urdfsync.modelica.lexer import words_in  # imports the parser
+
+    elements = elements_by_identifier(inputs.domain, generation.now.snapshot, inputs.robot.target)
+    described = dict[str, Conflict]()
+    for key, conflict in conflicts.items():
+        used = conflict.names.keys() & {*words_in(conflict.base or ""), *words_in(conflict.mine)}
+        pairs = [(old, elements.get(identifiers.get(old, ""))) for old in {identifier_of(n, identifiers) for n in used}]
+        told = sorted(f"{element[0]} {old} renamed to {element[1]}" for old, element in pairs if element)
+        clause = "; ".join(filter(None, [", ".join(told), conflict.renamed]))
+        described[key] = msgspec.structs.replace(conflict, renamed=clause)
+    return described
 
 
 def class_of(path: str) -> str:

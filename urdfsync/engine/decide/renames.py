@@ -126,6 +126,8 @@ def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
     """Return the doubt as a clause; `is_used` if a file of the whole robot uses the element's name."""
     name, aspects = doubt.element.partition(" ")[2], " and ".join(doubt.aspects)
     subject = f"it uses `{name}`, which" if is_used else f"`{name}`"
+    if doubt.is_named_alike:
+        return f"{subject} may be another part now: only its name is as before"
     if doubt.part:
         return f"`{doubt.part}` of `{name}` may be another part now: the export counts anew"
     if doubt.is_certain:
