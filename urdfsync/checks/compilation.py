@@ -244,7 +244,12 @@ class Compilation:
                 compiled += (CompiledModel(part, 0) for part in inside)
         order = [*self._package.models, *users.files]
         self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
-        parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
+        waiting, parts = [users.files[model.model] for model in compiled if model.is_users], set[Path]()
+        if {model.model for model in compiled} >= {*self._package.models}:
+            waiting += (files.folder / path for path in self._package.generated)
+        while waiting:
+            parts |= (more := {*users.uses.get(waiting.pop(), ())} - parts)
+            waiting += more
         for model, faults in failing.items():
             if users.files[model] not in parts:  # else it has compiled as a component of another model
                 self.diagnostics += map(_as_part, faults)
