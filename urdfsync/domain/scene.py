@@ -147,6 +147,10 @@ class Pictures(Protocol):
         """Return the poses that files beside a source define, as positions of hinges, and faults of the files."""
         ...
 
+    def stated_triangles(self, content: bytes) -> int | None:
+        """Return the number of triangles that a mesh file states; None if the file has to be read for this number."""
+        ...
+
     def triangles(self, path: str, content: bytes, key: str, most: int) -> PageMesh | str:
         """Return about `most` triangles of a mesh without the model's scale, or a text that says why there are none.
 

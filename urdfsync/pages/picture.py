@@ -83,8 +83,11 @@ def picture(inputs: Inputs, generation: Generation, older: VersionContents | Non
         dict[str, PageMesh | str](),
     )
     for group in (seen, others):
-        read = {name: _read(pictures, cache, files[name], _MOST, code) for name in group}
-        shares = _shares({name: mesh.faces for name, mesh in read.items() if isinstance(mesh, PageMesh)}, most)
+        stated = {name: pictures.stated_triangles(files[name].content) for name in group}
+        read = {name: _read(pictures, cache, files[name], _MOST, code) for name in group if stated[name] is None}
+        counts = {name: count for name, count in stated.items() if count is not None}
+        counts |= {name: mesh.faces for name, mesh in read.items() if isinstance(mesh, PageMesh)}
+        shares = dict.fromkeys(counts.keys() - read.keys(), _MOST) | _shares(counts, most)
         read |= {name: _read(pictures, cache, files[name], share, code) for name, share in shares.items()}
         most -= sum(mesh.faces for mesh in read.values() if isinstance(mesh, PageMesh))
         meshes |= read

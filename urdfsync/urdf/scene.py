@@ -16,6 +16,7 @@ from urdfsync.urdf.kinematics import poses
 from urdfsync.urdf.kinematics.loops import ClosedLoops, Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.meshes.convert import stated_triangles as stated_triangles
 from urdfsync.urdf.meshes.convert import triangles as triangles
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.named_poses import named_poses as named_poses
