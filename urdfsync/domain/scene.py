@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
@@ -141,6 +141,12 @@ class Pictures(Protocol):
         Meshes of one file have one name, also if the model scales or mirrors the meshes. A file that is too large for
         the package has an import without facts.
         """
+        ...
+
+    def with_numbers(
+        self, snapshot: Snapshot, numbers: Mapping[tuple[str, str], Sequence[float]]
+    ) -> tuple[Snapshot, Collection[tuple[str, str]]]:
+        """Return a model with other numbers, by element and path in its record, and the places that it lacks. Pure."""
         ...
 
     def named_poses(self, source: Path, snapshot: Snapshot) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:
