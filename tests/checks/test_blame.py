@@ -105,6 +105,7 @@ class Numbers:
         masses = {name: re.findall(r"\bmass = ([\d.]+)", text) for name, text in texts.items()}
         masses["HandParameters.mo"] = masses["Arm.mo"] or masses.get("HandParameters.mo", [])
         mass = sum(float(number) for name, numbers in masses.items() if name != "Arm.mo" for number in numbers)
+        mass += every.count("Real vote") > 1
         damping = sum(map(float, re.findall(r"\bdamping = ([\d.]+)", every)))
         is_free, runs = "free" in task.title, list[SimulationResult]()
         value = mass + damping if is_free else mass
@@ -130,6 +131,7 @@ HEAVY, LIGHT = (HAND, "mass = 0.7", "mass = 0.9"), (LINK, "mass = 2", "mass = 1"
 OVERRIDE = ROBOT, "replaceable Links.Hand hand(", "replaceable Links.Hand hand(parameters(inertial(mass = 0.9)), "
 DAMPED = ELBOW_NUMBERS, "damping = 0.1", "damping = 0.3"
 UNUSED = "Links/Hand.mo", "\nequation\n", "\n  Real looked = 1;\nequation\n"
+VOTE = "Links/Hand.mo", "\nequation\n", "\n  Real vote = 1;\nequation\n"
 MASS, GAIN, NONE = {Quantity.MASS, Quantity.ACCELERATION}, {Quantity.ACCELERATION}, set[Quantity]()
 FIXED: dict[str, tuple[list[tuple[str, str, str]], dict[tuple[str, ...], set[Quantity]]]] = {
     # the free motion, too, belongs to the edit of the mass
@@ -140,8 +142,12 @@ FIXED: dict[str, tuple[list[tuple[str, str, str]], dict[tuple[str, ...], set[Qua
         [(HAND, "mass = 0.7", "mass = 0.8"), OVERRIDE], {(ROBOT,): MASS, (HAND,): NONE},
     ),
     "both say the same": (
-        [HEAVY, OVERRIDE, DAMPED], {(ROBOT, ELBOW_NUMBERS, HAND): {Quantity.MASS}, (ELBOW_NUMBERS,): GAIN},
+        [HEAVY, OVERRIDE, DAMPED], {(ROBOT,): {Quantity.MASS}, (HAND,): {Quantity.MASS}, (ELBOW_NUMBERS,): GAIN},
     ),
+    # any two of three: neither one alone, nor all but one
+    "no single one": ([VOTE, *((file, *VOTE[1:]) for file in ("Links/Base.mo", ELBOW))], {
+        (ELBOW, "Links/Base.mo", "Links/Hand.mo"): MASS,
+    }),
     "one needs the other": (
         [("Links/Base.mo", "\nequation\n", "\n  Real extra = 1;\nequation\n"),
          (HAND, "mass = 0.7", "mass = 0.9 /* extra + */")],

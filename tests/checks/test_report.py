@@ -270,7 +270,8 @@ def edited(capsys: Capture, effect: EditEffect) -> str:
         (
             ["a.mo"],
             [HAND, msgspec.structs.replace(HAND, part=Aspect.FREE_MOTION), PUSHED],
-            "a.mo (edited) changes the position of link hand by 12.3 mm; the acceleration of joint elbow by 6.42 rad/s²",
+            "a.mo (edited) changes the position of link hand by 12.3 mm; "
+            "the acceleration of joint elbow by 6.42 rad/s²",
         ),
     ],
 )

@@ -150,8 +150,9 @@ class Compilation:
     ) -> dict[str, list[Deviation]]:
         """Return, for each edited file, the changes that go away if this file alone is taken back.
 
-        If the package does not work without an edit, since others need it, its file has the changes that it makes
-        alone. A file that can't be measured either way is left out. If there are too many files, all are left out.
+        Two files may change the same: then nothing goes away, and both have the change that each makes alone. So has a
+        file that others need: without it the package does not work. A file that can't be measured either way is left
+        out. If there are too many files, all are left out.
         """
         edits, edited, generated = self._package.edits, self._package.files.texts, self._package.generated
         if len(edits) == 1:
@@ -161,8 +162,13 @@ class Compilation:
             return {}
         without = {file: {**edited, file: generated[file]} for file in edits}
         changes = self._changes_from(self.edited, "without", without, trials)
-        only = {file: {**edited, **generated, file: edited[file]} for file in edits if file not in changes}
-        return changes | self._changes_from(without_edits, "only", only, trials)
+        rest = {each.key for each in whole}.difference(each.key for of_file in changes.values() for each in of_file)
+        only = {file: {**edited, **generated, file: edited[file]} for file in edits if rest or file not in changes}
+        for file, alone in self._changes_from(without_edits, "only", only, trials).items():
+            changes[file] = (
+                [*changes[file], *(each for each in alone if each.key in rest)] if file in changes else alone
+            )
+        return changes
 
     def _changes_from(
         self,
