@@ -240,6 +240,7 @@ TURNED = Deviation(Quantity.ORIENTATION, "link hand", math.sin(math.radians(3)),
 BENT = Deviation(Quantity.POSITION, "link finger", 0.02, 1.1, 1.2, "m")
 ROOT = Deviation(Quantity.REACTION, "link base", 7.5, 30.0, 30.0, "N")
 MASS = Deviation(Quantity.MASS, "robot", 0.5, 25.0, 25.0, "kg")
+PUSHED = Deviation(Quantity.ACCELERATION, "joint elbow", 6.42, 9.0, 9.0, "rad/s²", Aspect.FREE_MOTION)
 BLIND = load("joint wheel", math.inf, 1.0)
 
 AT_ELBOW = "the torque of joint elbow by 0.4 N·m"
@@ -256,15 +257,22 @@ def edited(capsys: Capture, effect: EditEffect) -> str:
     ("files", "deviations", "said"),
     [
         (["a.mo"], [], "a.mo (edited) changes no compared motion or force"),
-        (["a.mo", "b.mo"], [ELBOW], f"a.mo and b.mo (edited) change {AT_ELBOW}"),
+        (["a.mo", "b.mo"], [ELBOW], f"a.mo and b.mo (edited) together change {AT_ELBOW}"),
         (
             ["a.mo", "b.mo", "c.mo", "d.mo"],
             [HAND, TURNED, SHOULDER, ELBOW, MASS],
-            "a.mo, b.mo and 2 more (edited) change the position of link hand by 12.3 mm; "
+            "a.mo, b.mo and 2 more (edited) together change the position of link hand by 12.3 mm; "
             f"{AT_ELBOW} (also joint shoulder); the mass of robot by 0.5 kg",
         ),
         (["a.mo"], [BLIND], "a.mo (edited) changes the torque of joint wheel by more than any number"),
         (["a.mo"], [TURNED], "a.mo (edited) changes the orientation of link hand by 3 °"),
+        # the free motion repeats no kind
+        (
+            ["a.mo"],
+            [HAND, msgspec.structs.replace(HAND, part=Aspect.FREE_MOTION), PUSHED],
+            "a.mo (edited) changes the position of link hand by 12.3 mm; "
+            "the acceleration of joint elbow by 6.42 rad/s²",
+        ),
     ],
 )
 def test_what_an_edit_does_is_one_sentence(

@@ -401,6 +401,20 @@ def test_a_part_of_a_model_that_compiles_need_not_compile_by_itself(
     assert check(fresh=True).tools[0].failing == ("Line", "Part")
 
 
+def test_a_component_that_compiles_inside_of_its_robot_need_not_compile_by_itself(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    """So does a component of this component. If nothing uses it, its warning stays."""
+    brake = "Modelica.Mechanics.Rotational.Components.Damper"
+    write({"Arm/Brake.mo": f"within Arm;\nmodel Brake\n  extends {brake};\nend Brake;\n"})
+    write({"Arm/Soft.mo": "within Arm;\nmodel Soft\n  extends Joints.Elbow;\n  Brake brake(d = 1);\nend Soft;\n"})
+    compiler.problems |= dict.fromkeys(("Arm.Brake", "Arm.Soft"), "every component needs a root")
+    assert check().tools[0].failing == ("Arm.Brake", "Arm.Soft")
+    replace(arm / "Arm.mo", "replaceable Joints.Elbow elbow(", "replaceable Soft elbow(")
+    result = check()
+    assert (result.tools[0].failing, {one.code for one in result.diagnostics}) == ((), {"order-lacks"})
+
+
 def test_other_line_ends_are_no_edit_and_comments_move_nothing(arm: Path) -> None:
     base = arm / "Links" / "Base.mo"
     base.write_bytes(base.read_bytes().replace(b"\n", b"\r\n"))

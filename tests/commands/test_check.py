@@ -59,7 +59,9 @@ def test_without_options_everything_is_as_documented(checker: Checker, capsys: C
     assert cli.main(["check"]) == 0
     assert checker.robots == ["ladder"]
     assert checker.options == CheckOptions(package_paths=checker.options.package_paths)
-    assert capsys.readouterr().out == "ladder: right: syntax and layout; 0.0 s\n"
+    printed = capsys.readouterr()
+    assert printed.out == "ladder: right: syntax and layout; 0.0 s\n"
+    assert printed.err == "ladder: compiling\n", "a pipe shows no progress, so the long step is told"
 
 
 def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -343,6 +343,29 @@ def test_space_plays_wherever_the_focus_is_and_presses_nothing(arm: Path, report
     assert page.problems == []
 
 
+def test_a_pose_sets_the_player_back(arm: Path, report: Report, chromium: Page) -> None:
+    page = opened(chromium, report())
+    page.run("page.player.seek(3)")
+    page.press("r")
+    assert page.run("[page.player.time, document.querySelector('#player input').value]") == [0, "0"]
+    starts = "data.now.hinges.filter(isFree).every((hinge) => page.positions.get(hinge.element) === hinge.start)"
+    assert page.run(starts)
+    assert page.problems == []
+
+
+def test_no_table_breaks_a_word(arm: Path, report: Report, chromium: Page) -> None:
+    """A word in two lines has two rectangles."""
+    page = opened(chromium, report(), width=900)
+    words = """[...document.querySelectorAll("td, th")].flatMap((cell) => [...cell.childNodes]
+        .filter((node) => node.nodeType === 3).flatMap((node) => [...node.data.matchAll(/\\S+/g)].filter((word) => {
+            const range = document.createRange();
+            range.setStart(node, word.index);
+            range.setEnd(node, word.index + word[0].length);
+            return range.getClientRects().length > 1 && !word[0].includes("-");
+        }).map(([word]) => word)))"""
+    assert page.run(words) == []
+
+
 def test_the_selection_has_a_colour_of_its_own(arm: Path, report: Report, chromium: Page) -> None:
     assert cli.main(["build", "--quiet"]) == 0
     replace(arm, '<origin xyz="0 0 0.44"/>', '<origin xyz="0 0 0.5"/>')
@@ -584,6 +607,8 @@ def test_the_inertia_box_is_the_body_with_this_inertia(report: Report, chromium:
 def test_a_narrow_window_needs_no_sideways_scrolling(arm: Path, report: Report, chromium: Page, dark: bool) -> None:
     page = opened(chromium, report(), width=400, dark=dark)
     assert page.run("document.documentElement.scrollWidth") == 400
+    fits = "every((each) => each.scrollWidth <= each.clientWidth && each.scrollHeight <= each.clientHeight)"
+    assert page.run(f"[...document.querySelectorAll('.scroll:not(#drawing)')].{fits}"), "no table is cut"
     assert page.run("document.documentElement.dataset.theme") == ("dark" if dark else "light")
     assert page.problems == []
 

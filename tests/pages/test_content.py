@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from support.git import NEEDS_GIT, Repository
@@ -104,7 +104,9 @@ def test_the_diagram_and_the_details_show_what_is_on_disk(arm: Path, report: Rep
         "joint elbow": [["phi_start", "phi_start added", "phi_start = 0.1"]],
     }
     words = " ".join(page.words.split())
-    assert "as in the source, without your edits" in words
+    assert "drawn without your edits in Arm.mo" in words
+    scene = cast(Any, values["now"])
+    assert [body["mass"] for body in scene["bodies"] if body["element"] == "link forearm"] == [4.35]
     assert "These numbers are those of the source, without your edits." in words
 
 

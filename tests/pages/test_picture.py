@@ -39,21 +39,24 @@ def test_large_meshes_share_what_small_ones_leave_and_the_page_has_one_line_abou
     monkeypatch.chdir(tmp_path)
     Path("bot.urdf").write_text(f'<robot name="bot"><link name="base">{"".join(texts)}</link></robot>')
     Path("urdfsync.toml").write_text('[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncollisions = true\n')
-    for most, fewest in ((10_000, (80, 1280, 5120, 500)), (3000, (80, 300, 1280, 0))):
-        monkeypatch.setattr("urdfsync.pages.picture._MOST", most)
-        faces = [*faces_of(page := report()).values()]
-        assert sum(faces) <= most + 200
-        # those that are seen come first
-        assert all(number >= least for number, least in zip((*sorted(faces[:3]), faces[3]), fewest, strict=True)), faces
-    before, made = page.read_bytes(), list[int]()
-    assert re.search(r"2 meshes are coarser here than in the file: \S+ has [\d,]+ of its 20,480 tri", read(page).words)
-    simplify = scene.triangles
+    made, simplify = list[int](), scene.triangles
 
     def triangles(*arguments: Any) -> PageMesh | str:
         made.append(arguments[-1])
         return simplify(*arguments)
 
     monkeypatch.setattr(scene, "triangles", triangles)
+    for most, fewest in ((10_000, (80, 1280, 5120, 500)), (3000, (80, 300, 1280, 0))):
+        monkeypatch.setattr("urdfsync.pages.picture._MOST", most)
+        made.clear()
+        faces = [*faces_of(page := report()).values()]
+        assert sum(faces) <= most + 200
+        # those that are seen come first
+        assert all(number >= least for number, least in zip((*sorted(faces[:3]), faces[3]), fewest, strict=True)), faces
+        assert len(made) == 4, "each mesh is read once"
+    before = page.read_bytes()
+    made.clear()
+    assert re.search(r"2 meshes are coarser here than in the file: \S+ has [\d,]+ of its 20,480 tri", read(page).words)
     assert report().read_bytes() == before
     assert made == [3000] * 2  # two meshes stayed as they are; what was simplified is remembered
 

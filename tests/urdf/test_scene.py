@@ -30,7 +30,7 @@ from urdfsync.urdf.robot import (
     Sphere,
     Visual,
 )
-from urdfsync.urdf.scene import scene
+from urdfsync.urdf.scene import scene, with_numbers
 
 
 def picture(*links: Link, joints: tuple[Joint, ...] = ()) -> Scene:
@@ -142,3 +142,37 @@ def test_a_robot_with_a_free_base_has_the_height_at_which_it_stands() -> None:
     robot = Robot("bot", (Link("base", collisions=(Collision(Box((1.0, 1.0, 0.6))),)),))
     heights = [scene(robot, {}, Target("Bot", "Bot"), Options(base=base))[0].height for base in ("fixed", "floating")]
     assert heights == [None, pytest.approx(0.3)]
+
+
+EDITED = {
+    ("link arm", "inertial.mass"): (3.0,),
+    ("link arm", "inertial.origin.xyz"): (0.0, 0.0, 0.5),
+    ("link arm", "visual1.radius"): (0.2,),
+    ("link arm", "visual1.origin.xyz"): (1.0, 0.0, 0.0),
+    ("link arm", "visual1.color"): (255.0, 0.0, 51.0),
+    ("joint turn", "axis"): (0.0, 2.0, 0.0),
+    ("joint turn", "limits.upper"): (1.5,),
+    ("joint turn", "origin.xyz"): (0.0, 0.0, 2.0),
+}
+LACKING = {
+    ("link arm", "visual2.radius"): (1.0,),
+    ("link arm", "visual1_2.color"): (1.0, 1.0, 1.0),
+    ("link arm", "visual1.size"): (1.0, 1.0, 1.0),
+    ("joint turn", "servo.positionGain"): (1.0,),
+    ("joint turn", "axis"): (0.0, 0.0, 0.0),
+    ("joint gone", "limits.upper"): (1.0,),
+}
+
+
+def test_numbers_of_records_are_drawn_and_those_without_a_place_are_told() -> None:
+    arm = Link("arm", Inertial(2.0), visuals=(Visual(Sphere(0.1)),))
+    turn = Joint("turn", "revolute", "base", "arm", limit=Limit(-1.0, 1.0))
+    robot = Robot("bot", (Link("base"), arm), (turn,))
+    edited, lacking = with_numbers(robot, EDITED)
+    assert lacking == set()
+    material = Material(rgba=(1.0, 0.0, 0.2, 1.0))
+    visual = Visual(Sphere(0.2), Origin((1.0, 0.0, 0.0)), material=material)
+    assert edited.links == (Link("base"), Link("arm", Inertial(3.0, Origin((0.0, 0.0, 0.5))), visuals=(visual,)))
+    (hinge,) = edited.joints
+    assert (hinge.axis, hinge.limit, hinge.origin.xyz) == ((0.0, 1.0, 0.0), Limit(-1.0, 1.5), (0.0, 0.0, 2.0))
+    assert with_numbers(robot, LACKING) == (robot, LACKING.keys())

@@ -104,7 +104,7 @@ class Compilation:
             self._compare(experiment, done)
 
     def _versions(self, experiment: Experiment) -> dict[str, _Job]:
-        """Return jobs that simulate the generated package, the edited one, and packages with one edit each."""
+        """Return jobs that simulate the generated package and the edited one."""
         package = self._package
         move = [_task(trial) for trial in experiment.trials]
         source = package.inputs.source
@@ -119,10 +119,6 @@ class Compilation:
             jobs["edited"] = with_flags(package.files.texts), move
             if not is_same:
                 jobs["generated"] = with_flags(package.generated), move
-            own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
-            for file in package.edits if 1 < len(package.edits) <= MOST_SINGLE_EDITS else ():
-                texts = {**package.generated, **own, file: package.on_disk[file]}
-                jobs[file] = with_flags(texts), move[:1]
         return jobs
 
     def _compare(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> None:
@@ -144,18 +140,51 @@ class Compilation:
         self.edited, faults = self._motions(done["edited"], trials)
         if faults:  # the package is not at fault
             self.gaps.append(f"the effect of your edits was not measured: {faults[0].message}")
-        if not self.edited or not without_edits:
-            return
-        alone = {file: self._motions(done[file], trials)[0] for file in package.edits if file in done}
-        single = {file: compare_all(trials[:1], motions, without_edits) for file, motions in alone.items() if motions}
-        whole = compare_all(trials[:1], self.edited, without_edits)
-        # later trials repeat changes of the first trial; they count for files without an effect in the first
-        others = compare_all(trials[1:], self.edited, without_edits)
-        changes = tuple(deviation for deviation in others if not deviation.agrees)
-        self.result.effects = tuple(
-            effect if effect.deviations else msgspec.structs.replace(effect, deviations=changes)
-            for effect in edit_effects(package.edits, package.files.owners, whole, single)
-        )
+        if self.edited and without_edits:
+            whole = find_changes(trials, self.edited, without_edits)
+            single = self._single_edits(trials, whole, without_edits)
+            self.result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
+
+    def _single_edits(
+        self, trials: Sequence[Trial], whole: Sequence[Deviation], without_edits: Mapping[str, Series]
+    ) -> dict[str, list[Deviation]]:
+        """Return, for each edited file, the changes that go away if this file alone is taken back.
+
+        Two files may change the same: then nothing goes away, and both have the change that each makes alone. So has a
+        file that others need: without it the package does not work. A file that can't be measured either way is left
+        out. If there are too many files, all are left out.
+        """
+        edits, edited, generated = self._package.edits, self._package.files.texts, self._package.generated
+        if len(edits) == 1:
+            return {edits[0]: list(whole)}
+        trials = [trial for trial in trials if find_changes([trial], self.edited, without_edits)]
+        if not trials or len(edits) > MOST_SINGLE_EDITS:
+            return {}
+        without = {file: {**edited, file: generated[file]} for file in edits}
+        changes = self._changes_from(self.edited, "without", without, trials)
+        rest = {each.key for each in whole}.difference(each.key for of_file in changes.values() for each in of_file)
+        only = {file: {**edited, **generated, file: edited[file]} for file in edits if rest or file not in changes}
+        for file, alone in self._changes_from(without_edits, "only", only, trials).items():
+            changes[file] = (
+                [*changes[file], *(each for each in alone if each.key in rest)] if file in changes else alone
+            )
+        return changes
+
+    def _changes_from(
+        self,
+        motions: Mapping[str, Series],
+        label: str,
+        versions: Mapping[str, Mapping[str, bytes]],
+        trials: Sequence[Trial],
+    ) -> dict[str, list[Deviation]]:
+        """Return the changes of each version of the package that all trials can simulate, by the version's file."""
+        tasks, changes = [_task(trial) for trial in trials], dict[str, list[Deviation]]()
+        done = self._run_all({f"{label} {file}": (with_flags(texts), tasks) for file, texts in versions.items()})
+        for file, answers in zip(versions, done.values(), strict=True):
+            if len(answers) == len(trials) and not any(each.problem or each.runs[0].problem for each in answers):
+                series = {trial.name: each.runs[0].values for trial, each in zip(trials, answers, strict=True)}
+                changes[file] = find_changes(trials, series, motions)
+        return changes
 
     def _laws(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> Sequence[Deviation]:
         """Return the deviations from laws that the other trials do not exercise. A failed simulation is a gap."""
@@ -221,7 +250,12 @@ class Compilation:
                 compiled += (CompiledModel(part, 0) for part in inside)
         order = [*self._package.models, *users.files]
         self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
-        parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
+        waiting, parts = [users.files[model.model] for model in compiled if model.is_users], set[Path]()
+        if {model.model for model in compiled} >= {*self._package.models}:
+            waiting += (files.folder / path for path in self._package.generated)
+        while waiting:
+            parts |= (more := {*users.uses.get(waiting.pop(), ())} - parts)
+            waiting += more
         for model, faults in failing.items():
             if users.files[model] not in parts:  # else it has compiled as a component of another model
                 self.diagnostics += map(_as_part, faults)
@@ -311,12 +345,13 @@ def compare_all(
 
 
 def compare(compared: Iterable[Compared], series: Series, expected: Series) -> tuple[Deviation, ...]:
-    """Return the differences from the expected values at each compared instant; infinite if a number is missing."""
+    """Return the differences from the expected values at each compared instant; infinite if one lacks a number."""
     deviations: list[Deviation] = []
     for quantity in compared:
         places = [(name, instant) for name in quantity.values for instant in quantity.instants]
         pairs = [(_number(series, *place), _number(expected, *place)) for place in places]
-        differences = [abs(value - other) for value, other in pairs]
+        # an edit may take a number away that another edit does not bring back
+        differences = [0.0 if _is_same(value, other) else abs(value - other) for value, other in pairs]
         greatest = math.inf if any(map(math.isnan, differences)) else max(differences)
         value = max((abs(other) for _, other in pairs if math.isfinite(other)), default=0.0)
         deviations.append(
@@ -333,6 +368,10 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
         msgspec.structs.replace(deviation, size=sizes[deviation.quantity, deviation.unit, deviation.part])
         for deviation in deviations
     )
+
+
+def _is_same(value: float, other: float) -> bool:
+    return value == other or (math.isnan(value) and math.isnan(other))
 
 
 def curves(trial: Trial, series: Series) -> Iterator[Curve]:
@@ -352,31 +391,33 @@ def _number(series: Series, name: str, instant: float) -> float:
     return numbers[place] if numbers and place < len(times) and times[place] < instant + _SAME_TIME else math.nan
 
 
+def find_changes(
+    trials: Iterable[Trial], motions: Mapping[str, Series], others: Mapping[str, Series]
+) -> list[Deviation]:
+    """Return the differences of simulations from other simulations, beyond the tolerance."""
+    return [deviation for deviation in compare_all(trials, motions, others) if not deviation.agrees]
+
+
 def edit_effects(
     files: Sequence[str],
     owners: Mapping[str, str],
     whole: Sequence[Deviation],
     single: Mapping[str, Sequence[Deviation]],
 ) -> Iterator[EditEffect]:
-    """Yield the effect of each edited file by itself, if possible; the other files share the remaining effect.
+    """Yield the effect of each edited file in `single`, then the changes in `whole` that none of these has.
 
-    `whole` has the deviations of the package on disk from the generated package. `single` has the deviations with one
-    edited file, for each such file.
+    All files together have the remaining changes. Files without a change come last, as one effect.
     """
 
     def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:
         return EditEffect(tuple(files), tuple(deviations), tuple(dict.fromkeys(owners[file] for file in files)))
 
-    changes = [deviation for deviation in whole if not deviation.agrees]
-    apart = {
-        file: [deviation for deviation in deviations if not deviation.agrees] for file, deviations in single.items()
-    }
-    explained = {deviation.key for deviations in apart.values() for deviation in deviations}
-    rest = [deviation for deviation in changes if deviation.key not in explained]
-    quiet = [file for file in files if not apart.get(file)]
-    yield from (effect([file], deviations) for file, deviations in apart.items() if deviations)
+    explained = {deviation.key for deviations in single.values() for deviation in deviations}
+    rest = [deviation for deviation in whole if deviation.key not in explained]
+    quiet = [file for file in (single if whole else files) if not single.get(file)]
+    yield from (effect([file], deviations) for file, deviations in single.items() if deviations)
     if rest or quiet:
-        yield effect(quiet or files, rest)
+        yield effect(files if rest else quiet, rest)
 
 
 def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path | None = None) -> list[Diagnostic]:

@@ -16,7 +16,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain.advice import brings_back
 from urdfsync.files import shown
 from urdfsync.modelica.classes import ClassNode
-from urdfsync.modelica.files import class_of_file, files_that_use, place_of, text_of
+from urdfsync.modelica.files import ClassName, class_of_file, files_that_use, place_of, text_of
 from urdfsync.modelica.layout import check_class_file
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.stored import StoredClasses, parse_file
@@ -32,7 +32,7 @@ class NameCheck(NamedTuple):
     users_files: Mapping[Path, bytes]
     """The user's files that name a class of the package, or of another file that uses the package."""
     uses: Mapping[Path, Set[Path]]
-    """For each of the user's files, the files whose classes it names."""
+    """For each file that the user wrote or edited, the files whose classes it names."""
 
 
 def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameCheck:
@@ -43,26 +43,36 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     others = {**around, **package.users_files}
     read = functools.cache(parse_file)  # parse each file once
     sources = StoredClasses(robot.target.package, robot.folder, package.files.texts, others, find, read)
-    scopes = Scopes(sources)
-    own = _findings(package, _unresolved(filter(None, map(scopes.node, sorted(sources.own))), scopes))
+    shared, uses = Scopes(sources), dict[Path, set[Path]]()
+
+    def look(name: ClassName) -> list[tuple[Path, Unresolved]] | None:
+        """Return the unresolved names in a class, None without this class; note in `uses` which files it needs."""
+        sources.seen.clear()
+        scopes = Scopes(sources)  # new scopes: used scopes remember resolved names
+        if (node := scopes.node(name)) is None:
+            return None
+        faults, path = _unresolved([node], scopes), Path(node.file)
+        # packages around a file do not count as used by the file
+        around_it = {folder / "package.mo" for folder in path.parents}
+        uses.setdefault(path, set()).update({Path(file) for file in sources.seen.values() if file} - around_it)
+        return faults
+
+    written = {robot.folder / path for path in package.changed} | package.own_files.keys()
+    generated = [name for name, file in sorted(sources.own.items()) if Path(file) not in written]
+    own = _unresolved(filter(None, map(shared.node, generated)), shared)
+    for name in sorted(sources.own.keys() - {*generated}):
+        own += look(name) or ()
     places: list[tuple[Path, Unresolved]] = []
-    uses: dict[Path, set[Path]] = {}
     using, top = set[Path](), tuple(robot.target.package.split("."))
     unplaced = set(sources.unread)
     for name, definition in sources.users.items():
         if (path := Path(definition.file)) in package.users_files:
-            sources.seen.clear()
-            scopes = Scopes(sources)  # new scopes: used scopes remember resolved names
-            if (node := scopes.node(name)) is None:  # no package has that name
+            if (faults := look(name)) is None:  # no package has that name
                 unplaced.add(path)
                 continue
-            places += _unresolved([node], scopes)
+            places += faults
             if any(other[: len(top)] == top and len(other) > len(top) for other in sources.seen):
                 using.add(path)
-            seen = {Path(file) for file in sources.seen.values() if file}
-            # packages around a file do not count as used by the file
-            around_it = {folder / "package.mo" for folder in path.parents}
-            uses.setdefault(path, set()).update(seen - around_it)
     while more := {path for path, seen in uses.items() if path not in using and seen & using}:
         using |= more
     contents = {path: text for path, text in package.users_files.items() if path in unplaced}
@@ -70,7 +80,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     users_files = {path: text for path, text in package.users_files.items() if path in using | unplaced}
     users = [finding for path in sorted(unplaced) for finding in _check_place(path, others)]
     users += _findings(package, [place for place in places if place[0] in using])
-    return NameCheck(own, users, users_files, uses)
+    return NameCheck(_findings(package, own), users, users_files, uses)
 
 
 def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic]:

@@ -198,7 +198,7 @@ class UsersModels(msgspec.Struct, frozen=True):
     left_out: tuple[Path, ...]
     """Files that no compiler would find, or that are no Modelica."""
     uses: Mapping[Path, Collection[Path]]
-    """For each file, the user's files that it uses."""
+    """For each file that the user wrote or edited, the files that it uses."""
 
 
 def users_models(

@@ -233,15 +233,18 @@ def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> I
 
     The element nearest to the cause comes first: one of `owners`, which are edited. Otherwise it is the first from the
     root, since a displaced link moves all links behind it. For efforts it is the last joint, since each joint carries
-    all links behind it.
+    all links behind it. Free motion repeats no kind.
     """
+    told = set[Sequence[Quantity]]()
     for is_free, quantities in itertools.product((False, True), KINDS):
         own = (each for each in deviations if (each.part is Aspect.FREE_MOTION) == is_free)
         kind = [each for each in own if each.quantity in quantities]
         if Quantity.EFFORT in quantities:
             kind.reverse()
         kind.sort(key=lambda deviation: (deviation.element not in owners, deviation.quantity is Quantity.REACTION))
-        if names := list(dict.fromkeys(deviation.element for deviation in kind)):
+        names = list(dict.fromkeys(deviation.element for deviation in kind))
+        if names and not (is_free and quantities in told):
+            told.add(quantities)
             yield kind[0], f" (also {listed(names[1:])})" if names[1:] else ""
 
 
@@ -250,7 +253,8 @@ def _edit_style(result: CheckResult) -> str:
 
 
 def _edited(effect: EditEffect) -> str:
-    return f"{listed(effect.files)} (edited) {'changes' if len(effect.files) == 1 else 'change'}"
+    words = "changes" if len(effect.files) == 1 else "together change" if effect.deviations else "change"
+    return f"{listed(effect.files)} (edited) {words}"
 
 
 def _change(deviation: Deviation, others: str = "") -> str:

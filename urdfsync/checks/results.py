@@ -18,7 +18,7 @@ from urdfsync.engine.result import Exit
 from urdfsync.spelling import counted
 
 MOST_SINGLE_EDITS = 6
-"""The greatest number of edited files that are tried one by one; the effects of more are measured together."""
+"""The greatest number of edited files that are tried taken back one by one; more are not told apart."""
 
 _FIRST = (
     (Quantity.GRAVITY,),

@@ -73,7 +73,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     chosen = arguments.chosen(CheckOptions, args)
     options = CheckOptions(tools=tools, curves=args.report is not None, **chosen)
     try:
-        for result in check_robots(configured.config, configured.robots, options, console.progress):
+        progress = console.telling("compiling")
+        for result in check_robots(configured.config, configured.robots, options, progress):
             if judgement:
                 result.log = judgement
             results.append(result)

@@ -68,7 +68,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     (tool,) = compilers.choose(configuration, "omc", trusted=args.trusted)
     options = SimulateOptions(tool=tool, **arguments.chosen(SimulateOptions, args))
     kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
-    exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
+    exported = export(configuration, robot, options, kind, console.telling(), for_trial=args.check)
     file = args.output or default_file(f"{exported.model.rpartition('.')[2]}.fmu", is_exported)
     kinds = [name for name in KINDS if name in kind.kind]
     trial = try_out(configuration, robot, options, exported, kinds, console.progress) if args.check else None

@@ -12,9 +12,8 @@ from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
 from urdfsync.diagnostics import Severity
-from urdfsync.engine.options import Progress
 from urdfsync.engine.result import Exit
-from urdfsync.output.console import Console, line
+from urdfsync.output.console import Console
 from urdfsync.simulation.cases import SAMPLES
 from urdfsync.simulation.files import check_distinct
 from urdfsync.simulation.report import result_lines, study_lines
@@ -82,7 +81,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.report:
         check_distinct(files | {"report": args.report})
         write_report = prepare_page(args, console, args.report, against=args.against, motion=args.motion)
-    extra = {"files": files, "tool": args.tool, "trusted": args.trusted, "progress": _telling(console)}
+    extra = {"files": files, "tool": args.tool, "trusted": args.trusted, "progress": console.telling()}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
     if write_report:
         write_report(simulation=result)
@@ -94,27 +93,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return console.end(Exit.ERROR if stopped else Exit.IN_STEP)
 
 
-def _telling(console: Console) -> Progress:
-    """Return a progress that also prints its first step, since a pipe shows no progress."""
-    told = list[str]()
-
-    def progress(what: str, done: int, total: int) -> None:
-        if not told:
-            told.append(what)
-            if not (console.quiet or console.is_document):
-                console.print([line((what, "dim"))], error=True)
-        console.progress(what, done, total)
-
-    return progress
-
-
 def _run_cases(args: argparse.Namespace, console: Console, files: dict[str, Path]) -> int:
     """Simulate many cases of one robot. A failed case is a difference, since the others have results."""
     if args.report or args.variables or args.against:
         message = "`--vary` has no page, no `--variable` and no `--against`: simulate one case with them"
         raise arguments.UsageError(args.parser, message, "the worst case is shown with its command")
     sampling = {"seed": args.seed or VaryOptions().seed, "sampling": args.sampling or VaryOptions().sampling}
-    extra = {"files": files, "tool": args.tool, "trusted": args.trusted, **sampling}
+    extra = {"files": files, "tool": args.tool, "trusted": args.trusted, "progress": console.telling(), **sampling}
     study = arguments.call(vary, VaryOptions, args, console, **extra)
     console.add(study)
     console.tell(study_lines(study))

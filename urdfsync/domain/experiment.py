@@ -209,7 +209,7 @@ class Experiment(msgspec.Struct, frozen=True):
     trials: tuple[Trial, ...]
     """Simulations of a package that is generated from `content`; they also run on a package from the given source.
 
-    The first simulation measures the effects of single edits; without its result there is no comparison.
+    Without the result of the first simulation there is no comparison.
     """
     laws: Trial | None = None
     """The simulation of parts that `options` leave out, in the package that is generated from the given source."""

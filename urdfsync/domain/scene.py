@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
@@ -143,8 +143,18 @@ class Pictures(Protocol):
         """
         ...
 
+    def with_numbers(
+        self, snapshot: Snapshot, numbers: Mapping[tuple[str, str], Sequence[float]]
+    ) -> tuple[Snapshot, Collection[tuple[str, str]]]:
+        """Return a model with other numbers, by element and path in its record, and the places that it lacks. Pure."""
+        ...
+
     def named_poses(self, source: Path, snapshot: Snapshot) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:
         """Return the poses that files beside a source define, as positions of hinges, and faults of the files."""
+        ...
+
+    def stated_triangles(self, content: bytes) -> int | None:
+        """Return the number of triangles that a mesh file states; None if the file has to be read for this number."""
         ...
 
     def triangles(self, path: str, content: bytes, key: str, most: int) -> PageMesh | str:

@@ -261,6 +261,19 @@ class Console:
         bar, task = self._bar
         bar.update(task, description=what, completed=done, total=total)
 
+    def telling(self, mark: str = "") -> Callable[[str, int, int], None]:
+        """Return a progress that also prints the first step with this mark, since a pipe shows no progress."""
+        told = list[str]()
+
+        def progress(what: str, done: int, total: int) -> None:
+            if not told and mark in what:
+                told.append(what)
+                if not (self.quiet or self.is_document):
+                    self.print([line((what, "dim"))], error=True)
+            self.progress(what, done, total)
+
+        return progress
+
     def stop_progress(self) -> None:
         """Remove the progress bar."""
         if self._bar is not None:

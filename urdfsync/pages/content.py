@@ -87,7 +87,7 @@ def gather(
     changes, result = compared.changes or Changes(), compared.result
     decision = decide_package(inputs, generation)
     edits = RobotEdits(robot.name, config.root, tuple(find_edited(inputs, generation, decision.actions)))
-    drawn = picture(inputs, generation, older if changes.changes else None)
+    drawn = picture(inputs, generation, older if changes.changes else None, edits.files)
     return Content(
         robot=robot,
         version=(generation.now, generation.imported.contents),

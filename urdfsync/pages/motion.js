@@ -130,6 +130,13 @@ class Player {
     if (this.isPlaying) this.toggle();
   }
 
+  /* Goes back to the beginning; nothing moves. */
+  rewind() {
+    this.isPlaying = false;
+    this.time = this.begin;
+    this.show(this, false);
+  }
+
   toggle() {
     this.isPlaying = !this.isPlaying;
     if (this.isPlaying && this.time >= this.end) this.time = this.begin;

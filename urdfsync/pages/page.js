@@ -56,9 +56,9 @@ function move(name, position) {
   say(moveAxes(new Map([[name, position]])) ? "" : `A loop would open: ${nameOf(name)} stops here.`);
 }
 
-/* Takes a named pose. */
+/* Takes a named pose; what plays begins anew. */
 function pose(name) {
-  page.player?.pause();
+  page.player?.rewind();
   const isThere = moveAxes(page.poses.get(name)[1]());
   setGround(name === "Stance" ? -data.now.height : page.floor, page.now.size);
   say(isThere ? `Pose: ${name}` : `A loop would open: the robot stops on the way to ${name}.`);
@@ -236,8 +236,8 @@ function setUpMotion() {
     button.textContent = player.isPlaying ? "⏸ Pause" : "▶ Play";
     slider.value = player.time;
     told.textContent = `${player.time.toFixed(2)} s`;
-    if (!isMoved) return;
     moveCursors(player.time);
+    if (!isMoved) return;
     if (!isSimulation) return void moveAxes(sweepAt(data.now, player.time));
     page.now.put(positionsAt(data.motion, player.time), {});
     refresh();

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -16,11 +17,24 @@ from urdfsync.urdf.kinematics import poses
 from urdfsync.urdf.kinematics.loops import ClosedLoops, Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.meshes.convert import stated_triangles as stated_triangles
 from urdfsync.urdf.meshes.convert import triangles as triangles
-from urdfsync.urdf.model.shapes import link_shapes, standing_height
+from urdfsync.urdf.model.shapes import GREY, link_shapes, standing_height
 from urdfsync.urdf.named_poses import named_poses as named_poses
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, UnitName
+from urdfsync.urdf.robot import (
+    JOINT_KINDS,
+    MOTION_KINDS,
+    Collision,
+    Joint,
+    Link,
+    Loop,
+    Material,
+    Mesh,
+    Robot,
+    UnitName,
+    Visual,
+)
 
 _NO_FACTS = {"bounds": (), "hull": ()}
 """Stands for the missing facts of a mesh that is too large for the package. The picture needs no facts."""
@@ -44,6 +58,48 @@ def scene(
     loops = tuple(_loop(tree, loop, closed.closures[loop.name]) for loop in tree.loops)
     height = standing_height(tree, imports) if options.base == "floating" else None
     return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops, height), names
+
+
+def with_numbers(
+    robot: Robot, numbers: Mapping[tuple[str, str], Sequence[float]]
+) -> tuple[Robot, Collection[tuple[str, str]]]:
+    """Return a robot with other numbers, by element and path in its record, and the places that it lacks."""
+    kinds: dict[str, Sequence[Any]] = {"link": robot.links, "joint": robot.joints, "loop": robot.loops}
+    parts: dict[str, Any] = {f"{kind} {part.name}": part for kind, own in kinds.items() for part in own}
+    lacking = set[tuple[str, str]]()
+    for (element, path), values in numbers.items():
+        changed = _changed(parts.get(element), path.split("."), values)
+        if changed is None:
+            lacking.add((element, path))
+        else:
+            parts[element] = changed
+    changes = {f"{kind}s": tuple(parts[f"{kind} {part.name}"] for part in own) for kind, own in kinds.items()}
+    return msgspec.structs.replace(robot, **changes), lacking
+
+
+def _changed(part: Any, path: Sequence[str], values: Sequence[float]) -> Any:
+    """Return a part of a robot with other values at a path of its record; None if it has no such place."""
+    (name, *rest), new = path, None
+    if isinstance(part, Visual) and name in ("color", "opacity"):
+        *color, opacity = (part.material and part.material.rgba) or (*(tone / 255 for tone in GREY), 1.0)
+        rgba = (*(tone / 255 for tone in values), opacity) if name == "color" else (*color, *values)
+        return msgspec.structs.replace(part, material=Material(rgba=rgba)) if len(rgba) == 4 else None
+    if isinstance(part, Visual | Collision) and name != "origin":
+        return (new := _changed(part.geometry, path, values)) and msgspec.structs.replace(part, geometry=new)
+    shape = re.fullmatch(r"(visual|collision)(\d+)", name)
+    field = f"{shape[1]}s" if shape else "limit" if name == "limits" else re.sub("(?=[A-Z])", "_", name).lower()
+    old: Any = getattr(part, field, None)
+    if shape and rest and old and 0 < (number := int(shape[2])) <= len(old):
+        changed = _changed(old[number - 1], rest, values)
+        new = (*old[: number - 1], changed, *old[number:]) if changed is not None else None
+    elif rest:
+        new = _changed(old, rest, values)
+    elif isinstance(old, tuple) and len(old) == len(values):
+        length = math.hypot(*values) if field == "axis" else 1.0
+        new = tuple(value / length for value in values) if length else None
+    elif isinstance(old, float) and len(values) == 1:
+        (new,) = values
+    return None if new is None else msgspec.structs.replace(part, **{field: new})
 
 
 def _mesh_name(key: str, file: Import, imports: Mapping[str, Import]) -> str:

@@ -72,6 +72,7 @@ def find_lasting(inputs: Inputs, generation: Generation, decision: Decision, rea
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
     findings += _unmerged(inputs, reads)
     findings += () if inputs.has_moved else _twin(inputs)
+    findings += _unlisted(inputs, decision)
     findings += tell_unused(decision.differences.unused, (), file, generation.reading)
     return [*generation.diagnostics, *map(inputs.source.locate, findings)]
 
@@ -186,6 +187,20 @@ def _twin(inputs: Inputs) -> Iterator[Diagnostic]:
     if other and other != inputs.robot.output / name:
         message, hint = f"there is another class `{name}`", "move the files that you need, then delete it"
         yield Diagnostic(Severity.WARNING, "left-behind", message, shown(other), hint=hint)
+
+
+def _unlisted(inputs: Inputs, decision: Decision) -> Iterator[Diagnostic]:
+    """Yield a warning for each class of the user's in the package that the `package.order` beside it does not name."""
+    for action in decision.actions:
+        if action.reason is Reason.UNKNOWN:
+            from urdfsync.modelica.layout import check_order  # the parser takes a while to load
+
+            folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
+            order = f"{folder}/package.order"
+            if text := decision.texts.get(order, inputs.files.text(order)):
+                lacks = (finding for finding in check_order(text, {name}, None) if finding.code == "order-lacks")
+                file = shown(inputs.files.path(order))
+                yield from (msgspec.structs.replace(finding, file=file) for finding in lacks)
 
 
 def _first(names: Sequence[str], most: int) -> str:

@@ -9,7 +9,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.domain.scene import PageMesh
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.meshes.process import MeshError, MeshProcess, MeshRequest
+from urdfsync.urdf.meshes.process import STL_COUNT, MeshError, MeshProcess, MeshRequest, is_binary_stl
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 
@@ -45,6 +45,11 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
     is_split = colors == lookup.PARTS and parts
     more = tuple(Conversion(part, its_facts) for part, its_facts in parts)
     return Conversion(content if lookup.as_is(mesh) and not is_split else whole, facts, more)
+
+
+def stated_triangles(content: bytes) -> int | None:
+    """Return the number of triangles in the head of a binary STL file; None for any other file."""
+    return int.from_bytes(content[STL_COUNT], "little") if is_binary_stl(content) else None
 
 
 def triangles(path: str, content: bytes, key: str, most: int) -> PageMesh | str:

@@ -74,14 +74,19 @@ def import_form(mesh: Triangles, scale: Vector, with_hull: bool) -> tuple[Triang
 
     See `volume` and `support_points`. Raises MeshError for numbers too large for STL.
     """
+    mesh = scaled(mesh, scale)
+    points = _used_points(mesh)
+    facts = {"bounds": bounds(points), "volume": volume(mesh)}
+    return mesh, facts | ({"hull": support_points(points)} if with_hull else {})
+
+
+def scaled(mesh: Triangles, scale: Vector) -> Triangles:
+    """Return a mesh in metres. Raises MeshError for numbers too large for STL."""
     with np.errstate(over="ignore", invalid="ignore"):
-        scaled = placed(mesh, np.diag((*scale, 1.0)))
-    points = _used_points(scaled)
-    extent = bounds(points)
-    if not (np.abs(extent) <= _LARGEST).all():
+        mesh = placed(mesh, np.diag((*scale, 1.0)))
+    if not (np.abs(_used_points(mesh)) <= _LARGEST).all():
         raise MeshError("the file has coordinates that are infinite, or too large for single precision")
-    facts = {"bounds": extent, "volume": volume(scaled)}
-    return scaled, facts | ({"hull": support_points(points)} if with_hull else {})
+    return mesh
 
 
 def _used_points(mesh: Triangles) -> Array:
@@ -120,7 +125,8 @@ def obj(mesh: Triangles) -> bytes:
 
 def bounds(points: Array) -> list[list[float]]:
     """Return the least and the greatest coordinates of `points` (n × 3): `[[x, y, z], [x, y, z]]`."""
-    return [points.min(axis=0).tolist(), points.max(axis=0).tolist()]
+    columns = np.ascontiguousarray(points.T)  # numpy is ten times slower along the other axis
+    return [columns.min(axis=1).tolist(), columns.max(axis=1).tolist()]
 
 
 def volume(mesh: Triangles) -> float:

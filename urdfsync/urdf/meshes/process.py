@@ -36,7 +36,7 @@ MeshFacts: TypeAlias = dict[str, Any]
 """Facts of a shape by name: see `convert`."""
 
 
-_STL_COUNT = slice(80, 84)
+STL_COUNT = slice(80, 84)
 _STL_FACET = 50
 
 
@@ -82,7 +82,7 @@ class MeshAnswer(msgspec.Struct, frozen=True):
 
 def is_binary_stl(content: bytes) -> bool:
     """Return whether an STL file is binary. Some binary files begin with `solid`, as texts do."""
-    return len(content) == _STL_COUNT.stop + _STL_FACET * int.from_bytes(content[_STL_COUNT], "little")
+    return len(content) == STL_COUNT.stop + _STL_FACET * int.from_bytes(content[STL_COUNT], "little")
 
 
 class MeshProcess:

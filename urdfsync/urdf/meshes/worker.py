@@ -55,8 +55,7 @@ def _answer(request: MeshRequest, content: bytes, others: Mapping[str, bytes]) -
                     if is_plain
                     else read_mesh(request.suffix, content, others, math.inf)
                 )
-                mesh, _ = geometry.import_form(read, request.scale, with_hull=False)
-                packed, facts = simplify.packed(mesh, request.most)
+                packed, facts = simplify.packed(geometry.scaled(read, request.scale), request.most)
                 files, all_facts = [packed], [facts]
             elif not request.colors:
                 read = read_mesh(request.suffix, content, others)
