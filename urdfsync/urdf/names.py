@@ -70,6 +70,8 @@ def is_reserved(spelling: str) -> bool:
 
 def spell(name: str, kind: str) -> str:
     """Return the identifier of an element without a twin: the name, or the usable part of the name with a hash."""
+    if name == "world":  # the root of nearly all sources in MJCF and SDF
+        return f"{name}{kind.capitalize()}"
     plain = name.replace("-", "__")
     if _PLAIN.fullmatch(name) and len(plain) <= LONGEST and not is_reserved(plain):
         return plain[0].lower() + plain[1:]
