@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from support.mjcfs import ARM, FOLDER, SOURCE, body, document, problem, read, world
+from support.mjcfs import ARM, FOLDER, SOURCE, body, document, joint, link, problem, read, stl, urdf, world
 
+from urdfsync.mjcf.comparison import compare
 from urdfsync.mjcf.document import read_document
 from urdfsync.mjcf.urdf import translated
 from urdfsync.translation.files import Files
@@ -42,6 +43,25 @@ def test_each_element_has_a_place() -> None:
     lines = text.splitlines()
     number = next(number for number, line in enumerate(lines, 1) if '<joint name="hip"' in line)
     assert [place[1:] for place in places if place[0] <= number][-1] == (f"{FOLDER}/leg.xml", 3)
+
+
+def test_an_attached_model_has_a_compiler_of_its_own() -> None:
+    """Its angles, its folder of meshes, and masses that follow from them."""
+    part = (
+        '<mujoco model="part"><compiler angle="radian" meshdir="shapes" inertiafromgeom="true"/><asset>'
+        '<mesh name="m" file="a.stl"/></asset><worldbody><body name="tip"><joint name="j" range="-1 1"/>'
+        '<inertial pos="0 0 0" mass="5" diaginertia="1 1 1"/><geom type="mesh" mesh="m"/></body></worldbody></mujoco>'
+    )
+    asset = '<asset><model name="part" file="sub/part.xml"/></asset>'
+    text = body('<joint range="-90 90"/><attach model="part" body="tip" prefix="p_"/>', asset)
+    files: dict[str, str | bytes] = {"sub/part.xml": part, "sub/shapes/a.stl": stl(0.1)}
+    robot = read(text, files)
+    inertial, limit = link(robot, "p_tip").inertial, joint(robot, "p_j").limit
+    assert inertial is not None
+    assert limit is not None
+    assert inertial.mass == pytest.approx(1, rel=1e-6)
+    assert limit.upper == 1
+    assert compare(document(text, files), urdf(text, files))[1] == ()
 
 
 def test_an_attached_model_has_places_of_its_own() -> None:

@@ -8,7 +8,8 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from support.mjcfs import document, joint, noted, read, urdf, world
+from support import packages
+from support.mjcfs import document, joint, left_out, noted, read, urdf, world
 
 from urdfsync.mjcf.comparison import compare
 from urdfsync.urdf.robot import Servo
@@ -152,6 +153,49 @@ def test_an_actuator_that_is_switched_off_has_no_law() -> None:
     assert (joint(read(text), "d").command, joint(read(text), "d").servo) == ("velocity", Servo(velocity_gain=5.0))
     assert noted(text) == "not modelled: 1 <inactive>"
     assert compare(document(text), urdf(text))[1] == ()
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        '<pid name="p" joint="a" kp="50" kv="1" ki="2"/>',
+        '<pid name="p" joint="a" kp="50" input="pos"/>',
+        '<orientation name="p" joint="q" kp="50"/>',
+        '<damper name="p" joint="a" kv="2" ctrlrange="0 1"/>',
+        '<dcmotor name="p" joint="a" motorconst="0.5" resistance="2" input="none"/>',
+    ],
+)
+def test_actuators_with_several_controls_or_none_take_nothing_from_the_next(other: str) -> None:
+    """Since MuJoCo 4, controls and actuators are not one to one."""
+    law = '<position joint="d" kp="50" kv="3" gear="2" ctrlrange="-0.5 1"/>'
+    ball = '<body><joint name="q" type="ball"/><geom size="0.1"/></body></body></body></worldbody>'
+    text = model_of(law)[0].replace("</body></body></worldbody>", ball)
+    with_other = text.replace("<actuator>", f"<actuator>{other}")
+    if "damper" not in other and "pid" not in mujoco.mj_printSchema(flg_html=False, flg_pad=False):
+        pytest.skip("of MuJoCo 4")
+    assert joint(read(with_other), "d").servo == joint(read(text), "d").servo
+    assert left_out(with_other) == ["actuator p"]
+    assert compare(document(with_other), urdf(with_other))[1] == ()
+
+
+def test_a_delay_is_noted() -> None:
+    """The law acts at once, and `check` compares the law alone."""
+    text, _ = model_of('<position joint="d" kp="50" nsample="3" delay="0.004"/>')
+    if "delay" not in mujoco.mj_printSchema(flg_html=False, flg_pad=False):
+        pytest.skip("of a newer MuJoCo")
+    assert noted(text) == "not modelled: 1 <delay>"
+    assert compare(document(text), urdf(text))[1] == ()
+
+
+@pytest.mark.parametrize(("limits", "is_told"), [("-90 60", True), ("-1.5708 1.0472", False), ("-90 90", False)])
+def test_a_command_in_degrees_is_told(limits: str, is_told: bool) -> None:
+    """MuJoCo reads ranges of joints in degrees, and those of commands in rad."""
+    text = model_of(f'\n<position joint="d" kp="50" ctrlrange="{limits}"/>', ("", ' range="-90 60"'))[0]
+    text = text.replace('angle="radian"', 'angle="degree"').replace('ref="0.2"', "")
+    found = [each for each in packages.read(urdf(text).encode()).diagnostics if each.code == "angle-unit"]
+    assert len(found) == is_told
+    if is_told:
+        assert found[0].message == "joint d: -90 and 60 rad, the drive's limits, may be in degrees"
 
 
 def test_the_range_of_a_delayed_activation_limits_the_effort() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mujoco
 import pytest
 from support.mjcfs import SOURCE, body, document, left_out, noted, read, urdf, world
 
@@ -28,11 +29,11 @@ SITES = '<site name="s" pos="0 0 1"/><site name="t"/>'
             '<contact><exclude body1="world" body2="part"/></contact>',
             "contact without the ground",
         ),
-        ("<joint/>", '<option density="1.2"/>', "fluid density"),
+        ("<joint/>", '<option density="1.2"/>', "density of option"),
         (
             '<joint name="j"/>',
             '<actuator><motor name="m" joint="j" armature="1"/></actuator>',
-            "armature or damping of actuator m",
+            "armature of actuator m",
         ),
         (
             f"<joint/>{SITES}",
@@ -78,7 +79,7 @@ def test_a_pose_at_home_that_is_no_number_of_a_joint_is_noted() -> None:
 
 def test_gravity_compensation_is_left_out_with_an_error() -> None:
     inertial = '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>'
-    assert left_out(world(f'<body name="a" gravcomp="1"><joint/>{inertial}</body>')) == ["gravity compensation a"]
+    assert left_out(world(f'<body name="a" gravcomp="1"><joint/>{inertial}</body>')) == ["gravcomp of body a"]
 
 
 def test_a_tendon_without_effect_is_only_drawn() -> None:
@@ -111,6 +112,47 @@ def test_a_body_beside_the_robot_is_noted() -> None:
 
 def test_a_constraint_that_gives_way_is_noted() -> None:
     assert noted(body('<joint range="-1 1" solreflimit="0.1 1"/>')) == "not modelled: 1 <solreflimit>"
+
+
+def test_gravity_of_two_decimals_is_noted() -> None:
+    text = body("<joint/>", '<option gravity="0 0 -9.8"/>')
+    assert (left_out(text), noted(text)) == ([], "not modelled: 1 <gravity>")
+
+
+def grounded(floor: str, foot: str) -> str:
+    """A floating ball above a floor."""
+    ground = f'<worldbody><geom name="floor" type="plane" size="1 1 1" {floor}/>'
+    return body(f'<freejoint/><geom name="foot" size="0.1" {foot}/>').replace("<worldbody>", ground)
+
+
+@pytest.mark.parametrize(
+    ("floor", "foot", "friction"),
+    [
+        ("", 'friction="0.3"', 1.0),  # the greater one
+        ('friction="0.2"', 'friction="0.3"', 0.3),
+        ('friction="0.2" priority="1"', 'friction="0.3"', 0.2),
+        ("", 'friction="0.3" priority="1"', 0.3),
+        ('contype="2" conaffinity="2"', 'friction="0.3"', None),
+        ('contype="2" conaffinity="2"', 'conaffinity="2" friction="1.5"', 1.5),
+    ],
+)
+def test_a_foot_touches_the_floor_as_in_mujoco(floor: str, foot: str, friction: float | None) -> None:
+    """With the friction of both, and only if their bits meet."""
+    (part,) = read(grounded(floor, foot)).links
+    assert len(part.collisions) == (friction is not None)
+    assert (part.contact.mu if part.contact else None) == friction
+
+
+@pytest.mark.parametrize(
+    ("floor", "note"), [("", ""), ('euler="0 20 0"', "not modelled: 1 <ground>"), ('pos="0 0 -1"', "")]
+)
+def test_a_slope_is_noted(floor: str, note: str) -> None:
+    assert noted(grounded(floor, "")) == note
+
+
+def test_a_moving_floor_acts_on_the_robot() -> None:
+    if "surfacevel" in mujoco.mj_printSchema(flg_html=False, flg_pad=False):  # since MuJoCo 4
+        assert left_out(grounded('surfacevel="1 0 0 0 0 0"', "")) == ["surfacevel of geom floor"]
 
 
 def test_contacts_of_another_body_with_the_ground_are_its_own() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mujoco
 import pytest
 from support.mjcfs import body, problem, read, world
 
@@ -31,7 +32,8 @@ def test_a_fault_has_a_line(text: str, told: str) -> None:
 
 
 def test_a_newer_format_is_told() -> None:
-    assert "or install a newer MuJoCo than" in problem(body("<wormhole/>"))
+    assert problem(body("<wormhole/>")).endswith(f"correct it: MuJoCo {mujoco.__version__} does not know it")
+    assert "does not know" not in problem(body("<joint/><geom/>"))
 
 
 def test_a_model_with_two_robots_asks_which() -> None:
@@ -40,6 +42,25 @@ def test_a_model_with_two_robots_asks_which() -> None:
     assert [each.name for each in read(TWO, robot="right").links] == ["world", "right"]
     assert [each.name for each in read(TWO, robot="world").links] == ["world", "left", "right"]
     assert problem(TWO, robot="rigt").endswith("there is no body 'rigt' below the world; perhaps 'right' is meant")
+
+
+@pytest.mark.parametrize(
+    "equality",
+    [
+        '<connect body1="left" body2="right" anchor="0 0 0"/>',
+        '<weld site1="s" site2="t"/>',
+        '<joint joint1="a" joint2="b"/>',
+    ],
+)
+def test_bodies_that_an_equality_joins_are_one_robot(equality: str) -> None:
+    left = '<body name="left"><joint name="a"/><geom size="0.1"/><site name="s"/></body>'
+    right = '<body name="right"><joint name="b"/><geom size="0.1"/><site name="t"/></body>'
+    text = world(left + right).replace("</mujoco>", f"<equality>{equality}</equality></mujoco>")
+    robot = read(text)
+    assert {each.name for each in robot.links} == {"world", "left", "right", "s", "t"}
+    assert robot.loops or any(joint.mimic for joint in robot.joints)
+    alone = text.replace("<equality>", "<equality>").replace("/></equality>", ' active="false"/></equality>')
+    assert "the model has 2 robots" in problem(alone)
 
 
 def test_a_loose_object_is_no_robot_beside_one() -> None:

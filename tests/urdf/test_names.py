@@ -120,6 +120,7 @@ def test_only_names_that_lose_something_have_a_hash() -> None:
     ]:
         assert re.fullmatch(f"{stem}_[0-9a-f]{{6}}", spell(name, "link"))
     assert spell("a.b", "link") != spell("a.b", "joint")
+    assert spell("world", "link") == "worldLink"
 
 
 def test_letters_are_read_only_when_a_name_needs_it() -> None:

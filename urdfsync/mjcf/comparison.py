@@ -18,7 +18,7 @@ import mujoco
 import numpy as np
 
 from urdfsync.mjcf.document import MjcfDocument
-from urdfsync.mjcf.drives import Drives
+from urdfsync.mjcf.drives import Drives, JointActuator
 from urdfsync.mjcf.scene import WORLD, MujocoScene, read_scene
 from urdfsync.urdf.parse.xml import parse
 
@@ -56,8 +56,10 @@ class _Joint(NamedTuple):
 
 def compare(document: MjcfDocument, text: str, body: str = "") -> tuple[int, tuple[str, ...]]:
     """Return how many numbers were compared, and a line for each quantity that differs. Raises TranslationError."""
-    scene = read_scene(document, body)
+    scene = read_scene(document, body, with_meshes=True)
     root = parse(text.encode()).root
+    if hasattr(scene.model, "actuator_delay"):  # newer versions have it
+        scene.model.actuator_delay[:] = 0.0
     efforts = [*_efforts(scene, root), *_laws(scene, root)]
     _leave_out(scene)
     model = _read_urdf(root, scene.links[scene.root] if scene.is_floating else "")
@@ -179,22 +181,21 @@ def _efforts(scene: MujocoScene, root: Element) -> Iterator[_Numbers]:
             model.actuator_gainprm[:], model.actuator_biasprm[:] = 0.0, 0.0
             model.actuator_gainprm[motor.actuator] = gains[motor.actuator]
             model.actuator_biasprm[motor.actuator] = biases[motor.actuator]
-            total += max(abs(_effort(model, moved, side, motor.gear)) for side in (1, -1))
+            total += max(abs(_effort(model, moved, side, motor)) for side in (1, -1))
         if model.jnt_actfrclimited[leader]:
             total = min(total, float(np.abs(model.jnt_actfrcrange[leader]).max()))
         written = np.array([float(limit.get("effort", "nan"))])
         yield _Numbers("greatest effort", f"joint {scene.joints[leader]}", np.array([total]), written)
 
 
-def _effort(model: Any, moved: Mapping[int, float], side: int, gear: float) -> float:
+def _effort(model: Any, moved: Mapping[int, float], side: int, motor: JointActuator) -> float:
     """Return the effort of the only motor at the first of the `moved` joints, with those that follow it."""
     data = mujoco.MjData(model)
     for joint, factor in moved.items():
         position, velocity = _places(model, joint)
         data.qpos[position], data.qvel[velocity] = -side * factor * _FAR, -side * factor * _FAR
-    data.ctrl[:] = data.act[:] = side * np.sign(gear) * _FAR
-    for number in np.flatnonzero(model.actuator_actadr >= 0):
-        data.act[model.actuator_actadr[number]] = _settled(model, int(number), float(data.ctrl[0]))
+    data.ctrl[:] = ctrl = side * float(np.sign(motor.gear)) * _FAR
+    data.act[:] = _settled(model, motor.actuator, ctrl)
     for step in (mujoco.mj_fwdPosition, mujoco.mj_fwdVelocity, mujoco.mj_fwdActuation):
         step(model, data)
     efforts = (factor * data.qfrc_actuator[_places(model, joint)[1]] for joint, factor in moved.items())
@@ -310,8 +311,9 @@ class _Actuator:
 def _settled(model: Any, actuator: int, ctrl: float) -> float:
     """Return the activation of an actuator that has had a command for long; the integral of a command is `ctrl`."""
     integrates = model.actuator_dyntype[actuator] == mujoco.mjtDyn.mjDYN_INTEGRATOR
-    if model.actuator_ctrllimited[actuator] and not integrates:
-        ctrl = float(np.clip(ctrl, *model.actuator_ctrlrange[actuator]))
+    at = getattr(model, "actuator_ctrladr", range(model.nu))[actuator]
+    if model.actuator_ctrllimited[at] and not integrates:
+        ctrl = float(np.clip(ctrl, *model.actuator_ctrlrange[at]))
     if model.actuator_actlimited[actuator]:
         ctrl = float(np.clip(ctrl, *model.actuator_actrange[actuator]))
     return ctrl

@@ -21,8 +21,10 @@ from urdfsync.translation.writer import in_xml
 
 _LEFT_OUT = ("texture", "hfield", "skin")
 """Elements that only draw, or are terrain."""
-_NOTED = frozenset({*_LEFT_OUT, "light", "camera", "exclude", "numeric", "text", "tuple"})
-"""Elements without an effect on the robot."""
+FLEXIBLE = ("flex", "flexcomp")
+"""Elements of flexible bodies."""
+_NOTED = frozenset({*_LEFT_OUT, *FLEXIBLE, "light", "camera", "exclude", "numeric", "text", "tuple"})
+"""Elements that no model has."""
 _OF_TEXTURES = ("texture", "texrepeat", "texuniform")
 """Attributes of materials and lights that refer to textures."""
 _FOLDERS = ("meshdir", "texturedir", "assetdir", "strippath")
@@ -45,7 +47,7 @@ class MjcfDocument(NamedTuple):
     models: dict[str, str]
     """Texts of the models that the text attaches, by their names in it."""
     noted: list[tuple[str, str, SourcePlace]]
-    """Tag, name and place of each element without an effect on the robot."""
+    """Tag, name and place of each element that no model has."""
 
     def place(self, line: int) -> SourcePlace:
         """Return the place of a line; the first place for an unknown line."""

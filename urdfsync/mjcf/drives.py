@@ -22,12 +22,13 @@ from urdfsync.mjcf.scene import MujocoScene
 from urdfsync.translation.writer import UrdfElement, rounded
 from urdfsync.urdf.robot import Command
 
-_HOME = "home"
+HOME = "home"
 """The key with the start positions."""
 _AXES = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
 _SIZES = {int(mujoco.mjtJoint.mjJNT_BALL): 4, int(mujoco.mjtJoint.mjJNT_FREE): 7}
 """Numbers of a pose."""
 _OF_JOINT = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
+_OF_SITE = (int(mujoco.mjtTrn.mjTRN_SITE), int(mujoco.mjtTrn.mjTRN_SLIDERCRANK))
 
 
 class Follower(NamedTuple):
@@ -97,9 +98,10 @@ class Drives:
         self._read_couplings()
         self.motors = defaultdict[int, list[JointActuator]](list)
         groups = scene.model.opt.disableactuator
-        self.disabled = [n for n in range(scene.model.nu) if groups & 1 << int(scene.model.actuator_group[n])]
+        actuators = range(len(scene.controls))
+        self.disabled = [n for n in actuators if groups & 1 << int(scene.model.actuator_group[n])]
         """Actuators that an option switches off."""
-        for number in range(scene.model.nu):
+        for number in actuators:
             if number not in self.disabled:
                 self._read_motor(number)
 
@@ -160,8 +162,9 @@ class Drives:
             if pulls and not any(joint in self.joints for joint, _ in pulls):
                 return
         else:
-            pulls, at = [], target if kind == mujoco.mjtTrn.mjTRN_BODY else int(model.site_bodyid[target])
-            if at not in self.scene.bodies:
+            bodies = {int(mujoco.mjtTrn.mjTRN_BODY): range(model.nbody)} | dict.fromkeys(_OF_SITE, model.site_bodyid)
+            pulls = []
+            if kind in bodies and int(bodies[kind][target]) not in self.scene.bodies:
                 return
         for joint, factor in pulls:
             leader, multiplier = self.leader(joint)
@@ -170,11 +173,11 @@ class Drives:
         if command is None or len(moved) != 1 or not self._has_axis(joint := next(iter(moved))):
             self.leave_out("actuator", "actuator", number)
             return
-        gear = float(model.actuator_gear[number][0]) * moved[joint]
+        own_gear = float(model.actuator_gear[self.scene.outputs[number]][0])
+        gear, length = own_gear * moved[joint], own_gear * sum(factor * self.offset(joint) for joint, factor in pulls)
         if not gear:
             self.leave_out("actuator without gear", "actuator", number)
             return
-        length = float(model.actuator_gear[number][0]) * sum(factor * self.offset(joint) for joint, factor in pulls)
         servo, effort = self._read_law(number, command, gear, length, pulls)
         self.motors[joint].append(JointActuator(number, command, gear, effort, servo))
 
@@ -190,6 +193,8 @@ class Drives:
         model = self.scene.model
         _, stiffness, damping = model.actuator_biasprm[number][:3]
         if model.actuator_gaintype[number] != mujoco.mjtGain.mjGAIN_FIXED or model.actuator_plugin[number] >= 0:
+            return None
+        if hasattr(model, "actuator_ctrlnum") and model.actuator_ctrlnum[number] != 1:  # since MuJoCo 4
             return None
         if model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR:
             is_fed_back = model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE and stiffness
@@ -222,8 +227,9 @@ class Drives:
         # `scale` and `constant` make the joint's reference of ctrl, or of the activation that replaces ctrl
         integrates = model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR
         reference = "position" if stiffness else "velocity" if damping else "effort"
-        if model.actuator_ctrllimited[number] and not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL:
-            ctrl = model.actuator_ctrlrange[number]
+        at = self.scene.controls[number]
+        if model.actuator_ctrllimited[at] and not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL:
+            ctrl = model.actuator_ctrlrange[at]
             limits.add(command if integrates else reference, ctrl, scale, 0.0 if integrates else constant)
         if model.actuator_actlimited[number]:
             limits.add(reference, model.actuator_actrange[number], scale, constant)
@@ -300,7 +306,7 @@ class Drives:
 
     def _starts(self) -> dict[int, float]:
         """Return the positions of the joints at the key `home`."""
-        home = next((key for key in range(self.scene.model.nkey) if self.scene.name("key", key) == _HOME), None)
+        home = next((key for key in range(self.scene.model.nkey) if self.scene.name("key", key) == HOME), None)
         return {} if home is None else self.positions(home)
 
     def positions(self, key: int) -> dict[int, float]:

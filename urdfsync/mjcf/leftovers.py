@@ -8,15 +8,46 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from urdfsync.mjcf.drives import Drives, OmittedPart
+from urdfsync.mjcf.document import FLEXIBLE
+from urdfsync.mjcf.drives import HOME, Drives, OmittedPart
 from urdfsync.mjcf.scene import MujocoScene
+from urdfsync.mjcf.sensors import READ
+from urdfsync.mjcf.turns import turned
 from urdfsync.translation.writer import UrdfElement
 
 _GRAVITY = (0.0, 0.0, -9.81)
-_SWITCHES = ("GRAVITY", "CONSTRAINT", "EQUALITY", "FRICTIONLOSS", "LIMIT", "ACTUATION", "PASSIVE", "SPRING", "DAMPER")
-"""What the flags of an option may switch off for all joints, as versions of MuJoCo name it."""
-_SOLREF, _SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
-"""MuJoCo's usual softness of a constraint."""
+_SILENT = {
+    "": "childclass classname compiler frame group id parent rgba signature userdata",
+    "joint": "actfrclimited actfrcrange actgravcomp align armature axis damping frictionloss limited pos range ref "
+    "springdamper springref stiffness type",
+    "geom": "alt castshadow conaffinity contype density fitscale fluid_coefs fluid_ellipsoid friction fromto mass "
+    "plugin pos quat size type typeinertia",
+    "body": "alt explicitinertial fullinertia fuse ialt inertia ipos iquat mass mocap plugin pos quat simple sleep",
+    "tendon": "limited margin range solimp_friction solimp_limit solref_friction solref_limit springlength width",
+    "equality": "active data objtype type",
+    "actuator": "actdim actlimited actrange biasprm biastype cranklength ctrllimited ctrlrange ctrlspec dynprm dyntype "
+    "ffrange forcelimited forcerange gainprm gaintype gear inheritrange interp lengthrange nsample plugin trntype type "
+    "velrange",
+    "sensor": "datatype dim interp intprm needstage noise nsample objtype plugin reftype type",
+    "option": "ccd_iterations ccd_tolerance disableactuator disableflags enableflags gravity integrator iterations "
+    "jacobian ls_iterations ls_tolerance magnetic noslip_iterations noslip_tolerance o_friction o_margin o_solimp "
+    "o_solref sdf_initpoints sdf_iterations sleep_tolerance solver timestep tolerance wind",
+    "flag": "autoreset clampctrl diagexact energy eulerdamp filterparent fwdinv invdiscrete ipc island midphase "
+    "multiccd nativeccd refsafe sleep speculative warmstart",
+}
+"""Attributes by kinds of elements, and of all kinds, that are translated, are told elsewhere, or change no motion.
+
+Any other one that differs from MuJoCo's default acts, also one of a newer version. The names are those of a `MjSpec`.
+"""
+_NOTED = {
+    "joint": "margin solimp_friction solimp_limit solref_friction solref_limit",
+    "geom": "condim gap margin priority solimp solmix solref",
+    "equality": "solimp solref",
+    "actuator": "actearly delay",
+    "sensor": "cutoff delay interval",
+    "option": "cone impratio",
+}
+"""Attributes that act, but only a note counts them: they say how contacts, constraints, sensors and commands behave."""
 _AT_ONCE = (mujoco.mjtDyn.mjDYN_NONE, mujoco.mjtDyn.mjDYN_INTEGRATOR)
 """Dynamics of actuators without a delay: an integrator of a velocity is a command of the velocity."""
 _FREE, _BALL = mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL
@@ -26,60 +57,94 @@ def find_left_out(scene: MujocoScene, drives: Drives) -> None:
     """Add to the drives' list what acts on the robot by other means than joints and motors."""
     model = scene.model
     for joint in drives.joints:
-        kind, dof = model.jnt_type[joint], model.jnt_dofadr[joint]
+        kind, dof, name = model.jnt_type[joint], model.jnt_dofadr[joint], scene.joints[joint]
         if _any(model, "jnt_stiffnesspoly", joint):
-            drives.leave_out("spring that is not linear", "joint", joint, scene.joints[joint])
+            drives.leave_out("spring that is not linear", "joint", joint, name)
         elif model.jnt_stiffness[joint] and int(kind) in (_FREE, _BALL):
-            drives.leave_out("spring", "joint", joint, scene.joints[joint])
+            drives.leave_out("spring", "joint", joint, name)
         if _any(model, "dof_dampingpoly", dof):
-            drives.leave_out("damping that is not linear", "joint", joint, scene.joints[joint])
+            drives.leave_out("damping that is not linear", "joint", joint, name)
         if kind == _BALL and (model.jnt_limited[joint] or model.dof_armature[dof] or model.dof_frictionloss[dof]):
-            drives.leave_out("range, armature or friction of a ball", "joint", joint, scene.joints[joint])
-        if kind == _FREE and any(values[dof : dof + 6].any() for values in _losses(model)):
-            drives.leave_out("losses of a free joint", "joint", joint, scene.joints[joint])
-    for motor in (motor for motors in drives.motors.values() for motor in motors):
-        if any(_any(model, f"actuator_{name}", motor.actuator) for name in ("armature", "damping", "dampingpoly")):
-            drives.leave_out("armature or damping of actuator", "actuator", motor.actuator)
+            drives.leave_out("range, armature or friction of a ball", "joint", joint, name)
+        losses = (model.dof_damping, model.dof_frictionloss, model.dof_armature)
+        if kind == _FREE and any(values[dof : dof + 6].any() for values in losses):
+            drives.leave_out("losses of a free joint", "joint", joint, name)
     for body in scene.bodies:
-        if model.body_gravcomp[body]:
-            drives.leave_out("gravity compensation", "body", body, scene.links[body])
         if model.body_plugin[body] >= 0:
             drives.leave_out("plugin", "body", body, scene.links[body])
     for tendon in range(model.ntendon):
         pulls = [joint for joint, _ in drives.pulls(tendon)]
-        acts = model.tendon_limited[tendon] or any(np.any(values[tendon]) for values in _forces(model))
+        silent = f"{_SILENT['']} {_SILENT['tendon']}".split()
+        acts = model.tendon_limited[tendon] or any(scene.unusual("tendon", tendon, silent))
         if acts and (not pulls or any(joint in drives.joints for joint in pulls)):
             drives.leave_out("tendon", "tendon", tendon)
     for pair in range(model.npair):
         geoms = model.pair_geom1[pair], model.pair_geom2[pair]
         if any(int(model.geom_bodyid[geom]) in scene.bodies[not scene.is_floating :] for geom in geoms):
             drives.leave_out("contact pair", "pair", pair)
-    for flex in range(model.nflex):
-        drives.leave_out("flexible body", "flex", flex)
     for number in range(model.nexclude if scene.is_floating else 0):
         signature = int(model.exclude_signature[number])
         excluded = {signature >> 16, signature & 0xFFFF}
         if 0 in excluded and not excluded.isdisjoint(scene.bodies):
-            drives.left_out.append(
-                OmittedPart("contact without the ground", "", _option_line(scene, "exclude", "body1"))
-            )
-    _find_global(scene, drives)
+            line = _option_line(scene, "exclude", "body1")
+            drives.left_out.append(OmittedPart("contact without the ground", "", line))
+    drives.left_out += [part for part, is_noted in _unusual(scene, drives) if not is_noted]
+    silent = _SILENT["flag"].split() + ([] if scene.is_floating else ["contact", "override"])
+    for word, bits, flags in (
+        ("disabled", mujoco.mjtDisableBit, model.opt.disableflags),
+        ("enabled", mujoco.mjtEnableBit, model.opt.enableflags),
+    ):
+        for bit in (bits(1 << place) for place in range(32) if flags & 1 << place):
+            if (name := bit.name.partition("_")[2].lower()) not in silent:
+                drives.left_out.append(OmittedPart(f"{word} flag", name, _option_line(scene, "flag", name)))
 
 
-def _find_global(scene: MujocoScene, drives: Drives) -> None:
-    """Add what acts on all bodies: switches, another gravity, or a fluid."""
+def _unusual(scene: MujocoScene, drives: Drives) -> Iterator[tuple[OmittedPart, bool]]:
+    """Yield each attribute that acts on the robot beside those that the translation reads; True if a note counts it.
+
+    What is noted is the attribute alone.
+    """
     model = scene.model
-    for name in (*_SWITCHES, *["CONTACT"] * scene.is_floating):
-        if model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{name}", 0):
-            drives.left_out.append(
-                OmittedPart("disabled flag", name.lower(), _option_line(scene, "flag", name.lower()))
-            )
-    if not np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
-        words = " ".join(f"{value:g}" for value in model.opt.gravity)
-        drives.left_out.append(OmittedPart("gravity", words, _option_line(scene, "option", "gravity")))
-    for name in ("density", "viscosity"):
-        if getattr(model.opt, name):
-            drives.left_out.append(OmittedPart("fluid", name, _option_line(scene, "option", name)))
+    for kind, number, name in _acting(scene, drives):
+        noted = [] if kind == "option" and not scene.is_floating else _NOTED.get(kind, "").split()
+        silent = {*_SILENT[""].split(), *_SILENT[kind].split(), *(_NOTED["option"].split() if not noted else ())}
+        for field in scene.unusual(kind, number, silent):
+            line = _option_line(scene, kind, field) if kind == "option" else scene.line(kind, number)
+            is_noted = field in noted
+            yield OmittedPart(field.replace("_", "") if is_noted else f"{field} of {kind}", name, line), is_noted
+        if kind == "equality" and model.eq_type[number] == mujoco.mjtEq.mjEQ_WELD and model.eq_data[number][10] != 1:
+            yield OmittedPart("torquescale", name, scene.line(kind, number)), True
+    for key in (key for key in range(model.nkey) if scene.name("key", key) == HOME):
+        starts = {"qvel": model.key_qvel[key], "act": model.key_act[key]}
+        yield from ((OmittedPart(word, HOME, scene.line("key", key)), True) for word in starts if starts[word].any())
+    if (model.opt.gravity != _GRAVITY).any():
+        is_near, line = (
+            np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01),
+            _option_line(scene, "option", "gravity"),
+        )
+        words = "" if is_near else " ".join(f"{value:g}" for value in model.opt.gravity)
+        yield OmittedPart("gravity", words, line), is_near
+    if scene.is_floating and model.body_quat[scene.root][0] != 1:
+        yield OmittedPart("quat", scene.links[scene.root], scene.line("body", scene.root)), True
+    for geom in scene.ground:
+        if not _is_level(model, geom):
+            yield OmittedPart("ground", scene.name("geom", geom), scene.line("geom", geom)), True
+
+
+def _acting(scene: MujocoScene, drives: Drives) -> Iterator[tuple[str, int, str]]:
+    """Yield the kind, number and name of each element that acts on the robot."""
+    model, bodies = scene.model, {*scene.bodies}
+    yield "option", 0, ""
+    yield from (("joint", joint, scene.joints[joint]) for joint in drives.joints)
+    yield from (("body", body, scene.links[body]) for body in scene.bodies if body)
+    geoms = (n for n in range(model.ngeom) if int(model.geom_bodyid[n]) in bodies and scene.touches(n))
+    others = {
+        "geom": [*scene.ground, *geoms] if scene.is_floating else [],  # other robots do not touch the ground
+        "actuator": [motor.actuator for motors in drives.motors.values() for motor in motors],
+        "equality": [n for n in range(model.neq) if model.eq_active0[n] and not bodies.isdisjoint(scene.ends(n))],
+        "sensor": [n for n in range(model.nsensor) if mujoco.mjtSensor(model.sensor_type[n]) in READ],
+    }
+    yield from ((kind, number, scene.name(kind, number)) for kind, numbers in others.items() for number in numbers)
 
 
 def _option_line(scene: MujocoScene, tag: str, attribute: str) -> int:
@@ -89,23 +154,10 @@ def _option_line(scene: MujocoScene, tag: str, attribute: str) -> int:
     return next((len(lines) - number for number, is_it in enumerate(has) if is_it), 0)
 
 
-def _add_soft(robot: UrdfElement, scene: MujocoScene, drives: Drives) -> None:
-    """Add an element for each constraint that gives way more or less than usual in MuJoCo: no model's does."""
-    model = scene.model
-    for joint in drives.joints:
-        numbers = *model.jnt_solref[joint], *model.jnt_solimp[joint]
-        if model.jnt_limited[joint] and not np.allclose(numbers, (*_SOLREF, *_SOLIMP)):
-            robot.add("solreflimit", scene.line("joint", joint), name=scene.joints[joint])
-        if model.jnt_limited[joint] and model.jnt_margin[joint]:
-            robot.add("margin", scene.line("joint", joint), name=scene.joints[joint])
-    for geom in range(model.ngeom if scene.is_floating else 0):
-        if int(model.geom_bodyid[geom]) in scene.bodies and model.geom_margin[geom]:
-            robot.add("margin", scene.line("geom", geom), name=scene.name("geom", geom) or None)
-    for number in range(model.neq):
-        if not model.eq_active0[number]:
-            robot.add("inactive", scene.line("equality", number), name=scene.name("equality", number) or None)
-        elif not np.allclose((*model.eq_solref[number], *model.eq_solimp[number]), (*_SOLREF, *_SOLIMP)):
-            robot.add("solref", scene.line("equality", number), name=scene.name("equality", number) or None)
+def _is_level(model: Any, geom: int) -> bool:
+    """Return whether a geom is a plane whose normal points upwards."""
+    upwards = turned(model.geom_quat[geom], (0, 0, 1))  # a static body's turn is part of no model
+    return bool(model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE and upwards[2] > 1 - 1e-9)
 
 
 def _any(model: Any, field: str, number: int) -> bool:
@@ -113,45 +165,40 @@ def _any(model: Any, field: str, number: int) -> bool:
     return bool(np.any(getattr(model, field)[number])) if hasattr(model, field) else False
 
 
-def _losses(model: Any) -> tuple[Any, Any, Any]:
-    return model.dof_damping, model.dof_frictionloss, model.dof_armature
-
-
-def _forces(model: Any) -> Iterator[Any]:
-    """Yield the properties by which a tendon acts on its joints, each for all tendons."""
-    for name in ("stiffness", "stiffnesspoly", "damping", "dampingpoly", "frictionloss", "armature", "actfrclimited"):
-        if hasattr(model, f"tendon_{name}"):
-            yield getattr(model, f"tendon_{name}")
-
-
 def add_leftovers(robot: UrdfElement, scene: MujocoScene, drives: Drives) -> None:
     """Add an element for each part that is left out, and for each element without an effect."""
     for part in drives.left_out:
         robot.add("left_out", part.line, name=part.name, what=part.what)
     for tag, name, place in scene.document.noted:
-        robot.add(tag, place, name=name or None)
+        if tag in FLEXIBLE:
+            robot.add("left_out", place, name=name, what="flexible body")
+        else:
+            robot.add(tag, place, name=name or None)
     model = scene.model
     for top in range(1, model.nbody):
         if model.body_parentid[top] == 0 and top not in scene.bodies:
             robot.add("body", scene.line("body", top), name=scene.links[top])
+    notes = list[tuple[str, str, int]]()
     for motors in drives.motors.values():
         first = motors[0].actuator
-        line, name = scene.line("actuator", first), scene.name("actuator", first)
         if motors[0].servo is None:  # Run moves the joint exactly, and its limits of effort are the same on both sides
-            robot.add("feedback", line, name=name or None)
+            notes.append(("feedback", "actuator", first))
             limits = model.actuator_forcerange[first]
             if model.actuator_forcelimited[first] and limits[0] != -limits[1]:
-                robot.add("forcerange", line, name=name or None)
+                notes.append(("forcerange", "actuator", first))
         if int(model.actuator_dyntype[first]) not in _AT_ONCE:
-            robot.add("activation", line, name=name or None)
-        for motor in motors[1:]:  # the first one commands the joint, and all of them limit its effort
-            line, name = scene.line("actuator", motor.actuator), scene.name("actuator", motor.actuator)
-            robot.add("motor", line, name=name or None)
-    for number in drives.disabled:
-        robot.add("inactive", scene.line("actuator", number), name=scene.name("actuator", number) or None)
-    _add_soft(robot, scene, drives)
+            notes.append(("activation", "actuator", first))
+        # the first one commands the joint, and all of them limit its effort
+        notes += [("motor", "actuator", motor.actuator) for motor in motors[1:]]
+    notes += [("inactive", "actuator", number) for number in drives.disabled]
+    notes += [("inactive", "equality", number) for number in range(model.neq) if not model.eq_active0[number]]
+    for tag, kind, number in notes:
+        robot.add(tag, scene.line(kind, number), name=scene.name(kind, number) or None)
+    for part, is_noted in _unusual(scene, drives):
+        if is_noted:
+            robot.add(part.what, part.line, name=part.name or None)
     for key in range(model.nkey):
-        if scene.name("key", key) == "home":
+        if scene.name("key", key) == HOME:
             for joint in drives.poses(key):
                 robot.add("qpos", scene.line("key", key), name=scene.joints[joint])
         else:

@@ -21,22 +21,22 @@ def add_loops(robot: UrdfElement, links: Links, drives: Drives) -> None:
     """Add a loop for each equality of two bodies or two sites; other equalities are left out."""
     scene, model = links.scene, links.scene.model
     for number in range(model.neq):
-        kind, ends = mujoco.mjtEq(model.eq_type[number]), (int(model.eq_obj1id[number]), int(model.eq_obj2id[number]))
+        kind = mujoco.mjtEq(model.eq_type[number])
         if kind == mujoco.mjtEq.mjEQ_JOINT or not model.eq_active0[number]:
             continue
-        is_of_sites = model.eq_objtype[number] == mujoco.mjtObj.mjOBJ_SITE
         if kind not in _KINDS:
             drives.leave_out("equality", "equality", number)
             continue
-        first, second = (int(model.site_bodyid[end]) if is_of_sites else end for end in ends)
+        first, second = scene.ends(number)
         if first not in links.offsets and second not in links.offsets:
             continue
         if first not in links.offsets or second not in links.offsets:
             drives.leave_out("equality with a body outside of the robot", "equality", number)
             continue
         data = model.eq_data[number]
-        if is_of_sites:
-            places = [(model.site_pos[end], model.site_quat[end]) for end in ends]
+        if model.eq_objtype[number] == mujoco.mjtObj.mjOBJ_SITE:
+            sites = model.eq_obj1id[number], model.eq_obj2id[number]
+            places = [(model.site_pos[site], model.site_quat[site]) for site in sites]
         elif _KINDS[kind] == "connect":
             places = [(data[_POINT], (1, 0, 0, 0)), (data[_PLACE], (1, 0, 0, 0))]
         else:

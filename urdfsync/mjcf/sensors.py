@@ -16,9 +16,9 @@ from urdfsync.mjcf.turns import rpy
 from urdfsync.translation.writer import UrdfElement
 
 _KINDS = {mujoco.mjtSensor.mjSENS_ACCELEROMETER: "accelerometer", mujoco.mjtSensor.mjSENS_GYRO: "gyroscope"}
-
-
 _LOADS = {mujoco.mjtSensor.mjSENS_FORCE: "force", mujoco.mjtSensor.mjSENS_TORQUE: "torque"}
+READ = {*_KINDS, *_LOADS}
+"""Kinds of sensors that models have."""
 
 
 def _add_load(robot: UrdfElement, links: Links, number: int, joints: Mapping[str, str]) -> bool:

@@ -44,8 +44,7 @@ def add_shapes(link: UrdfElement, scene: MujocoScene, body: int, offset: Array) 
     shapes = {number: _shape(scene, number) for number in range(first, first + model.body_geomnum[body])}
     for tag in ("visual", "collision"):
         for number, shape in shapes.items():
-            is_solid = bool(model.geom_contype[number] or model.geom_conaffinity[number])
-            if not (is_solid if tag == "collision" else model.geom_group[number] <= _SHOWN):
+            if not (scene.touches(number) if tag == "collision" else model.geom_group[number] <= _SHOWN):
                 continue
             line, name = scene.line("geom", number), scene.name("geom", number)
             element = link.add(tag, line, name=name or None)
@@ -57,19 +56,26 @@ def add_shapes(link: UrdfElement, scene: MujocoScene, body: int, offset: Array) 
 
 
 def add_friction(link: UrdfElement, scene: MujocoScene, body: int) -> None:
-    """Add the sliding friction of the geoms that can touch others, and a note if they have several.
-
-    Of two geoms that touch, MuJoCo takes the greater friction: the greatest counts for the link.
-    """
-    model, first = scene.model, scene.model.body_geomadr[body]
-    solid = [
-        n for n in range(first, first + model.body_geomnum[body]) if model.geom_contype[n] | model.geom_conaffinity[n]
-    ]
-    if frictions := {float(model.geom_friction[number][0]) for number in solid}:
+    """Add the sliding friction of the geoms that can touch the ground, and a note if they have several."""
+    first = scene.model.body_geomadr[body]
+    solid = [n for n in range(first, first + scene.model.body_geomnum[body]) if scene.touches(n)]
+    if frictions := {_friction(scene, number) for number in solid}:
         contact = link.add("contact", scene.line("geom", solid[0]))
         contact.add("lateral_friction", value=max(frictions))
         if len(frictions) > 1:
             contact.add("friction")
+
+
+def _friction(scene: MujocoScene, geom: int) -> float:
+    """Return the sliding friction of a geom on the ground.
+
+    Of two geoms that touch, the friction of the one with the higher priority counts, else the greater one.
+    """
+    model, frictions = scene.model, [float(scene.model.geom_friction[geom][0])]
+    for other in scene.grounds(geom):
+        if (lead := int(model.geom_priority[other]) - int(model.geom_priority[geom])) >= 0:
+            frictions = [*(frictions if lead == 0 else []), float(model.geom_friction[other][0])]
+    return max(frictions)
 
 
 def _shape(scene: MujocoScene, number: int) -> _Shape:

@@ -54,6 +54,8 @@ class Identifier(msgspec.Struct, frozen=True):
 
 def spell(name: str, kind: str) -> str:
     """Return the identifier of an element without a twin: the name, or the usable part of the name with a hash."""
+    if name == "world":  # the root of nearly all sources in MJCF and SDF
+        return f"{name}{kind.capitalize()}"
     plain = name.replace("-", "__")
     folded = plain.lower()
     is_generated = folded in GENERATED or folded.endswith(RESERVED_SUFFIXES)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from urdfsync.urdf.kinematics.poses import Pose, dot, link_poses, moved, own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.plausibility.shapes import LIGHT, LinkShape
-from urdfsync.urdf.robot import JOINT_KINDS, MECHANISMS, MOTION_KINDS, Cylinder, Joint, Origin, Sphere, Vector
+from urdfsync.urdf.robot import JOINT_KINDS, MECHANISMS, MOTION_KINDS, Cylinder, Joint, Origin, Servo, Sphere, Vector
 from urdfsync.urdf.validate import Finding
 
 _LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
@@ -239,6 +239,15 @@ def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]
         if is_whole and _FOUR_TURNS < widest <= _TWO_TURNS_IN_DEGREES:
             message = f"{path}: limits of {limit.lower:g} and {limit.upper:g} rad may be in degrees"
             yield Finding("angle-unit", place, message)
+        servo = joint.servo or Servo()
+        ends = (servo.min_position, limit.lower), (servo.max_position, limit.upper)
+        if widest and all(
+            end is not None and math.isclose(end, math.degrees(bound), rel_tol=_SAME) for end, bound in ends
+        ):
+            message = (
+                f"{path}: {servo.min_position:g} and {servo.max_position:g} rad, the drive's limits, may be in degrees"
+            )
+            yield Finding("angle-unit", f"{path} / servo / max_position", message)
     elif max(_LONG_SLIDE, _LONG_SLIDE * length) < widest <= _LONGEST_SLIDE and mass > LIGHT:
         message = f"{path}: limits of {limit.lower:g} and {limit.upper:g} m may be in millimetres"
         yield Finding("length-unit", place, message)

@@ -16,12 +16,12 @@ model PlanarPlatform "Robot PlanarPlatform"
     annotation (Placement(transformation(extent={{6, 14}, {18, 26}}), iconTransformation(extent={{-104, 106}, {-96, 114}})));
 
   final parameter Modelica.Units.SI.Mass m =
-    world_92c5a1.m +
+    worldLink.m +
     platform.m +
     boom.m
     "Mass of the whole robot";
 
-  replaceable Links.World_92c5a1 world_92c5a1(
+  replaceable Links.WorldLink worldLink(
     animation = animation,
     showCollisions = showCollisions)
     constrainedby UrdfSync.Interfaces.PartialLink(
@@ -62,9 +62,9 @@ model PlanarPlatform "Robot PlanarPlatform"
     annotation (choicesAllMatching=true, Placement(transformation(extent={{16, -10}, {36, 10}})));
 
 equation
-  connect(frame_a, world_92c5a1.frame_a)
+  connect(frame_a, worldLink.frame_a)
     annotation (Line(points={{-100, 0}, {-64, 0}, {-64, -26}, {-60, -26}}, color={95, 95, 95}, thickness=0.5));
-  connect(world_92c5a1.frame_a, glide.frame_a)
+  connect(worldLink.frame_a, glide.frame_a)
     annotation (Line(points={{-60, -26}, {-64, -26}, {-64, 0}, {-44, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(glide.frame_b, platform.frame_a)
     annotation (Line(points={{-24, 0}, {-4, 0}, {-4, -26}, {0, -26}}, color={95, 95, 95}, thickness=0.5));

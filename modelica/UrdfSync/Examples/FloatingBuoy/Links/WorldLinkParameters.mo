@@ -1,6 +1,6 @@
 within UrdfSync.Examples.FloatingBuoy.Links;
 
-record World_92c5a1Parameters "Numbers of link \"world\""
+record WorldLinkParameters "Numbers of link \"world\""
   extends UrdfSync.Records.Link(
     name = "world",
     hasInertial = false);
@@ -10,4 +10,4 @@ record World_92c5a1Parameters "Numbers of link \"world\""
 Numbers of link &quot;world&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
 </html>"));
-end World_92c5a1Parameters;
+end WorldLinkParameters;

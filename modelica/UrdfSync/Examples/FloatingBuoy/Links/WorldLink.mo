@@ -1,9 +1,9 @@
-within UrdfSync.Examples.PlanarPlatform.Links;
+within UrdfSync.Examples.FloatingBuoy.Links;
 
-model World_92c5a1 "Link \"world\""
+model WorldLink "Link \"world\""
   extends UrdfSync.Icons.Link;
   extends UrdfSync.Interfaces.PartialLink(
-    redeclare World_92c5a1Parameters parameters);
+    redeclare WorldLinkParameters parameters);
 
   final parameter Modelica.Units.SI.MomentOfInertia I[3, 3](each min = -Modelica.Constants.inf) = UrdfSync.Functions.inertiaInLinkAxes(
     parameters.inertial.origin.rpy,
@@ -32,19 +32,11 @@ model World_92c5a1 "Link \"world\""
     "In place of the body of a link without mass"
     annotation (Placement(transformation(extent={{60, -10}, {80, 10}})));
 
-  UrdfSync.Visualizers.Box visual1(
-    parameters = parameters.visual1,
-    animation = animation)
-    "Visual 1"
-    annotation (Placement(transformation(extent={{-40, 20}, {-20, 40}})));
-
 equation
   connect(frame_a, body.frame_a)
     annotation (Line(points={{-100, 0}, {-40, 0}}, color={95, 95, 95}, thickness=0.5));
   connect(frame_a, noBody.frame_a)
     annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 15}, {50, 15}, {50, 0}, {60, 0}}, color={95, 95, 95}, thickness=0.5));
-  connect(frame_a, visual1.frame_a)
-    annotation (Line(points={{-100, 0}, {-60, 0}, {-60, 30}, {-40, 30}}, color={95, 95, 95}, thickness=0.5));
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
@@ -55,4 +47,4 @@ equation
 Rigid body, visuals and collisions of the URDF link <code>world</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
 </html>"));
-end World_92c5a1;
+end WorldLink;

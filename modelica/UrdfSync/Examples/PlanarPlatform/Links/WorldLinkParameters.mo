@@ -1,6 +1,6 @@
 within UrdfSync.Examples.PlanarPlatform.Links;
 
-record World_92c5a1Parameters "Numbers of link \"world\""
+record WorldLinkParameters "Numbers of link \"world\""
   extends UrdfSync.Records.Link(
     name = "world",
     hasInertial = false);
@@ -19,4 +19,4 @@ record World_92c5a1Parameters "Numbers of link \"world\""
 Numbers of link &quot;world&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
 </html>"));
-end World_92c5a1Parameters;
+end WorldLinkParameters;
