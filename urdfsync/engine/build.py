@@ -141,6 +141,8 @@ class _Builder:
                     plan = self.pool.plan(robot, self._reads)
                 else:
                     plan = plan_robot(self._config, robot, self._options, self._reads)
+            if plan.is_refused:
+                return _Built(plan.outlook, FactList.of(self._reads), failure={"failed": True})
             if self._options.dry:
                 if self._is_current(plan):
                     return self._finish(robot, plan, {})
