@@ -31,7 +31,7 @@ def translate(request: Request) -> Answer:
 
     too_deep = "its models or frames are nested too deep"
     made = program.answer(request, files, "sdf", ("model",), translate_model, too_deep)
-    return msgspec.structs.replace(made, packages=document.packages)
+    return msgspec.structs.replace(made, packages=document.packages.places())
 
 
 def choose_model(frames: Frames, name: str) -> Scope:

@@ -53,15 +53,20 @@ class SourceFiles:
         folder = self._packages.folder(package)
         return folder / rest if folder else None
 
-    def name(self, path: str | Path, packages: Mapping[str, str]) -> str:
+    def name(self, path: str | Path, packages: Mapping[str, str | None]) -> str:
         """Return a file's name in the state; if possible, this name is the same on every machine."""
         file = Path(path)
         if not file.is_relative_to(self.root):
             for package, folder in packages.items():
-                if file.is_relative_to(folder):
+                if folder and file.is_relative_to(folder):
                     return f"{_PACKAGE}{package}/{file.relative_to(folder).as_posix()}"
         # an absolute path if file and root are on different drives: no relative path leads there
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
+
+    def package(self, name: str) -> str | None:
+        """Return the name in the state of a package's folder; None if the package is not on this machine."""
+        folder = self._packages.folder(name)
+        return self.name(folder, {name: str(folder)}) if folder else None
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
         """Return the present inputs of a source, without text: those that `names` lists.
@@ -84,6 +89,7 @@ class SourceFiles:
             command=robot.command,
             files=files,
             patterns=patterns,
+            packages={name: self.package(name) or folder for name, folder in names.packages.items()},
             variables={name: _variable_hash(name) for name in names.variables},
         )
 
@@ -93,6 +99,7 @@ class SourceFiles:
         changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(made, key)]
         changed += [name for name in {**made.files, **now.files} if made.files.get(name) != now.files.get(name)]
         changed += [name for name in made.patterns if made.patterns[name] != now.patterns[name]]
+        changed += [f"{_PACKAGE}{name}" for name in made.packages if made.packages[name] != now.packages[name]]
         return (*changed, *(f"${name}" for name in made.variables if made.variables[name] != now.variables[name]))
 
     def why_not_expandable(self, made: Expansion, error: SourceError) -> str:
@@ -163,6 +170,8 @@ def expand(
             _file_hash(Path(path))
         for pattern in answer.patterns:
             _names_hash(Path(pattern))
+        for name in answer.packages:
+            inputs.package(name)
         for name in answer.variables:
             _variable_hash(name)
         raise SourceError.of(problem.code, message, *place, hint=hint)
@@ -172,6 +181,7 @@ def expand(
         arguments=arguments,
         files={names[path]: answer.files[path] for path in number},
         patterns={inputs.name(path, answer.packages): _names_hash(Path(path)) for path in answer.patterns},
+        packages={name: folder and inputs.name(folder, {name: folder}) for name, folder in answer.packages.items()},
         variables={name: _variable_hash(name) for name in answer.variables},
         unused=answer.unknown,
         warnings=answer.warnings,
