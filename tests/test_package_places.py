@@ -14,6 +14,8 @@ from support.meshes import stl
 from support.remembered import SHORT, save
 
 from urdfsync.dependencies import facts
+from urdfsync.dependencies.places import Clone
+from urdfsync.translation.files import Files, TranslationError
 
 Place = str
 """A folder: of the project, or behind `/` of the test."""
@@ -222,7 +224,7 @@ def test_no_command_is_green_by_mistake(
 
 @NEEDS_GIT
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["a folder nearer to the source", "an included file in the folder of the source"])
+@pytest.mark.parametrize("name", ["a folder nearer to the source"])
 def test_what_is_not_staged_is_no_place_for_a_commit(
     in_step: tuple[Project, Repository, Change, set[str]], execute: Execute
 ) -> None:
@@ -231,3 +233,20 @@ def test_what_is_not_staged_is_no_place_for_a_commit(
     execute("hook", "check")
     repository.git("add", "-A")
     assert out_of_step(execute, "hook", "check") == changed
+
+
+def test_a_translator_looks_for_included_files_in_the_clone(tmp_path: Path) -> None:
+    top, clone, outside = (tmp_path / name for name in ("top", "clone", "outside"))
+    for folder in (top / "parts", clone, outside):
+        folder.mkdir(parents=True)
+    for file in (top / "beam.xml", top / "parts/beam.xml", outside / "beam.xml"):
+        file.touch()
+    (clone / "parts").symlink_to(outside)
+    files = Files({}, [str(top)])
+    assert files.is_there(str(top / "beam.xml"))
+    with Clone(str(top), str(clone)):
+        assert not files.is_there(str(top / "beam.xml"))
+        assert files.is_there(str(top / "parts/beam.xml"))
+        with pytest.raises(TranslationError, match="outside of the project"):
+            files.check_inside(str(top / "parts/beam.xml"), ("", 0))
+    assert files.hashes == {str(top / "beam.xml"): None}
