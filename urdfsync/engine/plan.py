@@ -5,11 +5,8 @@
 
 from __future__ import annotations
 
-import msgspec
-
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.decide.decision import decide_package
 from urdfsync.engine.decide.settle import settle, with_choices
 from urdfsync.engine.generation import generate_robot
@@ -34,18 +31,4 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions, reads:
     if options.choices:
         inputs = with_choices(inputs, settle(inputs, generation, decision))
         decision = decide_package(inputs, generation)
-    plan = stage(inputs, generation, decision, reads)
-    return _refused(robot, plan) if any(finding.code in robot.refuse for finding in plan.outlook.diagnostics) else plan
-
-
-def _refused(robot: RobotConfig, plan: Plan) -> Plan:
-    """Return a plan that writes nothing: the findings with a code in `refuse` are errors."""
-    findings = list[Diagnostic]()
-    for finding in plan.outlook.diagnostics:
-        if finding.code in robot.refuse:
-            hint = f"{finding.hint or 'correct the source'}; to accept it, take the code out of `refuse`"
-            findings.append(msgspec.structs.replace(finding, severity=Severity.ERROR, hint=hint))
-        elif finding.severity is not Severity.NOTE:  # notes tell what a build does
-            findings.append(finding)
-    outlook = Outlook(diagnostics=tuple(findings), changes=plan.outlook.changes)
-    return Plan(outlook, plan.state, is_refused=True)
+    return stage(inputs, generation, decision, reads)

@@ -51,8 +51,6 @@ class Plan(msgspec.Struct, frozen=True):
     """This machine's notes after the build, if they change."""
     next_outlook: Outlook | None = None
     """The outlook of the next plan, if nobody changes a file after this build; None if it is not certain."""
-    is_refused: bool = False
-    """Whether the configuration refuses a finding about the source: then the build fails, and writes nothing."""
 
 
 def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Reads) -> Plan:
