@@ -128,6 +128,16 @@ def _two(first: Place, second: Place, *paths: Place) -> Change:
     return make
 
 
+def _then(first: Change, second: Change) -> Change:
+    """Both, one after the other."""
+
+    def make(project: Project) -> None:
+        first(project)
+        second(project)
+
+    return make
+
+
 ENVIRONMENTS: dict[str, tuple[Change, Change, set[str]]] = {
     "a new entry of package_paths": (
         _two("one/pk", "two/pk", "one"), lambda p: p.paths("two", "one"), PACKAGES | PLAIN),
@@ -144,14 +154,14 @@ ENVIRONMENTS: dict[str, tuple[Change, Change, set[str]]] = {
     "AMENT_PREFIX_PATH": (
         _two("pk", "/ros/share/pk"), lambda p: p.variable("AMENT_PREFIX_PATH", "/ros"), PACKAGES),
     "a folder that comes to ROS_PACKAGE_PATH": (
-        lambda p: (_two("robots/pk", "other")(p), p.variable("ROS_PACKAGE_PATH", "/ros")),
+        _then(_two("robots/pk", "other"), lambda p: p.variable("ROS_PACKAGE_PATH", "/ros")),
         lambda p: p.package("/ros/pk", 3), PACKAGES),
     "MODELICAPATH": (
         _two("robots/pk", "/libraries/pk"), lambda p: p.variable("MODELICAPATH", "/libraries"), {"library"}),
     "a folder that goes": (
         _two("one/pk", "two/pk", "one", "two"), lambda p: shutil.rmtree(p.path("one/pk")), PACKAGES | PLAIN),
     "a package below a search path, whose name counts before that of a folder": (
-        lambda p: (_two("one/pk", "two", "one")(p), p.path("one/pk/package.xml").unlink()),
+        _then(_two("one/pk", "two", "one"), lambda p: p.path("one/pk/package.xml").unlink()),
         lambda p: p.package("one/deep/pk-2.0", 3), NAMED),
     "a package with another name": (
         _two("one/pk", "two/pk", "one", "two"),
@@ -160,11 +170,11 @@ ENVIRONMENTS: dict[str, tuple[Change, Change, set[str]]] = {
         _two("one/deep/pk-1.0", "two/deep/pk-2.0", "one", "two"),
         lambda p: p.write("one/deep/COLCON_IGNORE", ""), PACKAGES),
     "the package around the source": (
-        lambda p: (_two("one/pk", "robots", "one")(p), p.path("robots/package.xml").unlink()),
+        _then(_two("one/pk", "robots", "one"), lambda p: p.path("robots/package.xml").unlink()),
         lambda p: p.write("robots/package.xml", "<package><name>pk</name></package>"),
         NAMED),
     "a link to another folder": (
-        lambda p: (_two("a/pk", "b/pk", "link")(p), p.link("link", "a")), lambda p: p.link("link", "b"),
+        _then(_two("a/pk", "b/pk", "link"), lambda p: p.link("link", "a")), lambda p: p.link("link", "b"),
         PACKAGES | PLAIN),
     "an included file in the folder of the source": (
         _two("pk", "other"), lambda p: p.beam("robots", 3), {"mjcf"}),

@@ -15,7 +15,8 @@ from support.networks import configure, edit
 from support.urdfs import link
 
 from urdfsync import registry
-from urdfsync.engine import build
+from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.stage.writes import Plan
 from urdfsync.watch import events
 from urdfsync.watch.observer import Observer
 
@@ -104,9 +105,13 @@ def test_a_refused_export_is_told_once_until_the_source_or_the_list_changes(
     running: list[Daemons], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Each rescan plans the robot again."""
-    planned = list[str]()
-    plan_robot = build.plan_robot
-    monkeypatch.setattr(build, "plan_robot", lambda *given: (planned.append(given[1].name), plan_robot(*given))[1])
+    planned = list[Plan]()
+
+    def plan(*given: Any) -> Plan:
+        planned.append(plan_robot(*given))
+        return planned[-1]
+
+    monkeypatch.setattr("urdfsync.engine.build.plan_robot", plan)
     daemon = Daemons(rescan=0.05)
     running.append(daemon)
     configure('refuse = ["no-ground"]\n')
@@ -138,5 +143,7 @@ def test_a_package_that_comes_to_a_place_where_none_was_found_is_built(running: 
     running.append(daemon)
     assert daemon.wait(events.Failed).result.diagnostics[0].code == "no-package"
     for folder, mass in (("ws/deep/pk-2.0", 2.625), ("urdf/pk", 3.375)):
-        daemon.after(lambda folder=folder, mass=mass: arrive(folder, mass), events.Built, lambda event: event.files)
+        since = daemon.mark
+        arrive(folder, mass)
+        daemon.wait(events.Built, since, lambda event: bool(event.files))
         assert f"{mass}" in Path("modelica/Arm/Links/HandParameters.mo").read_text()

@@ -16,7 +16,8 @@ from support.xacros import problem, value, write_line
 
 from urdfsync.config import load
 from urdfsync.engine.sources import expansion
-from urdfsync.engine.sources.expansion import Expansion, SourceFiles
+from urdfsync.engine.sources.expansion import SourceFiles
+from urdfsync.state.expansion import Expansion
 
 
 @pytest.mark.slow
