@@ -155,7 +155,7 @@ class _Builder:
                     plan = self.pool.plan(robot, self._reads)
                 else:
                     plan = plan_robot(self._config, robot, self._options, self._reads)
-            if (refused := _refuse(robot, plan.outlook)) is not None:
+            if not self._options.removes and (refused := _refuse(robot, plan.outlook)) is not None:
                 return _Built(refused, FactList.of(self._reads), failure={"failed": True})
             if self._options.dry:
                 if self._is_current(plan):
