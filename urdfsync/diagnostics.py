@@ -18,6 +18,8 @@ IGNORABLE = frozenset(
     "units unknown-build unused unused-argument unresolved wrong-kind wrong-within xacro-said".split()
 )
 """Codes of warnings and notes that a configuration may ignore, beside the codes of the robot's domain."""
+OF_SOURCES = frozenset("empty-cell units unused unused-argument xacro-said".split())
+"""Those of them that each build finds in a source: a configuration may refuse them, and the codes of the domain."""
 
 
 _LONGEST = 1000

@@ -9,9 +9,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.daemon import MODEL, NEVER, RECORD, Daemons, holds, save
+from support import xacros
+from support.daemon import MODEL, NEVER, RECORD, Daemons, holds, save, until
+from support.networks import configure, edit
+from support.urdfs import link
 
 from urdfsync import registry
+from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.stage.writes import Plan
 from urdfsync.watch import events
 from urdfsync.watch.observer import Observer
 
@@ -94,3 +99,51 @@ def test_a_fault_that_is_saved_again_is_reported_again(running: list[Daemons]) -
     running.append(daemon)
     assert not daemon.after(lambda: Path("ladder.json").write_text('{"a" 1}'), events.Failed).again
     assert daemon.after(lambda: Path("ladder.json").write_text('{"a" 2}'), events.Failed).again
+
+
+def test_a_refused_export_is_told_once_until_the_source_or_the_list_changes(
+    running: list[Daemons], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each rescan plans the robot again."""
+    planned = list[Plan]()
+
+    def plan(*given: Any) -> Plan:
+        planned.append(plan_robot(*given))
+        return planned[-1]
+
+    monkeypatch.setattr("urdfsync.engine.build.plan_robot", plan)
+    daemon = Daemons(rescan=0.05)
+    running.append(daemon)
+    configure('refuse = ["no-ground"]\n')
+    failed = daemon.after(lambda: edit("ladder.json", '"ground"', '"earth"'), events.Failed)
+    assert "to accept it, take the code out of `refuse` [no-ground]" in str(failed.result.diagnostics[0])
+    before, since = RECORD.read_bytes(), daemon.mark
+    known = len(planned)
+    until(lambda: len(planned) > known + 3)
+    assert daemon.kinds(since) == []
+    assert RECORD.read_bytes() == before
+    assert daemon.after(lambda: edit("urdfsync.toml", '["no-ground"]', "[]"), events.Built).recovered
+
+
+def test_a_package_that_comes_to_a_place_where_none_was_found_is_built(running: list[Daemons]) -> None:
+    """It is missing at first, then there is one below a search path, then one beside the source."""
+    robot = xacros.HEAD.format("arm") + '<xacro:include filename="$(find pk)/arm.xacro"/></robot>'
+    xacros.write(
+        Path(), {"arm.urdf.xacro": robot}, f'{xacros.CONFIG.replace("{ length = 0.5 }", "{}")}package_paths = ["ws"]\n'
+    )
+    Path("ws/deep").mkdir(parents=True)
+
+    def arrive(folder: str, mass: float) -> None:
+        place = Path(folder)
+        place.mkdir(parents=True)
+        (place / "arm.xacro").write_text(f"{xacros.HEAD.format('arm')}{link('hand', mass)}</robot>")
+        (place / "package.xml").write_text("<package><name>pk</name></package>")
+
+    daemon = Daemons(rescan=NEVER)
+    running.append(daemon)
+    assert daemon.wait(events.Failed).result.diagnostics[0].code == "no-package"
+    for folder, mass in (("ws/deep/pk-2.0", 2.625), ("urdf/pk", 3.375)):
+        since = daemon.mark
+        arrive(folder, mass)
+        daemon.wait(events.Built, since, lambda event: bool(event.files))
+        assert f"{mass}" in Path("modelica/Arm/Links/HandParameters.mo").read_text()

@@ -34,7 +34,7 @@ from urdfsync.config.settings import (
     SharedKeys,
 )
 from urdfsync.dependencies import reads
-from urdfsync.diagnostics import IGNORABLE, ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import IGNORABLE, OF_SOURCES, ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, Target
 from urdfsync.files import shown
 from urdfsync.spelling import nearest
@@ -90,7 +90,7 @@ def parse(text: str, file: Path, name: str) -> Config:
     robots = () if reader.problems else tuple(reader.robots())
     check, check_lines = reader.check()
     reader.find_clashes(robots)
-    reader.check_ignored(robots)
+    reader.check_codes(robots)
     if reader.problems:
         raise ConfigError(*sorted(reader.problems, key=lambda problem: problem.line))
     return Config(file, robots, check, check_lines)
@@ -211,19 +211,20 @@ class _ConfigReader:
             for message in clashes:
                 self._report("clash", robot.lines["package"], message)
 
-    def check_ignored(self, robots: Sequence[RobotConfig]) -> None:
-        """Report ignored codes that no warning of the robots' formats has."""
-        if not any(robot.ignore for robot in robots):
+    def check_codes(self, robots: Sequence[RobotConfig]) -> None:
+        """Report ignored and refused codes that no warning of the robots' formats has."""
+        if not any(robot.ignore or robot.refuse for robot in robots):
             return  # other domains are looked for on Python's path, which takes 3 ms
-        domains = {robot.domain for robot in robots}
-        codes = IGNORABLE.union(*(registry.domain(domain).warnings for domain in domains))
-        wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignore - codes}
-        for line, code in sorted(wrong):
-            near = nearest(code, sorted(codes))
-            hint = (
-                f"did you mean `{near}`?" if near else "write the code at the end of a warning; errors can't be ignored"
-            )
-            self._report("unknown-code", line, f"no warning or note has the code `{code}`", hint)
+        own = frozenset[str]().union(*(registry.domain(name).warnings for name in {robot.domain for robot in robots}))
+        for key, codes, noun, end in (
+            ("ignore", IGNORABLE | own, "warning or note", "errors can't be ignored"),
+            ("refuse", OF_SOURCES | own, "warning or note about a source", "errors always stop a build"),
+        ):
+            wrong = {(robot.lines[key], code) for robot in robots for code in getattr(robot, key) - codes}
+            for line, code in sorted(wrong):
+                near = nearest(code, sorted(codes))
+                hint = f"did you mean `{near}`?" if near else f"write the code at the end of a warning; {end}"
+                self._report("unknown-code", line, f"no {noun} has the code `{code}`", hint)
 
     def _robot(self, name: str, own: dict[str, Any], defaults: dict[str, Any], domain: Domain) -> RobotConfig | None:
         """Read a robot from its own table and the defaults; None for a faulty table."""

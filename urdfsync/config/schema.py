@@ -16,7 +16,7 @@ from urdfsync import registry
 from urdfsync.config.names import CLASS_PATTERN, LAST_PATTERN, PACKAGE_PATTERN, ROBOT_PATTERN
 from urdfsync.config.paths import explained
 from urdfsync.config.settings import DEFAULT_DOMAIN, DEFAULT_OUTPUT, OWN_KEYS, CheckConfig, Keys
-from urdfsync.diagnostics import IGNORABLE
+from urdfsync.diagnostics import IGNORABLE, OF_SOURCES
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 SCHEMA_FILE = "schema.json"
@@ -35,7 +35,8 @@ def config_schema() -> dict[str, Any]:
     )
     keys, check, *options = (parts.pop(place["$ref"].rpartition("/")[2])["properties"] for place in places)
     keys["domain"]["enum"] = [*domains]
-    keys["ignore"]["items"] = {"enum": sorted(IGNORABLE.union(*(domain.warnings for domain in domains.values())))}
+    for key, codes in (("ignore", IGNORABLE), ("refuse", OF_SOURCES)):
+        keys[key]["items"] = {"enum": sorted(codes.union(*(domain.warnings for domain in domains.values())))}
     keys["package"]["pattern"], keys["class"]["pattern"] = PACKAGE_PATTERN, f"^$|{CLASS_PATTERN}"
     keys["output"]["default"] = DEFAULT_OUTPUT
     meanings = {key: cells[1] for key, cells in explained("configuration.md") if len(cells) == 2}

@@ -47,6 +47,8 @@ class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
     """Check the package after each build."""
     ignore: frozenset[str] = frozenset()
     """Codes of warnings and notes that are not shown."""
+    refuse: frozenset[str] = frozenset()
+    """Codes of findings about a source with which a build writes nothing."""
     renamed: Mapping[str, str] = {}
     """Old → new name of elements, declared by the user."""
 

@@ -73,6 +73,20 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
             yield Result.of(config, robot, built.outlook, **others)
 
 
+def _refuse(robot: RobotConfig, outlook: Outlook) -> Outlook | None:
+    """Return an outlook without writes whose errors are the findings that `refuse` names; None without any."""
+    if not any(finding.code in robot.refuse for finding in outlook.diagnostics):
+        return None
+    findings = list[Diagnostic]()
+    for finding in outlook.diagnostics:
+        if finding.code in robot.refuse:
+            hint = f"{finding.hint or 'correct the source'}; to accept it, take the code out of `refuse`"
+            findings.append(msgspec.structs.replace(finding, severity=Severity.ERROR, hint=hint))
+        elif finding.severity is not Severity.NOTE:  # notes tell what a build does
+            findings.append(finding)
+    return Outlook(diagnostics=tuple(findings), changes=outlook.changes)
+
+
 class _Built(NamedTuple):
     """The outlook of one robot whose plan was carried out, or its failure."""
 
@@ -141,6 +155,8 @@ class _Builder:
                     plan = self.pool.plan(robot, self._reads)
                 else:
                     plan = plan_robot(self._config, robot, self._options, self._reads)
+            if not self._options.removes and (refused := _refuse(robot, plan.outlook)) is not None:
+                return _Built(refused, FactList.of(self._reads), failure={"failed": True})
             if self._options.dry:
                 if self._is_current(plan):
                     return self._finish(robot, plan, {})

@@ -29,7 +29,7 @@ def judge(
     Those that the `last` version lacks are new; `changes` lead to it. Without a last version, nothing is new.
     """
     judgements = domain.judgements
-    if judgements is None:
+    if judgements is None or now.snapshot is None:
         return []
     changes = changes or Changes()
     changed = {change.element for change in changes.changes}

@@ -33,9 +33,7 @@ class SdfDocument:
         """`packages` are folders with models and ROS packages."""
         self.source, self.files = source, files
         self.places: dict[Element, SourcePlace] = {}
-        self.packages: dict[str, str] = {}
-        """Folders of the models and ROS packages that the source has asked for."""
-        self._packages = Packages(list(map(Path, packages)), Path(source))
+        self.packages = Packages(list(map(Path, packages)), Path(source))
         self._roots: dict[str, Element] = {}
 
     def fault(self, element: Element, message: str, hint: str = "") -> TranslationError:
@@ -71,11 +69,10 @@ class SdfDocument:
         folder = os.path.dirname(place[0])  # noqa: PTH120
         if f"{scheme}://" in _SCHEMES:
             name, _, rest = rest.lstrip("/").partition("/")
-            found = self._packages.folder(name)
-            if found is None:
+            if (found := self.packages.folder(name)) is None:
                 hint = "add the folder around it to `package_paths`"
                 raise self.fault(element, f"there is no folder {name!r} for {uri}", hint)
-            folder = self.packages[name] = str(found)
+            folder = str(found)
         elif scheme not in ("", "file"):
             raise self.fault(element, f"{uri} is not on this machine", "download it, and name its folder by model://")
         path = os.path.normpath(os.path.join(folder, unquote(rest) if scheme else rest))  # noqa: PTH118

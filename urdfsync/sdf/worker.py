@@ -39,7 +39,7 @@ def translate(request: Request) -> Answer:
 
     too_deep = "its models or frames are nested too deep"
     made = program.answer(request, files, "sdf", ("model",), translate_or_compare, too_deep)
-    return msgspec.structs.replace(made, packages=document.packages)
+    return msgspec.structs.replace(made, packages=document.packages.places())
 
 
 def choose_model(frames: Frames, name: str) -> Scope:

@@ -33,6 +33,8 @@ class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, f
     """Hashes of the files that were read, by name; None for a missing file."""
     patterns: Mapping[str, str] = {}
     """Hashes of the file names that match each pattern, such as `parts/*.xacro`."""
+    packages: Mapping[str, str | None] = {}
+    """Folders of the packages that the source names, as in `files`; None for a missing package."""
     variables: Mapping[str, str | None] = {}
     """Hashes of the values of environment variables; None for an unset variable."""
     unused: tuple[str, ...] = ()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
@@ -11,7 +10,9 @@ from xml.etree.ElementTree import Element
 from msgspec.structs import replace
 
 from urdfsync.dependencies.facts import read_unrecorded
+from urdfsync.dependencies.places import real
 from urdfsync.engine.sources.exchange import Problem
+from urdfsync.engine.sources.ros_packages import is_visible_file
 from urdfsync.files import text_digest
 from urdfsync.urdf.parse.xml import ParseError, parse
 
@@ -44,7 +45,7 @@ class Files:
 
     def __init__(self, contents: Mapping[str, bytes], folders: Collection[str]) -> None:
         """`contents` of files override the disk. Included files are in one of the `folders`, or below it."""
-        self._contents, self._folders = contents, [os.path.realpath(folder) for folder in folders]
+        self._contents, self._folders = contents, [real(folder) for folder in folders]
         self.hashes: dict[str, str | None] = {}
 
     def read(self, path: str, place: SourcePlace = ("", 0)) -> bytes:
@@ -78,14 +79,13 @@ class Files:
 
     def is_there(self, path: str) -> bool:
         """Return whether a file exists; a missing one is recorded, since it would count if it came."""
-        is_there = path in self._contents or os.path.lexists(path)
+        is_there = path in self._contents or is_visible_file(path)
         if not is_there:
             self.hashes[path] = None
         return is_there
 
     def check_inside(self, path: str, place: SourcePlace) -> None:
         """Refuse a file outside of the folders. Raises TranslationError."""
-        real = Path(os.path.realpath(path))
-        if not any(real.is_relative_to(folder) for folder in self._folders):
+        if not any(Path(real(path)).is_relative_to(folder) for folder in self._folders):
             hint = "move the file into the folder of the source, or of the configuration"
             raise TranslationError(f"the included file {path} is outside of the project", place, hint)

@@ -98,7 +98,7 @@ class Comparison(msgspec.Struct, frozen=True):
     @property
     def summary(self) -> str:
         """The changes since the older version, as the rest of a line that names the robot."""
-        if self.result.failed:
+        if self.result.failed and self.result.changes is None:
             return f"{error_count(self.result.diagnostics)}, so nothing can be compared"
         if self.missing:
             return self.missing
@@ -216,8 +216,9 @@ def _result(robot: RobotConfig, config: Config | None) -> Result:
 
 def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions, result: Result) -> Comparison:
     """Compare a source with the last build; `result` is that of a dry run."""
-    if result.failed or (result.changes is None and not (result.writes or result.renews or result.conflicts)):
-        return Comparison(result, shown(robot.source), changes=result.changes)
+    # also after a failure
+    if result.changes is None and not (result.writes or result.renews or result.conflicts):
+        return Comparison(result, shown(robot.source))
     inputs = inspect(config, robot, options)
     last, differences = inputs.last.version, result.changes
     missing = "" if last else "the record of the last build is lost" if inputs.last.record.files else "never built"

@@ -7,13 +7,17 @@ import sys
 import time
 from pathlib import Path
 
+import msgspec
 import pytest
 from support import xacros
 from support.commands import Execute
 from support.files import unchanged
 from support.xacros import problem, value, write_line
 
+from urdfsync.config import load
 from urdfsync.engine.sources import expansion
+from urdfsync.engine.sources.expansion import SourceFiles
+from urdfsync.state.expansion import Expansion
 
 
 @pytest.mark.slow
@@ -48,6 +52,33 @@ def test_a_machine_that_has_all_files_does_not_use_the_recorded_source(
     shutil.rmtree(".urdfsync/notes")
     monkeypatch.setattr(expansion, "WALL_SECONDS", 0.0)
     assert "expanding it takes more than" in execute("build", "--check", code=2).err
+
+
+@pytest.mark.parametrize(
+    ("recorded", "present", "changed"),
+    [
+        ("ws/pk", "project/ws/pk", False),
+        ("ws/pk", "project/first/pk", True),
+        ("ws/pk", "outside/pk", True),
+        ("package://pk/.", "project/ws/pk", True),
+        ("package://pk/.", "outside/pk", False),
+        ("package://pk/.", "", False),
+        (None, "", False),
+        (None, "project/ws/pk", True),
+    ],
+)
+def test_a_package_is_looked_for_again(folder: Path, recorded: str | None, present: str, changed: bool) -> None:
+    """A package that this machine lacks is no change, and neither is another folder outside of the project."""
+    if present:
+        (folder / present).mkdir(parents=True)
+        (folder / present / "package.xml").write_text("<package><name>pk</name></package>")
+    xacros.write(folder / "project")
+    (robot,) = load(folder / "project/urdfsync.toml").robots
+    search = [folder / place for place in ("project/first", "project/ws", "outside")]
+    inputs = SourceFiles(folder / "project", robot.source, search)
+    made = inputs.look(robot, Expansion(packages={"pk": recorded}))
+    made = msgspec.structs.replace(made, packages={"pk": recorded})
+    assert inputs.find_changes(robot, made) == (("package://pk",) if changed else ())
 
 
 def test_what_it_prints_nothing_of_is_no_robot(folder: Path, execute: Execute) -> None:

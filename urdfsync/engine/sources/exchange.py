@@ -56,8 +56,8 @@ class Answer(msgspec.Struct, frozen=True):
     patterns: tuple[str, ...] = ()
     variables: tuple[str, ...] = ()
     """The environment variables that the source has asked for."""
-    packages: Mapping[str, str] = {}
-    """Folders of the ROS packages that the source has asked for."""
+    packages: Mapping[str, str | None] = {}
+    """Folders of the packages that the source has asked for; None for a missing one."""
     unknown: tuple[str, ...] = ()
     """Given arguments that the source does not declare."""
     warnings: tuple[str, ...] = ()

@@ -12,11 +12,12 @@ import shlex
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.reads import is_file, read_file, read_variable
+from urdfsync.dependencies.reads import read_file, read_variable
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Translator
 from urdfsync.engine.sources import ros_packages
@@ -53,37 +54,40 @@ class SourceFiles:
         folder = self._packages.folder(package)
         return folder / rest if folder else None
 
-    def name(self, path: str | Path, packages: Mapping[str, str]) -> str:
+    def name(self, path: str | Path, packages: Mapping[str, str | None]) -> str:
         """Return a file's name in the state; if possible, this name is the same on every machine."""
         file = Path(path)
         if not file.is_relative_to(self.root):
             for package, folder in packages.items():
-                if file.is_relative_to(folder):
+                if folder and file.is_relative_to(folder):
                     return f"{_PACKAGE}{package}/{file.relative_to(folder).as_posix()}"
         # an absolute path if file and root are on different drives: no relative path leads there
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
-    def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
-        """Return the present inputs of a source, without text: those that `names` lists.
+    def package(self, name: str) -> str | None:
+        """Return the name in the state of a package's folder; None if the package is not on this machine."""
+        folder = self._packages.folder(name)
+        return self.name(folder, {name: str(folder)}) if folder else None
 
-        If a package is missing on this machine, its files count as unchanged. For a command, the configuration lists
-        the files.
-        """
-        files, patterns = dict(names.files), dict(names.patterns)
+    def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
+        """Return the present inputs of a robot's source; for a command, the configuration lists the files."""
         if robot.command:
-            files = {self.name(path, {}): None for path in robot.command_inputs}
-        for name in files:
-            if (path := self.path(name)) is not None:
-                files[name] = _file_hash(path)
-        for name in patterns:
-            if (path := self.path(name)) is not None:
-                patterns[name] = _names_hash(path)
+            names = Expansion(files={self.name(path, {}): None for path in robot.command_inputs})
+        key = {"source": robot.source_text, "arguments": robot.arguments or {}, "command": robot.command}
+        return msgspec.structs.replace(self.read(names), **key)
+
+    def read(self, names: Expansion) -> Expansion:
+        """Return the present files, patterns, packages and variables that `names` lists, without text.
+
+        If a package is missing on this machine, its files count as unchanged.
+        """
+        places = {name: self.path(name) for name in (*names.files, *names.patterns)}
         return Expansion(
-            source=robot.source_text,
-            arguments=robot.arguments or {},
-            command=robot.command,
-            files=files,
-            patterns=patterns,
+            files={name: _file_hash(path) if (path := places[name]) else old for name, old in names.files.items()},
+            patterns={
+                name: _names_hash(path) if (path := places[name]) else old for name, old in names.patterns.items()
+            },
+            packages={name: self.package(name) or old for name, old in names.packages.items()},
             variables={name: _variable_hash(name) for name in names.variables},
         )
 
@@ -93,13 +97,15 @@ class SourceFiles:
         changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(made, key)]
         changed += [name for name in {**made.files, **now.files} if made.files.get(name) != now.files.get(name)]
         changed += [name for name in made.patterns if made.patterns[name] != now.patterns[name]]
+        changed += [f"{_PACKAGE}{name}" for name in made.packages if made.packages[name] != now.packages[name]]
         return (*changed, *(f"${name}" for name in made.variables if made.variables[name] != now.variables[name]))
 
     def why_not_expandable(self, made: Expansion, error: SourceError) -> str:
         """Return what this machine lacks to expand a source again, as a clause; empty for a faulty source."""
         if error.diagnostics[0].code == "not-installed":
             return error.diagnostics[0].message
-        missing = [name for name, sha256 in made.files.items() if sha256 and not _is_there(self.path(name))]
+        places = {name: self.path(name) for name, sha256 in made.files.items() if sha256}
+        missing = [name for name, path in places.items() if path is None or _file_hash(path) is None]
         return f"{missing[0]} is not on this machine" if missing else ""
 
     def places(self, made: Expansion) -> list[tuple[int, str, int]]:
@@ -110,13 +116,6 @@ class SourceFiles:
             return [(line, files[number], origin) for line, number, origin in entries]
         except (IndexError, ValueError):  # urdfsync did not write this text
             return []
-
-
-def _is_there(path: Path | None) -> bool:
-    try:
-        return path is not None and is_file(path)
-    except (OSError, ValueError):  # a stranger may have written an invalid name
-        return False
 
 
 def _file_hash(path: Path) -> str | None:
@@ -149,49 +148,43 @@ def expand(
 
     `contents` override files on disk, by absolute path.
     """
-    folders = tuple(map(str, inputs.package_paths))
-    limits = CPU_SECONDS, MEMORY
-    request = Request(str(inputs.source), arguments, folders, *limits, str(inputs.root), contents or {})
-    answer = _ask(translator, request)
-    if (problem := answer.problem) is not None:
-        message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
-        for path in answer.files:
-            message = message.replace(path, shown(Path(path)))
-        file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
-        place, hint = (file, problem.line), problem.hint or translator.hints.get(problem.code, "")
-        for path in answer.files:  # record the inputs as dependencies, as `find_changes` does after a success
-            _file_hash(Path(path))
-        for pattern in answer.patterns:
-            _names_hash(Path(pattern))
-        for name in answer.variables:
-            _variable_hash(name)
-        raise SourceError.of(problem.code, message, *place, hint=hint)
+    answer = _ask(translator, inputs, arguments, contents=contents or {})
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
     number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}
-    return Expansion(
+    made = Expansion(
         arguments=arguments,
         files={names[path]: answer.files[path] for path in number},
         patterns={inputs.name(path, answer.packages): _names_hash(Path(path)) for path in answer.patterns},
+        packages={name: folder and inputs.name(folder, {name: folder}) for name, folder in answer.packages.items()},
         variables={name: _variable_hash(name) for name in answer.variables},
         unused=answer.unknown,
         warnings=answer.warnings,
         places=" ".join(f"{line}={number[file]}:{origin}" for line, file, origin in answer.places),
         text=answer.text,
     )
+    if (problem := answer.problem) is not None:
+        message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
+        for path in answer.files:
+            message = message.replace(path, shown(Path(path)))
+        file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
+        place, hint = (file, problem.line), problem.hint or translator.hints.get(problem.code, "")
+        inputs.read(made)  # records them as dependencies, as `find_changes` does after a success
+        raise SourceError.of(problem.code, message, *place, hint=hint)
+    return made
 
 
 def compare(inputs: SourceFiles, arguments: Mapping[str, str], text: str, translator: Translator) -> Answer:
     """Let a translator compare a text with its source, in a process of its own. Raises SourceError."""
-    folders = tuple(map(str, inputs.package_paths))
-    request = Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root), text=text)
-    answer = _ask(translator, request)
+    answer = _ask(translator, inputs, arguments, text=text)
     if answer.problem:
         raise SourceError.of(answer.problem.code, answer.problem.message, shown(inputs.source))
     return answer
 
 
-def _ask(translator: Translator, request: Request) -> Answer:
-    """Expand a file in another process."""
+def _ask(translator: Translator, inputs: SourceFiles, arguments: Mapping[str, str], **more: Any) -> Answer:
+    """Expand a source in another process; `more` are further fields of the request."""
+    folders = tuple(map(str, inputs.package_paths))
+    request = Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root), **more)
     limits = Answer(problem=Problem(f"{translator.name}-limits", ""))
     try:
         question = msgspec.json.encode(request)

@@ -52,6 +52,10 @@ class Packages:
     def _all(self) -> Mapping[str, Path]:
         return find(self.folders, self.source)
 
+    def places(self) -> dict[str, str | None]:
+        """Return the folder of each package that was asked for; None for a missing one."""
+        return {name: str(folder) if folder else None for name, folder in self._named.items()}
+
     def _find(self, name: str) -> Path | None:
         named = [folder / name for folder in (*self.folders, *self.source.parents)]
         near = [*self.source.parents, *named]
@@ -86,7 +90,7 @@ def _precedence(name: str) -> tuple[bool, list[int], str]:
     return bool(version), [-int(number) for number in re.findall("[0-9]+", version)], name
 
 
-def is_visible_file(path: Path) -> bool:
+def is_visible_file(path: str | Path) -> bool:
     """Return whether a file is known to exist; False if a folder above is inaccessible."""
     try:
         return is_file(path)

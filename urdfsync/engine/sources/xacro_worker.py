@@ -26,6 +26,7 @@ from xml.dom import expatbuilder
 from xml.parsers import expat
 
 from urdfsync.dependencies.facts import MAX_FILE, read_unrecorded
+from urdfsync.dependencies.places import place
 from urdfsync.dependencies.reads import list_folder
 from urdfsync.engine.sources import ros_packages
 from urdfsync.engine.sources.exchange import Answer, Problem, Request, serve, too_large
@@ -113,23 +114,19 @@ class _Files:
         self._contents = contents
         self.hashes: dict[str, str | None] = {}
         self.patterns: dict[str, None] = {}
-        self.packages: dict[str, str] = {}
-        self._known = packages
+        self._packages = packages
 
     def find(self, name: str) -> str:
         """Return the folder of a ROS package. Raises PackageNotFoundError."""
-        if (folder := self._known.folder(name)) is None:
-            places = (*self._known.folders, *self._known.source.parents)
-            self.hashes |= {str(place / name / "package.xml"): None for place in places}
+        if (folder := self._packages.folder(name)) is None:
             raise PackageNotFoundError(name)
-        self.packages[name] = str(folder)
-        return self.packages[name]
+        return str(folder)
 
     def glob(self, pattern: str) -> list[str]:
         """Return the files that a pattern matches. Raises PatternError."""
         pattern = os.path.abspath(pattern)  # noqa: PTH100
         folder = os.path.dirname(pattern)  # noqa: PTH120
-        if has_magic(folder) and not os.path.isdir(folder):  # noqa: PTH112
+        if has_magic(folder) and not os.path.isdir(place(folder)):  # noqa: PTH112
             raise PatternError(f"{pattern}: only the file's name may have wildcards")
         self.patterns[pattern] = None
         return find_matches(pattern)
@@ -231,7 +228,7 @@ def expand(request: Request) -> Answer:
             xacro.init_stacks(request.source)
             document = xacro.parse(None, request.source)
             xacro.process_doc(document, mappings=arguments)
-            text = _text(document, files.packages)
+            text = _text(document, packages.places())
             places = tuple(_places(document, text))
             for element in document.getElementsByTagName("*"):
                 if element.tagName in _macros:
@@ -239,7 +236,7 @@ def expand(request: Request) -> Answer:
                     said.write(f"warning: <{name}> of line {line} calls no macro: write <xacro:{name} …>\n")
     except Exception as error:  # noqa: BLE001 - expressions may raise any exception
         unset = [name for name in _uses if name not in _defaults.union(request.arguments)]
-        problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source, files.packages, unset)
+        problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source, packages.places(), unset)
     lines = [line.strip() for line in said.getvalue().splitlines()]
     return Answer(
         text,
@@ -247,19 +244,20 @@ def expand(request: Request) -> Answer:
         files.hashes,
         tuple(files.patterns),
         tuple(environment.asked),
-        files.packages,
+        packages.places(),
         tuple(name for name in request.arguments if name not in arguments.asked),
         tuple(dict.fromkeys(line for line in lines if line and not line.startswith(_SAID_WHERE))),
         problem,
     )
 
 
-def _text(document: Any, packages: Mapping[str, str]) -> str:
+def _text(document: Any, packages: Mapping[str, str | None]) -> str:
     """Return the text of a document, the same on every machine. Raises TooLargeError before steps that take seconds."""
     text: str = document.toprettyxml(indent="  ")
     if len(text) > MAX_FILE:
         raise TooLargeError
-    for name, folder in sorted(packages.items(), key=lambda item: -len(item[1])):
+    folders = [(name, folder) for name, folder in packages.items() if folder]
+    for name, folder in sorted(folders, key=lambda item: -len(item[1])):
         text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
     return text
 
@@ -293,7 +291,7 @@ def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
         yield line, file, origin
 
 
-def _problem(error: BaseException, current: str, packages: Mapping[str, str], unset: Sequence[str]) -> Problem:
+def _problem(error: BaseException, current: str, packages: Mapping[str, str | None], unset: Sequence[str]) -> Problem:
     """Return why an expansion failed: the innermost cause, and the place; `current` is xacro's present file.
 
     `packages` has the folders of the ROS packages that the file named, `unset` has arguments without a value.
@@ -328,7 +326,7 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str], un
         case OSError() if cause.filename:
             message = f"{cause.filename} can't be read: {cause.strerror}"
             missing = Path(cause.filename).parents if isinstance(cause, FileNotFoundError) else ()
-            package = next((name for name, folder in packages.items() if Path(folder) in missing), None)
+            package = next((name for name, folder in packages.items() if folder and Path(folder) in missing), None)
             # packages may install files into other folders, as the demos of ros2_control do
             hint = f"if package `{package}` has this file once it is installed, name the installed xacro file as source"
             return Problem("xacro", message, file, line, hint if package else "")
