@@ -28,7 +28,7 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions, reads:
     generation = generate_robot(inputs)
     inputs = with_git_merges(inputs, generation.package)
     decision = decide_package(inputs, generation)
-    if options.choices:
+    if options.choices or options.adopts:
         inputs = with_choices(inputs, settle(inputs, generation, decision))
         decision = decide_package(inputs, generation)
     return stage(inputs, generation, decision, reads)

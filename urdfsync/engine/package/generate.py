@@ -14,7 +14,7 @@ from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.dependencies.reads import is_file, walk_files
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
-from urdfsync.files import Templates, digest, normalised, shown, text_digest
+from urdfsync.files import Templates, digest, normalised, shown, text_hash
 from urdfsync.modelica.files import class_path
 from urdfsync.modelica.literals import without_literals
 
@@ -65,7 +65,7 @@ class Package:
     def hash(self, path: str) -> str:
         """Return the hash of one file's text."""
         if path not in self._hashes:
-            self._hashes[path] = text_digest(self.content(path))
+            self._hashes[path] = text_hash(self.content(path))
         return self._hashes[path]
 
     @property
