@@ -123,8 +123,8 @@ def install(folder: Path, console: Console) -> None:
 
 def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     """Write the merge, and return a warning if there are conflicts. Raises OSError."""
-    from urdfsync.merge.texts import merge_file  # the other commands seldom merge
     from urdfsync.engine.inspect.package_files import text_hash
+    from urdfsync.merge.texts import merge_file  # the other commands seldom merge
     from urdfsync.modelica.stamp import split, stamped
 
     size = args.marker_size if args.marker_size > 0 else _MARKER_SIZE  # as git does

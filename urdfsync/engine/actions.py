@@ -97,7 +97,7 @@ class Reason(enum.StrEnum):
             "{n} to set back to your former text", "{n} set back to your former text")
     MOVE = ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
             "{n} to move with your edits", "{n} moved with your edits")
-    KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; your text has all changes of its generated text",
+    KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; its generated text has nothing new",
             "{n} kept because you edited {them}")
     ORPHAN = ("orphan", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept",
               "{n} no longer generated but kept because you edited {them}")

@@ -75,7 +75,7 @@ def find_edited(
             is_edited = action.mine not in (None, action.base, action.generated)
         if is_text and not is_users and is_edited:
             base = inputs.last.base(action.base) if action.base else None
-            if action.base == action.generated:  # before `adopt` the base is not stored yet
+            if action.generated and action.reason is Reason.KEEP:  # the text has all changes of the generated one
                 base = generation.package.content(inputs.folder.path(action.path)).decode()
             yield EditedFile(key, action.owner, base, files.any_text(key))
 

@@ -24,10 +24,15 @@ _FIRST = re.compile(
     rf",\n(<{{7,}}(?=\s)[^\n]*\n){_LAST}{_LINES}(?:(\|{{7,}}(?=\s)[^\n]*\n){_LAST})?{_LINES}(={{7,}}\r?\n){_LAST}"
 )
 """Git's markers around stamps that begin both sides, with the lines after our one."""
+_ALONE = re.compile(r"(\s*\))\s*;[ \t]*(\r?\n)?")
 _TOKENS = re.compile(r'"(?:[^"\\]|\\.)*+"|//[^\n]*+|/\*.*?\*/|[;\[\]]', re.DOTALL)
-_END = re.compile(r"(?:\s|//[^\n]*\n|/\*.*?\*/)*end\s+\S+\s*\Z", re.DOTALL)
+_END = re.compile(r"\bend\s+[^\s;]+\s*$")
+_BLANKS = r"(?:\s|//[^\n]*\n|/\*.*?\*/)*"
+_HEAD = r"(?:[\w\s]*\b(?:package|model|record|block|class|connector|function|type|operator)\s+[^\s;\"]+" + (
+    rf"{_BLANKS}(?:\"(?:[^\"\\]|\\.)*+\"{_BLANKS}\+?{_BLANKS})*)?"
+)
 _ANNOTATION = re.compile(
-    r"(?:\s|//[^\n]*\n|/\*.*?\*/|(?:public|protected|initial|equation|algorithm)\b)*annotation\s*\(", re.DOTALL
+    rf"{_BLANKS}{_HEAD}(?:(?:public|protected|initial|equation|algorithm)\b{_BLANKS})*annotation\s*\(", re.DOTALL
 )
 
 
@@ -61,13 +66,15 @@ def split(text: str) -> tuple[str, Stamp | None]:
         bare = left[:-1] + after
     elif (right := after.lstrip()).startswith(","):
         bare = before + right[1:].lstrip()
-    else:  # its annotation has no other argument
-        clause, head, _ = before.rpartition("annotation")
-        closed = right.removeprefix(")")
-        is_statement = re.search(r"\bend\b", closed) is not None  # nothing follows the annotation of a short class
-        bare = clause.rstrip() + (closed.lstrip().removeprefix(";") if is_statement else closed)
-        if not head:
-            return text, None
+    elif (alone := _ALONE.match(after)) and (head := before.rpartition("annotation")[0]):
+        if re.search(r"\bend\b", after) is None:  # nothing follows the annotation of a short class
+            bare = head.rstrip() + after[alone.end(1) :]
+        else:
+            line = head.rstrip(" \t")
+            is_line = line.endswith("\n") and alone[2]
+            bare = line + after[alone.end() :] if is_line else head + after[alone.end(1) + 1 :].lstrip(" ")
+    else:
+        return text, None
     return bare, Stamp(*found.groups())
 
 
@@ -78,19 +85,18 @@ def stamped(bare: str, stamp: Stamp) -> str:
         if token[0] == ";" and depth == 0:
             ends.append(token.start())
         depth += (token[0] == "[") - (token[0] == "]")
-    is_long = _END.match(bare, ends[-2] + 1, ends[-1]) is not None if ends[-1] >= 0 else False
-    ends = ends if not is_long else ends[:-1]
-    begin, end = ends[-2] + 1, ends[-1]
-    if end < 0:
+    if (end := ends[-1]) < 0:
         return bare
     line_end = "\r\n" if bare.endswith("\r\n") else "\n"
-    if is_long and _ANNOTATION.match(bare, begin, end):
-        close = bare.rindex(")", begin, end)
-        comma = "" if bare[:close].rstrip().endswith("(") else f",{line_end}    "
-        return f"{bare[:close]}{comma}{mark}{bare[close:]}"
-    if is_long:
-        return f"{bare[: end + 1]}{line_end}  annotation ({mark});{bare[end + 1 :]}"
-    if re.search(r"\bannotation\s*\(", bare[begin:end]) and bare[:end].rstrip().endswith(")"):
-        close = bare.rindex(")", begin, end)
+    if last := _END.search(bare, ends[-2] + 1, end):
+        if _ANNOTATION.match(bare, ends[-3] + 1, ends[-2]):
+            close = bare.rindex(")", 0, ends[-2])
+            comma = "" if bare[:close].rstrip().endswith("(") else f",{line_end}    "
+            return f"{bare[:close]}{comma}{mark}{bare[close:]}"
+        place = last.start()
+        clause = f"  annotation ({mark});{line_end}" if bare[:place].endswith("\n") else f"annotation ({mark}); "
+        return bare[:place] + clause + bare[place:]
+    if re.search(r"\bannotation\s*\(", bare[ends[-2] + 1 : end]) and bare[:end].rstrip().endswith(")"):
+        close = bare.rindex(")", 0, end)
         return f"{bare[:close]}, {mark}{bare[close:]}"
     return f"{bare[:end]} annotation ({mark}){bare[end:]}"

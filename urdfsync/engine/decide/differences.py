@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping
 from pathlib import PurePosixPath
 
@@ -9,7 +10,7 @@ import msgspec
 
 from urdfsync import changes
 from urdfsync.changes import Changes
-from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, displaced
+from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, displaced
 from urdfsync.engine.decide.parts import file_ids, find_part_ids
 from urdfsync.engine.decide.renames import match_with_last
 from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, with_unshown
@@ -18,7 +19,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import option_values
 from urdfsync.matching import Matching, without_exchanges
-from urdfsync.modelica.files import as_file, class_path
+from urdfsync.modelica.files import as_file, class_parts, class_path
 
 GONE = "_gone"
 """The end of the new name of a removed element whose name another element has now."""
@@ -195,16 +196,25 @@ def _find_identifiers(
 
 def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
     """Return old keys by new keys of the files whose stamps say that they belong at another path."""
-    files, recorded, moves = inputs.files, inputs.last.record.files, dict[str, str]()
+    files, last, moves = inputs.files, inputs.last, dict[str, str]()
     targets = {file_id: inputs.folder.key(path) for path, file_id in ids.items()}
-    for folder in dict.fromkeys((inputs.last.folder, inputs.folder)):
+    for folder in dict.fromkeys((last.folder, inputs.folder)):
         for key, stamp in files.stamps(folder).items():
-            target, place = targets.get(stamp.id), as_file(key)
+            target = targets.get(stamp.id)
             if target is None or as_file(target) == as_file(key):
                 continue
             there = files.stamp(target)
-            is_taken = there is not None and there.id == stamp.id
-            is_edited = is_taken and there is not None and there.base != files.hash(target, Role.MODEL)
-            if not (is_edited or (is_taken and place not in recorded)):  # otherwise the file is the user's copy
-                moves.setdefault(target, place if place in recorded else key)
+            if there and there.id == stamp.id:
+                is_edited = there.base != files.hash(target, Role.MODEL)
+                if is_edited or not _is_in_place(last.base(stamp.base), last.target, folder.path(key)):
+                    continue  # the file is the user's copy
+            place = as_file(key)  # if the class is a folder, the file that it was
+            moves.setdefault(target, place if place in last.record.files else key)
     return moves
+
+
+def _is_in_place(base: str | None, target: Target, path: str) -> bool:
+    """Return whether the file at this path is where its base was generated: a copy has another name or folder."""
+    *folders, name = class_parts(as_file(path))
+    within = re.escape(".".join((target.package, *folders)))
+    return re.match(rf"within {within};\n.*?^(?:\w+ )+{name}\b", base or "", re.DOTALL | re.MULTILINE) is not None

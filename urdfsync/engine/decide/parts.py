@@ -52,10 +52,9 @@ def _stated_ids(inputs: Inputs, generation: Generation) -> dict[str, str]:
     """Return the ids in the stamps of all records that equal their generated texts, by owner."""
     found = dict[str, str]()
     for path, artifact in generation.package.artifacts.items():
-        key = inputs.folder.key(path)
-        if artifact.role is Role.RECORD and inputs.files.hash(key, Role.RECORD) == generation.package.hash(path):
-            if stamp := inputs.files.stamp(key):
-                found[artifact.owner] = stamp.id[:_DIGITS]
+        state = inputs.files.state(inputs.folder.key(path)) if artifact.role is Role.RECORD else None
+        if state and state.stamp and state.text_sha256 == generation.package.hash(path):
+            found[artifact.owner] = state.stamp.id[:_DIGITS]
     return found
 
 

@@ -88,7 +88,7 @@ def _find_meant_text(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merg
     if is_unmerged and not has_markers and (left := _read_left_side(file, plain(text))):
         if _is_chosen(inputs, key, plain(text)):
             return None  # `git add` is missing
-        return text if _are_generated(last, [left[1]]) else _merge_edits(last, key, left[0])
+        return text if _are_generated(last, [left[1]]) else _merge_edits(last, left[0])
     if not (has_markers or is_edited):
         return None
     sides = read_sides(file, text)
@@ -100,10 +100,10 @@ def _find_meant_text(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merg
         return sides.ours
     if sides is None or not has_markers:
         return None
-    return _merge_edits(last, key, sides)
+    return _merge_edits(last, sides)
 
 
-def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | Merge:
+def _merge_edits(last: LastBuild, sides: Sides) -> str | Merge:
     """Merge two versions by their elements; if that fails, merge their edits into the same generated text.
 
     The second way ignores differences between exports: these are no contradictions between people.

@@ -51,9 +51,9 @@ def _next_actions(inputs: Inputs, decision: Decision) -> Iterator[Action]:
             continue
         if after.reason is Reason.ORPHAN:  # the record has neither role nor owner
             after = msgspec.structs.replace(after, role=role_of(inputs.folder.path(after.path)), owner="")
-        if after.mine and after.reason in (Reason.KEEP, Reason.ORPHAN):
-            if action.mine in inputs.last.record.confirmed and action.reason is not Reason.KEEP:
-                raise _UncertainError
+        is_confirmed = action.mine in inputs.last.record.confirmed and action.reason is not Reason.KEEP
+        if is_confirmed and after.mine and after.reason in (Reason.KEEP, Reason.ORPHAN):
+            raise _UncertainError
         yield after
 
 
