@@ -71,7 +71,7 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         unused = find_unused(inputs.domain, generation.now, target, options, inputs.templates, package)
     news = _find_changes(inputs, generation, matching, unused)
     parts = find_part_ids(inputs, generation, matching)
-    ids = file_ids(generation, parts)
+    ids = file_ids(package.artifacts.values(), parts)
     moves = _find_moves(inputs, ids)
     others, has_exchanges, renames = dict[str, str](), False, matching.renames
     if renames and last.version:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
-from urdfsync.domain import Role, displaced
+from urdfsync.domain import Artifact, Role, displaced
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.files import digest
@@ -58,10 +58,8 @@ def _stated_ids(inputs: Inputs, generation: Generation) -> dict[str, str]:
     return found
 
 
-def file_ids(generation: Generation, parts: Mapping[str, str]) -> dict[str, str]:
-    """Return the id of each generated file by its path: the id of its part, then digits of its template's name."""
-    templates = {one.template: digest(one.template.encode())[:4] for one in generation.package.artifacts.values()}
-    return {
-        path: f"{parts.get(one.owner) or first_id(one.owner)}-{templates[one.template]}"
-        for path, one in generation.package.artifacts.items()
-    }
+def file_ids(artifacts: Iterable[Artifact], parts: Mapping[str, str]) -> dict[str, str]:
+    """Return the id of each file by its path: the id of its part, then digits of its template's name."""
+    files = tuple(artifacts)
+    templates = {file.template: digest(file.template.encode())[:4] for file in files}
+    return {file.path: f"{parts.get(file.owner) or first_id(file.owner)}-{templates[file.template]}" for file in files}

@@ -461,5 +461,6 @@ equation
 <p>
 Links and joints of robot SixAxisArm, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-3d0d", base = "a575558308bb0582"));
 end SixAxisArm;

@@ -422,5 +422,6 @@ equation
 <p>
 Links and joints of robot WheeledRobot, connected. Each can be exchanged in a model that extends this one. A drive of joint <code>elbow</code>, say, is connected to <code>elbowAxis</code> and <code>elbowSupport</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-3d0d", base = "78d1b90532893cfd"));
 end WheeledRobot;
