@@ -24,11 +24,13 @@ from urdfsync.dependencies import localfile
 from urdfsync.domain import Import
 from urdfsync.engine.actions import FileStatus, Reason
 from urdfsync.engine.build import build
+from urdfsync.engine.inspect.package_files import bare_hash
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
-from urdfsync.files import digest, text_digest
+from urdfsync.files import digest, text_hash
+from urdfsync.modelica.stamp import split
 from urdfsync.state import bases, statefile
-from urdfsync.state.record import FileRecord, Generator, Record, as_recorded
+from urdfsync.state.record import Generator, Record, as_recorded
 
 COUNT = int(os.environ.get("URDFSYNC_FORGERIES", "25"))
 SEEDS = [*range(COUNT)] if "URDFSYNC_FORGERIES" not in os.environ else [Random().getrandbits(32) for _ in range(COUNT)]
@@ -79,28 +81,28 @@ def build_all(folder: Path, **given: Any) -> dict[str, Result]:
 def texts_on_disk() -> dict[str, str]:
     """Hashes of all files of the package by key, the user's own included."""
     files = [path for path in ARM.rglob("*") if path.is_file() and path.name != "package.order"]
-    return {path.as_posix(): text_digest(path.read_bytes()) for path in files}
+    return {path.as_posix(): bare_hash(path.read_bytes()) for path in files}
 
 
 def take_what_is_there(record: Record, random: Random) -> Record:
     """Record a file by the text that is there, as if urdfsync had written it."""
     key, sha256 = random.choice(sorted(texts_on_disk().items()))
     add_base(Path(key))
-    return msgspec.structs.replace(record, files={**record.files, key: FileRecord((sha256,))})
+    return msgspec.structs.replace(record, files={**record.files, key: sha256})
 
 
 def take_all_that_is_there(record: Record, _: Random) -> Record:
     for key in texts_on_disk():
         add_base(Path(key))
-    files = {key: FileRecord((sha256,)) for key, sha256 in texts_on_disk().items()}
-    return msgspec.structs.replace(record, files=files)
+    return msgspec.structs.replace(record, files=texts_on_disk())
 
 
 def add_base(path: Path) -> None:
     """Store a text as a generated one."""
-    content = path.read_bytes().replace(b"\r\n", b"\n")
-    file = Path(".urdfsync/bases/arm") / digest(content)[0]
-    file.write_bytes(file.read_bytes() + bases.dumps({digest(content): content.decode()}))
+    text = split(path.read_text())[0]
+    sha256 = text_hash(text.encode())
+    file = Path(".urdfsync/bases/arm") / sha256[0]
+    file.write_bytes(file.read_bytes() + bases.dumps({sha256: text}))
 
 
 def exchange_hashes(record: Record, random: Random) -> Record:
@@ -116,14 +118,8 @@ def forget_files(record: Record, random: Random) -> Record:
 
 def invent_files(record: Record, random: Random) -> Record:
     names = [f"{ARM}/Links/{name}.mo" for name in ("Mine", "Ghost", "Upper2")] + [f"{ARM}/Resources/mine.csv"]
-    made = {name: FileRecord((f"{random.getrandbits(256):064x}",)) for name in names}
+    made = {name: f"{random.getrandbits(64):016x}" for name in names}
     return msgspec.structs.replace(record, files={**record.files, **made})
-
-
-def two_hashes(record: Record, random: Random) -> Record:
-    key, sha256 = random.choice(sorted(texts_on_disk().items()))
-    before = record.files.get(key, FileRecord()).hashes
-    return msgspec.structs.replace(record, files={**record.files, key: FileRecord((*before, sha256))})
 
 
 def another_number(record: Record, random: Random) -> Record:
@@ -174,7 +170,7 @@ def other_headings(record: Record, random: Random) -> Record:
 def invent_an_import(record: Record, _: Random) -> Record:
     file = ARM / "Resources/mine.csv"
     entry = Import("Resources/mine.csv", "0" * 64, digest(file.read_bytes()), {})
-    files = {**record.files, file.as_posix(): FileRecord((digest(file.read_bytes()),))}
+    files = {**record.files, file.as_posix(): digest(file.read_bytes())}
     return msgspec.structs.replace(record, imports={"mine": (entry,)}, files=files)
 
 
@@ -189,7 +185,7 @@ def exchange_robots(record: Record, random: Random) -> Record:
 
 
 FORGERIES: tuple[Forgery, ...] = (
-    *(take_what_is_there, take_all_that_is_there, exchange_hashes, forget_files, invent_files, two_hashes),
+    *(take_what_is_there, take_all_that_is_there, exchange_hashes, forget_files, invent_files),
     *(another_number, another_element, no_model, the_model_now, other_headings, invent_an_import, exchange_robots),
 )
 

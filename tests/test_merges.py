@@ -131,7 +131,7 @@ def first_conflict(text: str) -> str:
             for side in ("theirs", "both", "neither")
         ),
         pytest.param("renamed-by-both", MODEL, "line", marks=pytest.mark.slow),
-        ("renamed-by-both", f"{LADDER}/Elements/ShuntParameters.mo", "ours"),
+        ("renamed-by-both", MODEL, "ours"),
         ("renamed-by-both", f"{LADDER}/Elements/package.order", "both"),
     ],
 )

@@ -19,7 +19,7 @@ A text begins with what its scenarios share, each `-- NAME`; then each begins wi
     branch NAME START        a new branch, from `main` if no start is there
     git COMMAND => CODE      any other command of git
     clone                    commits and clones: from here on, all is done here and in the clone, with the same results
-    keep NAME FILE           remembers a text; `same NAME FILE`: it is that one now
+    keep NAME FILE           remembers a text without its stamp; `same NAME FILE`: it is that one now
     has FILE TEXT            also `lacks FILE TEXT`, `exists FILE`, `gone FILE`, `order FILE NAME…` (exactly these)
     run FILE REASON…         a build, and what happens to all files that do not just stay; `run dry` writes nothing
     only FILE TEXT           of all models, this one alone has the text
@@ -53,6 +53,8 @@ from support.git import Repository
 from support.networks import conflicts, edit, kinds, run
 from support.replay import contents
 from support.urdfs import robot_of
+
+from urdfsync.modelica.stamp import split
 
 FOLDER = Path(__file__).with_name("scenarios")
 
@@ -211,11 +213,11 @@ class Scenario:
 
     def keep(self, rest: str) -> None:
         name, file = rest.split()
-        self._kept[name] = self.path(file).read_text()
+        self._kept[name] = split(self.path(file).read_text())[0]
 
     def same(self, rest: str) -> None:
         name, file = rest.split()
-        assert self.path(file).read_text() == self._kept[name]
+        assert split(self.path(file).read_text())[0] == self._kept[name]
 
     def has(self, rest: str, *, there: bool = True) -> None:
         file, text = rest.split(" ", 1)

@@ -116,7 +116,7 @@ PLAIN: dict[str, tuple[Callable[[], object], Verdict]] = {
     "an extension that is not modelled": (extend, GREEN),
     "an option without effect": (set_option_without_effect, GREEN),
     "new files with an old state": (export_then_old_state, RENEWED),
-    "the user typed what the export brings": (type_what_the_export_brings, RENEWED),
+    "the user typed what the export brings": (type_what_the_export_brings, LATE),
     "a comment in the source": (comment, GREEN),
     "a deleted file": (lambda: Path(RECORD).unlink(), LATE),
     "a lost state": (lambda: Path(STATE).unlink(), RENEWED),

@@ -53,6 +53,11 @@ def text_digest(content: bytes) -> str:
     return digest(normalised(content))
 
 
+def text_hash(content: bytes) -> str:
+    """Return the hash of a text of a package: 16 digits, enough to tell the texts of one robot apart."""
+    return text_digest(content)[:16]
+
+
 def normalised(content: bytes) -> bytes:
     r"""Return a text file's bytes with `\r\n` and `\r` as `\n`."""
     return content.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in content else content

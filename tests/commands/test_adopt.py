@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.files import snapshot, unchanged
+from support.files import models, unchanged
 from support.networks import C1, RECORD, edit, resistor
 from support.urdfs import joint, link, robot
 
@@ -24,26 +24,37 @@ end ElbowParams;
 
 @pytest.fixture
 def lost(project: Path, execute: Execute) -> Path:
-    """A network whose package was built and edited, and whose recorded state is lost."""
+    """A network whose package was built and edited, and has neither state nor stamps: another program wrote it."""
     execute("build", "-q")
     edit(C1, "\nequation\n", "\n  Real mine = 1;\nequation\n")
     edit(RECORD, "100", "99")
     shutil.rmtree(project / ".urdfsync")
+    for path, text in models().items():
+        Path(path).write_text(text)
     return project
+
+
+def test_without_the_state_the_stamps_say_what_is_edited(project: Path, execute: Execute) -> None:
+    execute("build", "-q")
+    edit(C1, "\nequation\n", "\n  Real mine = 1;\nequation\n")
+    shutil.rmtree(project / ".urdfsync")
+    assert execute("build").lines[0].startswith("ladder: in step, 14 files, 1 kept because you edited it")
+    resistor(150)
+    assert "1 kept because you edited it" in execute("build").words
 
 
 def test_after_the_state_was_lost(lost: Path, execute: Execute) -> None:
     assert "  urdfsync adopt ladder  takes the files for your edits, and lists them" in execute("build", code=3).lines
     shutil.rmtree(lost / ".urdfsync")
-    before = snapshot(lost)
+    before = models()
     assert execute("adopt", "ladder").lines == [
-        "ladder: in step, 14 files, 2 kept because you edited them, recorded state renewed: commit .urdfsync",
+        "ladder: 6 files written, 2 kept because you edited them",
         f"  {C1}  element C1",
         "    component `mine`: added",
         f"  {RECORD}  element R1",
         "    component `R`: R 100 → 99",
     ]
-    assert {path: content for path, content in snapshot(lost).items() if not path.startswith(".urdfsync")} == before
+    assert models() == before, "only stamps are new"
     assert execute("build").lines == ["ladder: in step, 14 files, 2 kept because you edited them"]
 
 
@@ -58,7 +69,7 @@ def test_later_exports_merge(lost: Path, execute: Execute) -> None:
 def test_a_dry_run_says_the_same_and_writes_nothing(lost: Path, execute: Execute) -> None:
     with unchanged(lost):
         said = execute("adopt", "ladder", "--dry-run").lines
-    assert said[0] == "ladder: in step, 14 files, 2 kept because you edited them"
+    assert said[0] == "ladder: 9 files to write, 2 kept because you edited them"
     assert said[1:] == execute("adopt", "ladder").lines[1:]
 
 
@@ -99,9 +110,9 @@ def foreign(folder: Path, execute: Execute) -> Path:
 @pytest.mark.slow
 def test_a_package_of_another_tool(foreign: Path, execute: Execute) -> None:
     """It is adopted as it is, and broken: generated models use connectors that its joints lack."""
-    before = snapshot(foreign)
+    before = models()
     (found,) = execute("adopt", "arm", "--format=json", code=3).json["results"]
-    assert snapshot(foreign).items() >= before.items()
+    assert models().items() >= before.items()
     reasons = {action["path"]: action["reason"] for action in found["actions"]}
     unknown = (PARAMS, "modelica/Arm/Joints/Brake.mo")
     assert {path for path, reason in reasons.items() if reason == "keep"} == {

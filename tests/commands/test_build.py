@@ -53,7 +53,7 @@ def test_verbose_names_each_file_that_is_not_as_generated_on_one_line(edited: Pa
     lines = execute("build", "--verbose", "--dry-run").lines
     assert lines[0] == "ladder: 1 to restore, 1 kept because you edited it"
     folder = Path("modelica/Ladder")
-    assert f"  keep       {folder / 'Ladder.mo'}  you edited it; its generated text did not change" in lines
+    assert f"  keep       {folder / 'Ladder.mo'}  you edited it; its generated text has nothing new" in lines
     assert f"  restore    {folder / 'Elements' / 'R1.mo'}  you deleted it" in lines
     assert len(lines) == 3
 

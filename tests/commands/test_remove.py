@@ -17,6 +17,7 @@ from support.files import unchanged
 from support.networks import ROBOT, edit
 
 from urdfsync import cli
+from urdfsync.modelica.stamp import split
 
 REMOVE = ("remove", "filter", "--yes")
 FILTER = "modelica/Plant/Filter"
@@ -87,7 +88,7 @@ def test_a_text_that_another_machine_generated_goes_and_a_copy_is_put_aside(plan
     state = plant / ".urdfsync/robots/filter.state"
     lines = state.read_text().splitlines(keepends=True)
     state.write_text("".join(line for line in lines if not line.startswith("model ")))
-    text = (plant / FILTER / "Filter.mo").read_text()
+    text, _ = split((plant / FILTER / "Filter.mo").read_text())
     execute(*REMOVE)
     assert not (plant / FILTER / "Filter.mo").exists()
     assert text in [path.read_text() for path in (plant / ".urdfsync/aside").rglob("*") if path.is_file()]

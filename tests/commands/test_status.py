@@ -70,7 +70,8 @@ def test_of_what_settles_conflicts_only_that_is_proposed_which_can(built: Path, 
     edit(built / "ladder.json", "220.5", "330")
     for command in ("status", "diff"):
         found = execute(command, code=None).lines
-        assert found[-1] == "  settle each conflict with `urdfsync resolve FILE --keep` (or --edit, --take)"
+        file = Path(LADDER, "Elements/R2Parameters.mo")
+        assert found[-1] == f"  settle the conflict with `urdfsync resolve {file} --keep` (or --edit, --take)"
 
 
 def test_many_stale_files_are_named_only_if_asked_for(built: Path, execute: Execute) -> None:

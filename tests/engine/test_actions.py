@@ -25,7 +25,7 @@ def test_what_waits_writes_nothing_and_keeps_its_text(reason: Reason) -> None:
 
 def test_the_users_text_stays_in_what_is_theirs_or_disputed() -> None:
     kept = {reason for reason in Reason if act(reason).keeps_text}
-    assert kept == {Reason.KEEP, Reason.INCLUDED, *ORPHANS, *CONFLICTS, Reason.FORGET, Reason.UNKNOWN}
+    assert kept == {Reason.KEEP, *ORPHANS, *CONFLICTS, Reason.FORGET, Reason.UNKNOWN}
     assert {Reason.ORPHAN, Reason.NEEDED} == ORPHANS
     assert {Reason.CONFLICT, Reason.MARKERS, Reason.UNOWNED, Reason.ASKED, Reason.RENAMED} == CONFLICTS
 

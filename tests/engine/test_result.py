@@ -33,7 +33,6 @@ def result(*reasons: Reason, **fields: Any) -> Result:
 @pytest.mark.parametrize(
     ("build", "summary"),
     [
-        (result(Reason.UNCHANGED, Reason.INCLUDED), "in step, 2 files, 1 that you edited already has all changes"),
         (result(Reason.NEEDED), "in step, 0 files, 1 orphan kept because your files need it"),
         (result(Reason.UNCHANGED), "in step, 1 file"),
         (result(Reason.UPDATE, Reason.CREATE, writes=True), "2 files written"),

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import
-from urdfsync.state.record import FileRecord, Generator, Open, Record
+from urdfsync.state.record import Generator, Open, Record
 from urdfsync.state.statefile import dumps, loads
 
 A, B = "a" * 64, "b" * 64
@@ -21,7 +21,7 @@ ARM = Record(
     options={"base": "fixed", "frames": ["tip"]},
     snapshot={"links": {"tip": {"mass": 1.5}}, "joints": {}, "name": "arm"},
     imports={"tip.stl": (Import("Resources/tip.stl", A, B, {"hull": [[0.0, 1.0]]}),)},
-    files={"modelica/Plant/Arm/Arm.mo": FileRecord((A,))},
+    files={"modelica/Plant/Arm/Arm.mo": A},
 )
 SEEN = {"tip.stl": (Import("Resources/tip.stl", B, A, {}),)}
 OPEN = Open({"links": {"tip": {"mass": 2.0}}}, {("link", "end"): "tip"}, imports=SEEN)
@@ -41,7 +41,7 @@ def test_a_record_comes_back(snapshot: dict[str, object], seen: dict[str, object
 
 def test_blanks_in_paths_come_back() -> None:
     folder = "my models/Plant/Arm"
-    record = msgspec.structs.replace(ARM, folder=folder, files={f"{folder}/Own part.mo": FileRecord((A,))})
+    record = msgspec.structs.replace(ARM, folder=folder, files={f"{folder}/Own part.mo": A})
     assert loads(dumps(record), "arm.state") == (record, None)
 
 
@@ -115,7 +115,7 @@ def test_a_model_that_git_united_is_at_hand_unless_an_element_stands_twice() -> 
 
 def test_a_file_has_every_hash_that_a_branch_recorded() -> None:
     record = united(f"file {B}  Arm.mo")
-    assert record.files["modelica/Plant/Arm/Arm.mo"] == FileRecord((A, B))
+    assert record.files["modelica/Plant/Arm/Arm.mo"] == B
     assert record.is_united
 
 

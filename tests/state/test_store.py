@@ -101,7 +101,7 @@ def test_what_was_never_written_is_none(tmp_path: Path) -> None:
 
 
 def test_what_was_put_aside_and_expanded_is_read_again(tmp_path: Path) -> None:
-    aside = {"Links/a.mo": Aside("Links/a.1.mo", "0" * 64, ("1" * 64,), {"1" * 64: "base"})}
+    aside = {"Links/a.mo": Aside("Links/a.1.mo", "0" * 16, {"1" * 16: "base"})}
     expanded = Expansion(source="arm.xacro", text="<robot/>")
     for change in (
         *Store(tmp_path).save_aside("arm", aside, {"Links/a.1.mo": b"mine"}),

@@ -197,5 +197,5 @@ def _needed(project: Path, robot: str) -> bytes:
     store = Store(project)
     state, _ = store.load(robot)
     assert state is not None
-    needed = {sha256 for file in state.files.values() for sha256 in file.hashes}
+    needed = set(state.files.values())
     return repr([(digest, store.base(robot, digest)) for digest in sorted(needed)]).encode()

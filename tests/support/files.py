@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from urdfsync import api
+from urdfsync.modelica.stamp import split
 
 
 def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
@@ -35,8 +36,8 @@ def outputs() -> list[Path]:
 
 
 def models() -> dict[str, str]:
-    """The models and records of all packages in the working folder, by path."""
-    return {path.as_posix(): path.read_text() for path in sorted(Path("modelica").rglob("*.mo"))}
+    """The bare texts of the models and records of all packages in the working folder, by path."""
+    return {path.as_posix(): split(path.read_text())[0] for path in sorted(Path("modelica").rglob("*.mo"))}
 
 
 def fresh_models(folder: Path) -> dict[str, str]:

@@ -21,7 +21,10 @@ from support.library import library_artifacts
 from support.packages import RENDERER, Package, generate
 from urdfsync import config
 from urdfsync.domain import Artifact, Order, Target
+from urdfsync.engine.decide.parts import file_ids
 from urdfsync.engine.package.render import Renderer
+from urdfsync.files import text_hash
+from urdfsync.modelica.stamp import Stamp, stamped
 from urdfsync.urdf.artifacts import record
 from urdfsync.urdf.options import Options
 
@@ -111,6 +114,8 @@ class Piece(NamedTuple):
     artifact: Artifact | Order
     is_librarys: bool = False
     """Whether it is one of the library's own links and joints: users can replace their records."""
+    id: str = ""
+    """The id in its stamp, if a build writes it."""
 
     def text(self, renderer: Renderer = RENDERER) -> str:
         """Return the text that the templates write."""
@@ -118,6 +123,11 @@ class Piece(NamedTuple):
             return "".join(f"{name}\n" for name in self.artifact.names)
         text = renderer.render(self.artifact.template, self.artifact.data)
         return text.replace("    redeclare ", "    redeclare replaceable ", 1) if self.is_librarys else text
+
+    def content(self) -> bytes:
+        """Return the content of the file."""
+        text = self.text()
+        return (stamped(text, Stamp(self.id, text_hash(text.encode()))) if self.id else text).encode()
 
 
 @functools.cache
@@ -131,7 +141,10 @@ def examples() -> Mapping[Path, Package]:
 def pieces() -> tuple[Piece, ...]:
     """All golden texts."""
     library = [Piece(LIBRARY / each.path, each, is_librarys=True) for each in library_artifacts()]
-    generated = [Piece(folder / each.path, each) for folder, made in examples().items() for each in made.artifacts]
+    generated = list[Piece]()
+    for folder, made in examples().items():
+        ids = file_ids([each for each in made.artifacts if isinstance(each, Artifact)], {})
+        generated += [Piece(folder / each.path, each, id=ids.get(each.path, "")) for each in made.artifacts]
     return *library, *generated, *(piece for piece in of_variants() if piece.file.is_file())
 
 
@@ -146,7 +159,7 @@ def of_variants() -> Iterator[Piece]:
 def expected() -> dict[Path, bytes]:
     """The golden files: texts, and the meshes of Examples."""
     meshes = {folder / path: mesh for folder, made in examples().items() for path, mesh in made.imports.items()}
-    return meshes | {piece.file: piece.text().encode() for piece in pieces()}
+    return meshes | {piece.file: piece.content() for piece in pieces()}
 
 
 def on_disk() -> dict[Path, bytes]:

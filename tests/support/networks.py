@@ -134,7 +134,7 @@ def stored(folder: Path = BASES) -> dict[str, str | None]:
 
 def mentioned() -> set[str]:
     """The hashes of texts that the recorded state mentions."""
-    return set(re.findall(r"(?m)^file (\w{64})  (?!Resources/)", Path(MANIFEST).read_text()))
+    return set(re.findall(r"(?m)^file (\w{16})  (?!Resources/)", Path(MANIFEST).read_text()))
 
 
 def inner_kinds(result: Result) -> dict[str, Reason]:

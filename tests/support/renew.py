@@ -13,7 +13,7 @@ def renew() -> None:
     for piece in of_variants():
         if more := lines_shown([piece]) - shown:
             shown |= more
-            content[piece.file] = piece.text().encode()
+            content[piece.file] = piece.content()
     for file in sorted(former.keys() | content.keys()):
         if file not in content:
             file.unlink()

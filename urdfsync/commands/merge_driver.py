@@ -125,7 +125,9 @@ def install(folder: Path, console: Console) -> None:
 
 def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     """Write the merge, and return a warning if there are conflicts. Raises OSError."""
+    from urdfsync.engine.inspect.package_files import text_hash
     from urdfsync.merge.texts import merge_file  # the other commands seldom merge
+    from urdfsync.modelica.stamp import split, stamped
 
     size = args.marker_size if args.marker_size > 0 else _MARKER_SIZE  # as git does
     labels = _label(args.ours, "ours"), _label(args.theirs, "theirs")
@@ -137,8 +139,14 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     except UnicodeDecodeError:
         message, hint = "the file is not UTF-8, so it can't be merged", "this side's text stays: settle it by hand"
         return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)]
+    (base, before), (mine, stamp), (other, others) = map(split, (base, mine, other))
     merged, conflicts = merge_file(base, mine, other, markers)
-    if merged != mine:
+    if stamp and others and not conflicts and (stamp.base, others.base) == (text_hash(mine), text_hash(other)):
+        stamp = stamp._replace(base=text_hash(merged))  # nobody has edited the file
+    elif stamp == before:  # if both sides exported the part, the next build takes our stamp as it is
+        stamp = others
+    merged = stamped(merged, stamp) if stamp else merged
+    if merged.encode() != contents[1]:
         args.mine.write_bytes(merged.encode())  # a temporary file of git's
     if not conflicts:
         return []

@@ -97,9 +97,7 @@ class Reason(enum.StrEnum):
             "{n} to set back to your former text", "{n} set back to your former text")
     MOVE = ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
             "{n} to move with your edits", "{n} moved with your edits")
-    INCLUDED = ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and your text already has all changes",
-                "{n} that you edited already {have} all changes")
-    KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; its generated text did not change",
+    KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; its generated text has nothing new",
             "{n} kept because you edited {them}")
     ORPHAN = ("orphan", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept",
               "{n} orphan{s} kept because you edited {them}")
@@ -135,7 +133,7 @@ ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.O
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
 DISPUTED = CONFLICTS | {Reason.MOVE}
 """Reasons of actions that depend on the user's and the generated text, or on the user's choice."""
-USERS = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DISPUTED
+USERS = frozenset({Reason.KEEP, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DISPUTED
 """Reasons of actions after which the file still has the user's text or edits."""
 
 

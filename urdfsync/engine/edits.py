@@ -12,12 +12,11 @@ from urdfsync.config import Config, working_folder
 from urdfsync.diagnostics import Diagnostic, findings_of
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.decide.decision import decide_package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inspect.inputs import Inputs, inspect
 from urdfsync.engine.inspect.package_files import CLASS_FOLDER
-from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.plan import decide_robot
 from urdfsync.merge import edits as merge_edits
 
 
@@ -61,8 +60,8 @@ def find_edited(
     Raises UrdfsyncError. `actions` are the package's actions; if it is None, this decides on them.
     """
     if actions is None:
-        inputs = with_git_merges(inputs, generation.package)
-        actions = decide_package(inputs, generation).actions
+        inputs, decision = decide_robot(inputs, generation)
+        actions = decision.actions
     files = inputs.files
     for action in actions:
         key = action.origin or action.path
@@ -75,7 +74,7 @@ def find_edited(
             is_edited = action.mine not in (None, action.base, action.generated)
         if is_text and not is_users and is_edited:
             base = inputs.last.base(action.base) if action.base else None
-            if action.base == action.generated:  # before `adopt` the base is not stored yet
+            if action.generated and action.reason is Reason.KEEP:  # the text has all changes of the generated one
                 base = generation.package.content(inputs.folder.path(action.path)).decode()
             yield EditedFile(key, action.owner, base, files.any_text(key))
 

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.reads import Reads
-from urdfsync.engine.decide.decision import decide_package
+from urdfsync.engine.decide.decision import Decision, decide_package
 from urdfsync.engine.decide.settle import settle, with_choices
-from urdfsync.engine.generation import generate_robot
-from urdfsync.engine.inspect.inputs import inspect
+from urdfsync.engine.generation import Generation, generate_robot
+from urdfsync.engine.inspect.inputs import Inputs, inspect
 from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Outlook
@@ -26,9 +26,15 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions, reads:
     if inputs.source.is_missing:
         return Plan(Outlook(stale=inputs.source.stale), inputs.store.hashes())
     generation = generate_robot(inputs)
+    inputs, decision = decide_robot(inputs, generation)
+    return stage(inputs, generation, decision, reads)
+
+
+def decide_robot(inputs: Inputs, generation: Generation) -> tuple[Inputs, Decision]:
+    """Decide on every file, as git and the user's choices leave them. Returns the inputs with their contents."""
     inputs = with_git_merges(inputs, generation.package)
     decision = decide_package(inputs, generation)
-    if options.choices:
+    if inputs.options.choices or inputs.options.adopts:
         inputs = with_choices(inputs, settle(inputs, generation, decision))
         decision = decide_package(inputs, generation)
-    return stage(inputs, generation, decision, reads)
+    return inputs, decision

@@ -27,7 +27,7 @@ from urdfsync.engine.result import Outlook, Result
 from urdfsync.files import digest, shown
 from urdfsync.state.transaction import DRAFT, PLANNED
 
-_SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED, Reason.UNKNOWN})
+_SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.UNKNOWN})
 """Reasons of actions that `build` does not list."""
 
 

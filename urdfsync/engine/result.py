@@ -211,7 +211,7 @@ class Result(Outlook, frozen=True, kw_only=True):
             return f"{error_count(self.diagnostics)}, {end}"
         parts = [*(["inputs changed since the last build"] if self.stale else []), *self.counts()]
         if self.in_step and not any(action.writes for action in self.actions.decided):
-            fine = (Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED)
+            fine = (Reason.UNCHANGED, Reason.KEEP)
             total = sum(action.reason in fine for action in self.actions)
             parts.insert(0, f"in step, {counted(total, 'file')}")
         if self.is_unmerged:

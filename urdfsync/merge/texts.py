@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -67,22 +66,6 @@ def merge(
         flaw = find_flaw(merged, sides, statements) if is_modelica and merged != mine else ""
         return Merge(None if flaw else merged, merged, told, flaw)
     return Merge(None, merged, told, "", *_preferred(pieces, ending, sides, statements if is_modelica else None))
-
-
-def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:
-    """Move the edits of a file to its last and its first base; return both bases with their edited texts.
-
-    Git may have recorded bases of several branches, so a difference between two bases is no edit. The result leaves out
-    a base if the edits contradict it.
-    """
-    edited = []
-    for way in dict.fromkeys([tuple(bases), tuple(reversed(bases))]):
-        text: str | None = mine
-        for base, other in itertools.pairwise(way):
-            text = None if text is None else merge(base, text, other, is_modelica=is_modelica).text
-        if text is not None and way:
-            edited.append((way[-1], text))
-    return edited
 
 
 def _preferred(

@@ -24,6 +24,11 @@ def class_path(file: PurePosixPath) -> PurePosixPath:
     return file.parent if file.name == PACKAGE_FILE else file.with_suffix("")
 
 
+def as_file(path: str) -> str:
+    """Return the path of a class's file, or the path that it would have if the class is a folder."""
+    return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
+
+
 def class_parts(path: str) -> tuple[str, ...]:
     """Return the name of a file's class, from its POSIX path below the package."""
     return tuple(path.removesuffix(".mo").removesuffix("/package").split("/")) if path != PACKAGE_FILE else ()

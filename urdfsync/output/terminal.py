@@ -14,7 +14,7 @@ _FILES = {
     "green": "update create restore merge undo move stale missing",
     "magenta": "delete moved-away",
     "bold red": "conflict",
-    "cyan": "included keep edited",
+    "cyan": "keep edited",
     "yellow": "orphan needed waiting unknown",
 }
 """Styles of the words for actions on files and for their states."""

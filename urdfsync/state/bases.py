@@ -14,16 +14,16 @@ from collections.abc import Mapping
 
 import msgspec
 
-from urdfsync.files import digest
+from urdfsync.files import text_hash
 
 DIGITS = "0123456789abcdef"
 
 _DECODER = msgspec.json.Decoder(str | None)
-_HASH = re.compile(rb"[0-9a-f]{64}")
+_HASH = re.compile(rb"[0-9a-f]{16}")
 
 
 def dumps(texts: Mapping[str, str | None]) -> bytes:
-    """Return one file with these texts, by their hashes (see `text_digest`); None for a former text."""
+    """Return one file with these texts, by their hashes (see `text_hash`); None for a former text."""
     encode = msgspec.json.encode
     return b"".join(b"%s %s\n" % (sha256.encode(), encode(text)) for sha256, text in sorted(texts.items()))
 
@@ -40,7 +40,7 @@ def loads(content: bytes) -> Mapping[str, str | None]:
             continue
         if text is None and _HASH.fullmatch(sha256):
             texts.setdefault(sha256.decode(), None)  # git may have united it with the line of a branch with the text
-        elif text is not None and digest(text.encode()).encode() == sha256:
+        elif text is not None and text_hash(text.encode()).encode() == sha256:
             texts[sha256.decode()] = text
     return texts
 

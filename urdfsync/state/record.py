@@ -40,37 +40,6 @@ def _named(model: Any) -> tuple[str, ...]:
     return tuple(name for name, item in items.items() if "name" in getattr(item, "__struct_fields__", ()))
 
 
-class FileRecord(msgspec.Struct, frozen=True):
-    """The base of one file, as a hash.
-
-    Imported files have the hash of their bytes. If git has united two states, a file may have several hashes until the
-    next complete build.
-    """
-
-    hashes: tuple[str, ...] = ()
-
-    @property
-    def is_ambiguous(self) -> bool:
-        """Whether the base is unknown."""
-        return len(self.hashes) > 1
-
-    def base(self, mine: object, generated: str | None) -> str | None:
-        """Return the base to compare with; None if urdfsync never wrote the file.
-
-        The base of an unedited file is the file's own hash. An edited file with an ambiguous base must conflict, so
-        this returns a hash that differs from the generated hash.
-        """
-        if not self.hashes:
-            return None
-        if isinstance(mine, str) and mine in self.hashes:
-            return mine
-        return next((sha256 for sha256 in self.hashes if sha256 != generated), self.hashes[0])
-
-
-NEVER_WRITTEN = FileRecord()
-"""The record of a file that no build wrote."""
-
-
 class Generator(msgspec.Struct, frozen=True):
     """The program that turned the model into files."""
 
@@ -128,16 +97,14 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     does not change the record."""
     imports: Mapping[str, tuple[Import, ...]] = {}
     """The imports of the last complete build by key. A file has several if git has united two states."""
-    files: Mapping[str, FileRecord] = {}
+    files: Mapping[str, str] = {}
+    """The generated text of each file by its hash, and each imported file by the hash of its bytes."""
+    ids: Mapping[str, str] = {}
+    """The lasting ids of renamed parts, by owner: kind and name. Other parts have the id of their owner's name."""
     open: Open | None = None
     """None if the last build was complete."""
     is_united: bool = False
     """Whether git has united two states since the last complete build, or lines are missing."""
-
-    @property
-    def hashes(self) -> set[str]:
-        """The hashes of the bases of all files."""
-        return {sha256 for file in self.files.values() for sha256 in file.hashes}
 
 
 def role_of(path: str) -> Role:

@@ -10,7 +10,8 @@ from __future__ import annotations
 import functools
 import posixpath
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -18,11 +19,11 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
 from urdfsync.domain import Import
 from urdfsync.files import digest
-from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Question, Record
+from urdfsync.state.record import RESOURCES, Generator, Open, Question, Record
 from urdfsync.version import __version__
 
 _HEADER = "# What urdfsync built last for this robot. Written by urdfsync: commit it, don't edit it.\n"
-_HASH = re.compile(r"[0-9a-f]{64}")
+_HASH = re.compile(r"[0-9a-f]{16}(?:[0-9a-f]{48})?")
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
 """A quick check that nearly all paths in packages pass: a matching path can't lead out of the package."""
 _HINT = "restore the file from version control, or build: a build writes a new file"
@@ -40,6 +41,7 @@ _FACTS: Mapping[str, Any] = {
     "import": tuple[str, Import],
     "declared": tuple[str, str],
     "former": tuple[str, str],
+    "id": tuple[str, str],
     "confirmed": str,
     "edited": str,
     "seen": tuple[str, str | None, Any],
@@ -59,7 +61,7 @@ def dumps(record: Record) -> str:
     """Return the record as text: the same value gives the same text everywhere."""
     below = len(record.folder) + 1
     lines = {f"{word} {msgspec.json.encode(value, order='sorted').decode()}" for word, value in _facts(record)}
-    files = sorted({(key[below:], sha256) for key, file in record.files.items() for sha256 in file.hashes})
+    files = sorted((key[below:], sha256) for key, sha256 in record.files.items())
     listed = [f"file {sha256}  {path}" for path, sha256 in files]
     if not record.is_united:
         lines.add(f'{_SUM}"{_sum([*lines, *listed])}"')
@@ -79,6 +81,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
         yield from (("model", fact) for fact in _elements(record.snapshot))
     yield from (("declared", names) for names in record.renamed.items())
     yield from (("former", names) for names in record.former.items())
+    yield from (("id", item) for item in record.ids.items())
     yield from (("confirmed", sha256) for sha256 in record.confirmed)
     yield from (("edited", sha256) for sha256 in record.edited)
     yield from (("import", (key, entry)) for key, entries in record.imports.items() for entry in entries)
@@ -162,9 +165,8 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
     """Return the record from facts; of two facts for one of `_HEADINGS`, the last one counts."""
     package, class_, folder, domain, _, templates = (values[word][-1] for word in _HEADINGS)
     is_placed = all(len(values[word]) == 1 for word in _PLACE)
-    hashes: dict[str, list[str]] = {}
-    for path, sha256 in values["file"] if is_placed else ():  # with two different folders, the files' paths are unknown
-        hashes.setdefault(f"{folder}/{path}", []).append(sha256)
+    # with two different folders, the files' paths are unknown
+    files = {f"{folder}/{path}": sha256 for path, sha256 in sorted(values["file"] if is_placed else ())}
     open_ = None
     if values["seen"]:
         renamed = {(kind, old): new for kind, old, new in values["renamed"]}
@@ -180,15 +182,21 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         options=dict(values["option"]),
         snapshot=_snapshot(values["model"]),
         renamed=dict(values["declared"]),
-        # two branches may have renamed one element: then its new name is unknown
-        former={old: new for old, new in values["former"] if [name for name, _ in values["former"]].count(old) == 1},
+        former=_unique(values["former"]),  # two branches may have renamed one element: then its new name is unknown
         confirmed=frozenset(values["confirmed"]),
         edited=frozenset(values["edited"]),
         imports=_imports(values["import"]),
-        files={key: FileRecord(tuple(values)) for key, values in sorted(hashes.items())},
+        files=files,
+        ids=_unique(values["id"]),
         open=open_,
         is_united=not is_whole,
     )
+
+
+def _unique(facts: Sequence[tuple[str, str]]) -> Mapping[str, str]:
+    """Return the values of keys with one value."""
+    count = Counter(key for key, _ in facts)
+    return {key: value for key, value in facts if count[key] == 1}
 
 
 def _imports(facts: Iterable[tuple[str, Import]]) -> Mapping[str, tuple[Import, ...]]:

@@ -47,11 +47,9 @@ class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
     file: str
     """Path of the saved text below the robot's folder in `.urdfsync/aside/`."""
     after: str | None = None
-    """Hash of the text that replaced the saved text; None if the build deleted the file."""
-    bases: tuple[str, ...] = ()
-    """Hashes of the bases of the text after `--undo`."""
-    texts: Mapping[str, str] = {}
-    """The known texts of these bases, by hash."""
+    """Hash of the bare text that replaced the saved text; None if the build deleted the file."""
+    base: Mapping[str, str] = {}
+    """The text of the saved text's base, by hash; empty if it is unknown."""
     beside: Mapping[str, str] = {}
     """The texts of unedited models that the same build deleted, by path below the package."""
 
@@ -97,7 +95,7 @@ class Store:
         return self._notes[robot]
 
     def base(self, robot: str, sha256: str) -> str | None:
-        """Return a robot's generated text with this hash (see `text_digest`); None if the text is lost or former."""
+        """Return a robot's generated text with this hash (see `text_hash`); None if the text is lost or former."""
         return (self.bases(robot, sha256[0]) or {}).get(sha256)
 
     def has_written(self, robot: str, sha256: str) -> bool:

@@ -11,7 +11,7 @@ from support.networks import edit
 from support.urdfs import robot_of
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Choice, Reason
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide.conflicts import find_conflict, resolve
 
 FORE = "modelica/Arm/Links/ForeParameters.mo"
@@ -74,8 +74,8 @@ FITTING, DISPUTED, SAME = (("1\n\na\n", MINE, GENERATED), ("1\n", "2\n", "3\n"),
         (Reason.CONFLICT, FITTING, False, Reason.CONFLICT, None),
         (Reason.CONFLICT, FITTING, True, Reason.MERGE, BOTH),
         (Reason.CONFLICT, DISPUTED, True, Reason.CONFLICT, None),
-        (Reason.CONFLICT, SAME, False, Reason.INCLUDED, None),
-        (Reason.CONFLICT, SAME, True, Reason.INCLUDED, None),
+        (Reason.CONFLICT, SAME, False, Reason.KEEP, None),
+        (Reason.CONFLICT, SAME, True, Reason.KEEP, None),
         (Reason.MOVE, FITTING, False, Reason.MOVE, BOTH),
         (Reason.MOVE, DISPUTED, True, Reason.CONFLICT, None),
         (Reason.ORPHAN, None, True, Reason.ORPHAN, None),
@@ -86,33 +86,6 @@ def test_merges_are_taken_if_the_configuration_allows_them_or_a_file_moves(
     before: Reason, texts: tuple[str, str, str] | None, merging: bool, after: Reason, text: str | None
 ) -> None:
     action = Action("a.txt", before, Role.MODEL, "", "base", "new", mine="mine")
-    conflicts = {"a.txt": find_conflict(action, [texts[0]], *texts[1:])} if texts else {}
+    conflicts = {"a.txt": find_conflict(action, *texts)} if texts else {}
     (resolved,), merged = resolve([action], conflicts, merging=merging)
     assert (resolved.reason, merged.get("a.txt")) == (after, text)
-
-
-def test_an_edit_is_in_step_if_it_has_all_that_is_new_since_each_base() -> None:
-    action = Action("a.txt", Reason.CONFLICT, Role.MODEL, mine="mine")
-    ours, theirs, generated = "1\n\na\n\nx\n", "y\n\na\n\n2\n", "1\n\na\n\n2\n"
-    for mine, reason in (("1\n\nb\n\n2\n", Reason.INCLUDED), ("1\n\nb\n\nx\n", Reason.CONFLICT)):
-        found = find_conflict(action, [ours, theirs], mine, generated)
-        (resolved,), _ = resolve([action], {"a.txt": found}, merging=False)
-        assert resolved.reason is reason
-
-
-def test_edits_of_a_file_that_git_united_are_those_that_no_branch_recorded() -> None:
-    action = Action("a.txt", Reason.CONFLICT, Role.MODEL)
-    ours, theirs = "1\n\na\n\n2\n", "3\n\na\n\n4\n"
-    for mine, merged in (("1\n\na\n\n4\n", "5\n\na\n\n6\n"), ("1\n\nb\n\n4\n", "5\n\nb\n\n6\n")):
-        for bases in ([ours, theirs], [theirs, ours]):
-            found = find_conflict(action, bases, mine, "5\n\na\n\n6\n")
-            assert (found.merged(Choice.MERGE), found.rejected) == (merged, "")
-
-
-def test_bases_of_two_branches_that_give_different_merges_give_none() -> None:
-    action = Action("a.txt", Reason.CONFLICT, Role.MODEL)
-    both = find_conflict(action, ["1\n", "2\n"], "3\n", "1\n")
-    assert both.merged(Choice.MERGE) is None
-    assert both.rejected == "two branches recorded different bases, which give different merges"
-    same = find_conflict(action, ["1\n\na\n", "1\r\n\r\na\r\n"], MINE, GENERATED)
-    assert (same.base, same.merged(Choice.MERGE), same.rejected) == ("1\n\na\n", BOTH, "")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -14,7 +13,6 @@ from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide.conflicts import find_conflict, resolve
 from urdfsync.engine.decide.rules import File, decide, decide_file, file_records_after, put_off
 from urdfsync.engine.inspect.package_files import CLASS_FOLDER, ClassFolder
-from urdfsync.state.record import FileRecord
 
 
 @pytest.mark.parametrize(
@@ -47,7 +45,7 @@ def test_decision_table(base: str | None, mine: str | None, generated: str | Non
 
 # Files whose element has another name
 
-bases = st.lists(st.sampled_from("uvw"), max_size=2, unique=True)
+bases = st.sampled_from("uvw")
 hands = st.sampled_from([None, CLASS_FOLDER, *"uvwxy"])
 paths = st.sampled_from("abcde")
 
@@ -55,13 +53,13 @@ paths = st.sampled_from("abcde")
 @st.composite
 def situations(draw: st.DrawFn) -> tuple[dict[str, File], dict[str, str]]:
     """What is recorded, wanted and there, and moves from recorded places to wanted ones."""
-    recorded = {path: FileRecord(tuple(hashes)) for path, hashes in draw(st.dictionaries(paths, bases)).items()}
+    recorded = draw(st.dictionaries(paths, bases))
     wanted = draw(st.dictionaries(paths, st.sampled_from("uvw12")))
     found = draw(st.dictionaries(paths, hands))
     origins = draw(st.permutations(sorted(recorded)))
     pairs = zip(draw(st.permutations(sorted(wanted))), origins, strict=False)
     files = {
-        path: File(Role.MODEL, "", recorded.get(path, FileRecord()), found.get(path), wanted.get(path))
+        path: File(Role.MODEL, "", recorded.get(path), found.get(path), wanted.get(path))
         for path in recorded.keys() | wanted.keys()
     }
     return files, {new: old for new, old in pairs if new != old and draw(st.booleans())}
@@ -83,11 +81,11 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
             assert action.mine == files[action.origin or ""].on_disk != action.base
         if action.reason is Reason.MOVED_AWAY:
             assert action.path in moved
-        mine, bases = files[action.path].on_disk, files[action.path].record.hashes
+        mine, base = files[action.path].on_disk, files[action.path].base
         if action.reason is Reason.DELETE:
-            assert mine in bases
-        if action.writes and mine not in (None, *bases, action.generated):
-            others = {one for file in files.values() for one in file.record.hashes}
+            assert mine == base
+        if action.writes and mine not in (None, base, action.generated):
+            others = {file.base for file in files.values()}
             assert action.path in moved or (action.reason is Reason.UPDATE and mine in others), (
                 "moved by hand, unedited"
             )
@@ -98,8 +96,8 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
 def test_places_that_are_handed_on() -> None:
     """A's edited file goes where B's untouched one is, which goes to a new place."""
     files = {
-        "A.mo": File(Role.MODEL, "part A", FileRecord(("A",)), "mine"),
-        "B.mo": File(Role.MODEL, "part B", FileRecord(("B",)), "B", "new B"),
+        "A.mo": File(Role.MODEL, "part A", "A", "mine"),
+        "B.mo": File(Role.MODEL, "part B", "B", "B", "new B"),
         "C.mo": File(Role.MODEL, "part C", generated="new C"),
     }
     actions = decide(files, {"B.mo": "A.mo", "C.mo": "B.mo"})
@@ -108,28 +106,6 @@ def test_places_that_are_handed_on() -> None:
         "B.mo": (Reason.MOVE, "A.mo", "A"),
         "C.mo": (Reason.CREATE, "B.mo", "B"),
     }
-
-
-@pytest.mark.parametrize(
-    ("mine", "generated", "kind"),
-    [
-        pytest.param("ours", "new", Reason.UPDATE, id="untouched, by any of the hashes"),
-        pytest.param("theirs", "ours", Reason.UPDATE, id="untouched, and the other one is wanted"),
-        pytest.param("edited", "new", Reason.CONFLICT, id="edited"),
-        pytest.param("edited", "ours", Reason.CONFLICT, id="edited, and nothing may be new"),
-        pytest.param("ours", None, Reason.DELETE, id="no longer generated"),
-        pytest.param("edited", None, Reason.ORPHAN, id="edited, and no longer generated"),
-        pytest.param("new", "new", Reason.UNCHANGED, id="already right"),
-    ],
-)
-def test_a_base_that_two_branches_recorded_otherwise(mine: str, generated: str | None, kind: Reason) -> None:
-    file = File(Role.MODEL, record=FileRecord(("ours", "theirs")), on_disk=mine, generated=generated)
-    actions = decide({"A.mo": file}, {})
-    assert [action.reason for action in actions] == [kind]
-    for record in file_records_after(actions, {"A.mo": file.record}, is_complete=True).values():
-        assert not record.is_ambiguous
-        again = decide({"A.mo": msgspec.structs.replace(file, record=record)}, {})
-        assert kind is not Reason.ORPHAN or [action.reason for action in again] == [kind], "it is not deleted later"
 
 
 LINES = st.lists(st.sampled_from(["a\n", "b\n", "c = 1\n", "c = 2\n"]), max_size=6).map("".join)
@@ -147,7 +123,7 @@ def test_no_text_of_the_users_gives_way_but_to_a_merge(
 ) -> None:
     origin = "old.txt" if kind is Reason.MOVE else None
     action = Action("a.txt", kind, Role.MODEL, "robot", base, generated, origin, mine=mine)
-    conflict = find_conflict(action, [] if base is None else [base], mine, generated)
+    conflict = find_conflict(action, base, mine, generated)
     (result,), texts = resolve([action], {action.path: conflict}, merging=merging)
     text = texts.get(action.path)
     if result.reason in (Reason.MERGE, Reason.MOVE):
@@ -186,14 +162,14 @@ def test_what_waits_for_a_conflict(moves: bool) -> None:
 
 def test_an_edited_file_that_cant_move_blocks_all_that_would_follow_it() -> None:
     """A goes to B, B to C and C to D, where something of the user's is."""
-    files = {name: File(Role.MODEL, "", FileRecord(("base",)), "edited", "new") for name in "ABC"}
+    files = {name: File(Role.MODEL, "", "base", "edited", "new") for name in "ABC"}
     files["D"] = File(Role.MODEL, "", on_disk="mine", generated="new")
     assert all(action.origin is None for action in decide(files, {"B": "A", "C": "B", "D": "C"}))
 
 
 def test_a_place_that_an_edited_file_leaves_is_free_for_another_one() -> None:
     files = {
-        "A.mo": File(Role.MODEL, "part B", FileRecord(("A",)), "edited", "other"),
+        "A.mo": File(Role.MODEL, "part B", "A", "edited", "other"),
         "B.mo": File(Role.MODEL, "part A", generated="new"),
     }
     reasons = {action.path: action.reason for action in decide(files, {"B.mo": "A.mo"})}
@@ -202,13 +178,13 @@ def test_a_place_that_an_edited_file_leaves_is_free_for_another_one() -> None:
 
 @pytest.mark.parametrize(("mine", "reason"), [("A", Reason.UPDATE), ("edited", Reason.CONFLICT)])
 def test_a_file_that_the_user_moved_himself_has_its_old_base(mine: str, reason: Reason) -> None:
-    old, new = File(Role.MODEL, record=FileRecord(("A",))), File(Role.MODEL, on_disk=mine, generated="new")
+    old, new = File(Role.MODEL, base="A"), File(Role.MODEL, on_disk=mine, generated="new")
     actions = decide({"Old.mo": old, "New.mo": new}, {"New.mo": "Old.mo"})
     assert {one.path: (one.reason, one.base) for one in actions}["New.mo"] == (reason, "A")
 
 
 def test_an_untouched_file_that_moves_takes_no_place_of_the_users() -> None:
-    old, new = File(Role.MODEL, "", FileRecord(("A",)), "A"), File(Role.MODEL, on_disk="mine", generated="new")
+    old, new = File(Role.MODEL, "", "A", "A"), File(Role.MODEL, on_disk="mine", generated="new")
     reasons = {action.path: action.reason for action in decide({"Old.mo": old, "New.mo": new}, {"New.mo": "Old.mo"})}
     assert reasons == {"Old.mo": Reason.DELETE, "New.mo": Reason.UNOWNED}
 
@@ -216,5 +192,5 @@ def test_an_untouched_file_that_moves_takes_no_place_of_the_users() -> None:
 def test_while_something_is_open_files_count_that_are_as_generated() -> None:
     files = {reason.name: reason for reason in (Reason.UNCHANGED, Reason.UPDATE, Reason.KEEP)}
     actions = [Action(path, reason, Role.MODEL, base="old", generated="new") for path, reason in files.items()]
-    records = file_records_after(actions, dict.fromkeys(files, FileRecord(("old",))), is_complete=False)
-    assert [path for path, record in records.items() if record.hashes == ("new",)] == ["UNCHANGED", "UPDATE"]
+    records = file_records_after(actions, dict.fromkeys(files, "old"), is_complete=False)
+    assert [path for path, record in records.items() if record == "new"] == ["UNCHANGED", "UPDATE"]

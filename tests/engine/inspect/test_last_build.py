@@ -14,9 +14,8 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, configure, edit, own_model, resistor, run
 from support.replay import contents
 
-from urdfsync.files import digest
+from urdfsync.files import text_hash
 from urdfsync.state import bases, statefile
-from urdfsync.state.record import FileRecord
 from urdfsync.state.store import Store
 
 OWN = {"Pump.mo": b"within Mine;\nmodel Pump\nend Pump;\n", "Resources/table.csv": b"1,2\n", "package.order": b"Pump\n"}
@@ -31,7 +30,7 @@ def rewrite(state: Path, **changes: Any) -> None:
 
 def store(project: Path, text: str) -> None:
     """Add a text to the bases."""
-    sha256 = digest(text.encode())
+    sha256 = text_hash(text.encode())
     file = project / f".urdfsync/bases/ladder/{sha256[0]}"
     file.write_bytes(file.read_bytes() + bases.dumps({sha256: text}))
 
@@ -47,7 +46,7 @@ def hostile(execute: Execute, project: Path) -> Path:
     for name, content in OWN.items():
         (project / "modelica/Mine" / name).parent.mkdir(parents=True, exist_ok=True)
         (project / "modelica/Mine" / name).write_bytes(content)
-    record = FileRecord((digest(OWN["Pump.mo"]),))
+    record = text_hash(OWN["Pump.mo"])
     rewrite(project / MANIFEST, package="Mine", folder="modelica/Mine", files={"modelica/Mine/Pump.mo": record})
     shutil.rmtree(project / "modelica/Ladder")
     return project

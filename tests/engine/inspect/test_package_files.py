@@ -12,7 +12,7 @@ from support.networks import LADDER, run
 from urdfsync import config
 from urdfsync.dependencies import facts
 from urdfsync.domain import Role
-from urdfsync.engine.inspect.package_files import CLASS_FOLDER, PackageFiles
+from urdfsync.engine.inspect.package_files import CLASS_FOLDER, PackageFiles, text_hash
 from urdfsync.files import digest
 
 FILE = f"{LADDER}/Ladder.mo"
@@ -79,7 +79,7 @@ def test_a_class_that_became_a_folder_is_in_its_place(project: Path) -> None:
     expected = {"Class.mo": CLASS_FOLDER, "Empty.mo": None, "None.mo": None, "None.txt": None, "Empty/package.mo": None}
     assert {path: files().on_disk(f"{LADDER}/{path}", Role.MODEL) for path in expected} == expected
     for path in ("File.mo", "Both.mo", "Class/package.mo"):
-        assert files().on_disk(f"{LADDER}/{path}", Role.MODEL) == digest(b"text\n"), "of a text, whatever its line ends"
+        assert files().on_disk(f"{LADDER}/{path}", Role.MODEL) == text_hash("text\n"), "whatever its line ends"
         assert files().on_disk(f"{LADDER}/{path}", Role.IMPORT) == digest(b"text\r\n")
 
 

@@ -107,9 +107,6 @@ def test_each_of_many_robots_is_remembered_whatever_the_others_write(project: Pa
 
 UNFORESEEN: dict[str, Change] = {
     "a conflict": do(lambda: mine(RECORD), lambda: resistor(120)),
-    "an edit that becomes the text of another file": do(
-        lambda: Path(R2_RECORD).write_text(Path(RECORD).read_text().replace("100", "120")), lambda: resistor(120)
-    ),
     "a declared rename": do(lambda: networks.rename("C2", "C8"), lambda: configure('renamed = { C2 = "C8" }\n')),
     "another folder": lambda: networks.set_keys(package='"Steps"'),
 }

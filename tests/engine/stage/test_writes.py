@@ -32,7 +32,7 @@ from support.networks import (
 from support.urdfs import robot
 
 from urdfsync.engine.actions import Choice, Reason
-from urdfsync.files import text_digest
+from urdfsync.engine.inspect.package_files import bare_hash
 
 C2 = f"{LADDER}/Elements/C2.mo"
 R2_RECORD = f"{LADDER}/Elements/R2Parameters.mo"
@@ -153,7 +153,7 @@ def test_what_the_user_does_with_a_file_that_is_his_is_his_business(project: Pat
 def test_old_texts_go_with_later_builds_but_are_no_reason_for_one(project: Path) -> None:
     """Their hashes stay."""
     run()
-    first = text_digest(Path(RECORD).read_bytes())
+    first = bare_hash(Path(RECORD).read_bytes())
     resistor(150)
     run()
     assert first in stored(), "the state before it mentions it"
@@ -238,7 +238,7 @@ def test_what_no_file_says_is_not_recorded(project: Path) -> None:
 
 def test_the_base_of_what_was_put_aside_stays(project: Path) -> None:
     run()
-    base = text_digest(Path(RECORD).read_bytes())
+    base = bare_hash(Path(RECORD).read_bytes())
     edit(RECORD, "end R1", "  // mine\nend R1")
     resistor(150)
     run(choices={RECORD: Choice.MERGE})

@@ -66,26 +66,16 @@ class Verdicts(NamedTuple):
 
 
 def find_conflict(
-    action: Action, bases: Sequence[str], mine: str, generated: str, names: Mapping[str, str] | None = None
+    action: Action, base: str | None, mine: str, generated: str, names: Mapping[str, str] | None = None
 ) -> Conflict:
-    """Merge the texts of a file. Ambiguous merges and wrong Modelica are rejected.
+    """Merge the texts of a file, if its base is known. Wrong Modelica is rejected; `names` has new by old names."""
+    from urdfsync.merge.texts import merge
 
-    `bases` are all texts that may be the base, best first; `names` has new names by old names.
-    """
-    from urdfsync.merge.texts import merge, over_bases
-
-    is_modelica = action.path.endswith(".mo")
-    merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
-    if len(bases) > 1 and any(one.text != mine for one in merges):  # equal: `mine` has all changes already
-        edited = over_bases(bases, mine, is_modelica=is_modelica) or [(base, mine) for base in bases]
-        merges = [merge(base, text, generated, is_modelica=is_modelica, names=names) for base, text in edited]
-    first = merges[0] if merges else None
-    rejected = f"the merge {first.flaw}" if first and first.flaw else ""
-    if first and any(other.text != first.text for other in merges):
-        first = first.rejected
-        rejected = "two branches recorded different bases, which give different merges"
-    base = bases[0] if bases else None
-    texts = base, mine, generated, first
+    merged = None
+    if base is not None:
+        merged = merge(base, mine, generated, is_modelica=action.path.endswith(".mo"), names=names)
+    rejected = f"the merge {merged.flaw}" if merged and merged.flaw else ""
+    texts = base, mine, generated, merged
     return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, names=names or {})
 
 
@@ -121,7 +111,7 @@ def resolve(
             reason = Reason.CONFLICT if merged is None else Reason.MOVE
         elif action.is_conflict and conflict and merged is not None:
             is_merging = merging or action.path in renamed
-            reason = Reason.INCLUDED if merged == conflict.mine else Reason.MERGE if is_merging else reason
+            reason = Reason.KEEP if merged == conflict.mine else Reason.MERGE if is_merging else reason
         if merged is not None and reason in (Reason.MOVE, Reason.MERGE):
             texts[action.path] = merged
         resolved.append(action if reason is action.reason else msgspec.structs.replace(action, reason=reason))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping
 from pathlib import PurePosixPath
 
@@ -9,17 +10,16 @@ import msgspec
 
 from urdfsync import changes
 from urdfsync.changes import Changes
-from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, displaced
+from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, displaced
+from urdfsync.engine.decide.parts import file_ids, find_part_ids
 from urdfsync.engine.decide.renames import match_with_last
 from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, with_unshown
 from urdfsync.engine.declared import pending
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import option_values
-from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Matching, without_exchanges
-from urdfsync.modelica.files import class_path
-from urdfsync.state.record import FileRecord
+from urdfsync.modelica.files import as_file, class_parts, class_path
 
 GONE = "_gone"
 """The end of the new name of a removed element whose name another element has now."""
@@ -34,8 +34,10 @@ class Differences(msgspec.Struct, frozen=True):
     """The changes of the model; None if they are unknown, and for a removed robot."""
     is_structural: bool
     """Whether files or names may come or go; False if only numbers changed."""
-    respelled: Mapping[str, tuple[str, str]]
-    """Recorded classes for which this version of urdfsync uses another name (see `LastBuild.respelled`)."""
+    ids: Mapping[str, str]
+    """The lasting id of each generated file, by path."""
+    parts: Mapping[str, str]
+    """The lasting ids of the parts that had other names, by owner."""
     moves: Mapping[str, str]
     """The old key of each text file that moves with its element or with the package, by its new key."""
     identifiers: Mapping[str, str]
@@ -68,22 +70,22 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         target, options = inputs.robot.target, inputs.robot.options
         unused = find_unused(inputs.domain, generation.now, target, options, inputs.templates, package)
     news = _find_changes(inputs, generation, matching, unused)
-    classes = (last.folder.path(key) for key in last.files if key.endswith(".mo"))
-    respelled = {} if all(path in package.artifacts for path in classes) else last.respelled
+    parts = find_part_ids(inputs, generation, matching)
+    ids = file_ids(package.artifacts.values(), parts)
+    moves = _find_moves(inputs, ids)
     others, has_exchanges, renames = dict[str, str](), False, matching.renames
     if renames and last.version:
         after = inputs.domain.features(now)
         others = {name: f"{name}{GONE}" for _, name in displaced(renames)}
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
-    is_structural = news is None or news.change_class.rank >= ChangeClass.STRUCTURAL.rank or bool(respelled)
+    is_structural = news is None or news.change_class.rank >= ChangeClass.STRUCTURAL.rank
     identifiers, former = dict[str, str](), last.record.former
     if is_structural:
-        identifiers = _find_identifiers(inputs, now, renames, respelled) if news is not None else {}
+        identifiers = _find_identifiers(inputs, now, renames, moves) if news is not None else {}
         former = {old: identifiers.get(new, new) for old, new in former.items()} | identifiers
-    moves = _find_moves(inputs, package, renames, respelled) if is_structural or inputs.has_moved else {}
     names = identifiers, former, others, has_exchanges
-    return Differences(matching, news, is_structural, respelled, moves, *names, undeclared, unused)
+    return Differences(matching, news, is_structural, ids, parts, moves, *names, undeclared, unused)
 
 
 def _find_matching(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
@@ -111,10 +113,10 @@ def agrees(inputs: Inputs, owners: Collection[str]) -> bool:
     for path, artifact in package.artifacts.items():
         if artifact.owner in owners and artifact.role is Role.RECORD:
             on_disk = inputs.files.hash(last.folder.key(path), Role.RECORD)
-            recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
+            recorded = last.files.get(last.folder.key(path))
             if last.record.open and on_disk and last.has_written(on_disk):
                 continue  # an incomplete build has written this file since
-            if on_disk in recorded and package.hash(path) != on_disk:
+            if on_disk == recorded and package.hash(path) != on_disk:
                 return False
     return True
 
@@ -159,8 +161,8 @@ def _with_unshown(inputs: Inputs, generation: Generation, news: Changes, unused:
     """
     last, package = inputs.last, generation.package
     owners = package.owners
-    hashes = {last.folder.path(key): file.hashes for key, file in last.files.items()}
-    changed = {owner for path, owner in owners.items() if package.hash(path) not in hashes.get(path, ())}
+    hashes = {last.folder.path(key): base for key, base in last.files.items()}
+    changed = {owner for path, owner in owners.items() if package.hash(path) != hashes.get(path)}
     imported = {IMPORTS} if last.version and last.version.imports != generation.now.imports else set[str]()
     found = with_unshown(news, inputs.domain, unused, set(owners.values()), changed | imported)
     if not found.unshown:
@@ -172,7 +174,7 @@ def _with_unshown(inputs: Inputs, generation: Generation, news: Changes, unused:
 
 
 def _find_identifiers(
-    inputs: Inputs, now: Snapshot, renames: Mapping[ElementKey, str], respelled: Mapping[str, tuple[str, str]]
+    inputs: Inputs, now: Snapshot, renames: Mapping[ElementKey, str], moves: Mapping[str, str]
 ) -> dict[str, str]:
     """Return new identifiers by old identifiers of the last complete build."""
     last, target = inputs.last, inputs.robot.target
@@ -184,30 +186,35 @@ def _find_identifiers(
         for name, identifier in identifiers.items():
             new_name = renames.get((kind.removesuffix("s"), name), name)
             renamed[identifier] = new.get(kind, {}).get(new_name, identifier)
-    for path, (present_path, _) in respelled.items():
-        names = (class_path(PurePosixPath(each)).name for each in (path, present_path))
+    for new_key, key in moves.items():  # another version of urdfsync may call the class of an element otherwise
+        names = (class_path(PurePosixPath(each)).name for each in (key, new_key))
         former, present = (f"{name[0].lower()}{name[1:]}" for name in names)
-        renamed[former] = renamed.pop(present, present)
+        if former not in renamed and present in renamed:
+            renamed[former] = renamed.pop(present)
     return {name: new for name, new in renamed.items() if name != new}
 
 
-def _find_moves(
-    inputs: Inputs,
-    package: Package,
-    renames: Mapping[ElementKey, str],
-    respelled: Mapping[str, tuple[str, str]],
-) -> dict[str, str]:
-    """Return old keys by new keys of text files that move with their element or with the package."""
-    last = inputs.last
-    texts = set(map(last.folder.path, last.files))
-    recorded = last.package.artifacts if last.package else {}
-    before = {path: (file.owner, file.template) for path, file in recorded.items() if path in texts}
-    for path, (present_path, _) in respelled.items():
-        before[path] = recorded[present_path].owner, recorded[present_path].template
-    now = {path: (file.owner, file.template) for path, file in package.artifacts.items()}
-    if before == now and not (inputs.has_moved or renames):
-        return {}
-    renamed = changes.moved_files(before, now, renames)
-    pairs = ((renamed.get(path, path), path) for path in texts)
-    keys = ((inputs.folder.key(new), last.folder.key(old)) for new, old in pairs if new in now)
-    return {new: old for new, old in keys if new != old}
+def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
+    """Return old keys by new keys of the files whose stamps say that they belong at another path."""
+    files, last, moves = inputs.files, inputs.last, dict[str, str]()
+    targets = {file_id: inputs.folder.key(path) for path, file_id in ids.items()}
+    for folder in dict.fromkeys((last.folder, inputs.folder)):
+        for key, stamp in files.stamps(folder).items():
+            target = targets.get(stamp.id)
+            if target is None or as_file(target) == as_file(key):
+                continue
+            there = files.stamp(target)
+            if there and there.id == stamp.id:
+                is_edited = there.base != files.hash(target, Role.MODEL)
+                if is_edited or not _is_in_place(last.base(stamp.base), last.target, folder.path(key)):
+                    continue  # the file is the user's copy
+            place = as_file(key)  # if the class is a folder, the file that it was
+            moves.setdefault(target, place if place in last.record.files else key)
+    return moves
+
+
+def _is_in_place(base: str | None, target: Target, path: str) -> bool:
+    """Return whether the file at this path is where its base was generated: a copy has another name or folder."""
+    *folders, name = class_parts(as_file(path))
+    within = re.escape(".".join((target.package, *folders)))
+    return re.match(rf"within {within};\n.*?^(?:\w+ )+{name}\b", base or "", re.DOTALL | re.MULTILINE) is not None

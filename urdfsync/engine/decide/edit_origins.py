@@ -27,7 +27,8 @@ from urdfsync.engine.inspect.package_files import text_hash
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
-from urdfsync.state.record import FileRecord, as_read
+from urdfsync.modelica.stamp import split
+from urdfsync.state.record import as_read
 
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
@@ -92,8 +93,7 @@ def _doubt(
     is_new_element = last.version is not None and differences.is_structural and element not in last.elements
     is_orphan = is_new_element and action.path in last.files
     is_new = last.record.open is not None and action.path not in last.record.open.asked  # a later build wrote the file
-    is_united = last.record.is_united or bool(differences.respelled)
-    if is_orphan and not (is_new or is_united or _is_back(inputs, generation, action)):
+    if is_orphan and not (is_new or last.record.is_united or _is_back(inputs, generation, action)):
         return Doubt(" ".join(element), is_certain=True)  # the user edited the file for an element that is gone
     return None
 
@@ -126,8 +126,8 @@ def _edit_of(inputs: Inputs, package: Package, action: Action) -> _Edit:
     last = inputs.last
     mine = _lines(inputs.files.text(action.path) or "")
     generated = _lines(package.content(inputs.folder.path(action.path)).decode())
-    known = last.bases(last.files.get(action.path, FileRecord())).values()
-    return _Edit(mine - (generated | _lines("\n".join(known))), generated - mine)
+    base = last.base(last.files.get(action.path)) or ""
+    return _Edit(mine - (generated | _lines(base)), generated - mine)
 
 
 def _lines(text: str) -> Counter[str]:
@@ -167,9 +167,10 @@ def _look(
     doubts = dict[str, Doubt]()
     for action, lines in shared.items():
         recorded = record.files.get(action.path)
-        if recorded is None or text_hash(texts[action.path]) in recorded.hashes:
+        text, stamp = split(texts[action.path])
+        if recorded is None or text_hash(text) == (stamp.base if stamp else recorded):
             continue  # the file is unedited in this commit
-        if part := _moved_part(inputs, generation, commit, action, texts[action.path], recorded, numbers):
+        if part := _moved_part(inputs, generation, commit, action, text, stamp.base if stamp else recorded, numbers):
             doubts[action.path] = Doubt(action.owner, part=part)
         elif element := _element(action):
             if (doubt := moved.get(element)) is None:
@@ -188,22 +189,22 @@ def _moved_part(
     commit: CommittedBuild,
     action: Action,
     edited: str,
-    recorded: FileRecord,
+    base_hash: str,
     numbers: Names,
 ) -> str:
     """Return a numbered part that an edit of a commit names, if its text has not followed to the new number yet."""
     renumbered = Renumbered(numbers)
-    if not renumbered.components(action) or not recorded.hashes:
+    if not renumbered.components(action):
         return ""
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
-    if (base := commit.base(recorded.hashes[0])) is None:  # the edit is unknown
+    if (base := commit.base(base_hash)) is None:  # the edit is unknown
         return next(iter(renumbered.components(action)))
     generated = generation.package.content(inputs.folder.path(action.path)).decode()
     mine, names = inputs.files.text(action.path) or "", renumbered.names(action, words_in(base))
-    moved, unmoved = (find_conflict(action, [base], edited, generated, each).merged(None) for each in (names, {}))
+    moved, unmoved = (find_conflict(action, base, edited, generated, each).merged(None) for each in (names, {}))
     is_same = moved == unmoved
-    has_moved = moved is not None and find_conflict(action, [generated], moved, mine).merged(None) == mine
+    has_moved = moved is not None and find_conflict(action, generated, moved, mine).merged(None) == mine
     return "" if is_same or has_moved else next(iter(names))
 
 

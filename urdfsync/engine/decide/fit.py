@@ -15,13 +15,14 @@ from pathlib import Path, PurePosixPath
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.engine.decide.package_after import PackageAfter, as_file, code_words
+from urdfsync.engine.decide.package_after import PackageAfter, code_words
 from urdfsync.engine.decide.package_names import class_of, declared_names
 from urdfsync.files import shown
 from urdfsync.modelica.classes import ClassNode
 from urdfsync.modelica.files import (
     PACKAGE_FILE,
     ClassName,
+    as_file,
     class_of_file,
     class_parts,
     place_of,
@@ -176,8 +177,7 @@ class _Resolver:
             return self._after.package.content(place).decode() if place in artifacts else ""
         if inputs.last.package and place in inputs.last.package.artifacts:
             return inputs.last.package.content(place).decode()
-        record = inputs.last.files.get(inputs.folder.key(place))
-        return (inputs.last.base(record.hashes[0]) or "") if record and len(record.hashes) == 1 else ""
+        return inputs.last.base(inputs.last.files.get(inputs.folder.key(place))) or ""
 
     def _is_lost(self, name: str) -> bool:
         """Whether a replaced or deleted text declares this name, and the new text does not."""

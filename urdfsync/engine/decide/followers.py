@@ -30,7 +30,7 @@ def follow(
     They follow as the user allows merges; else they conflict, and the new text is proposed.
     """
     after = PackageAfter(inputs, package, (*verdicts.actions, *users_classes), verdicts.texts, conflicts_empty=True)
-    users = {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
+    users = {Reason.KEEP, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
     keys = {
         action.path
         for action in after.actions

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import itertools
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import msgspec
@@ -23,7 +22,7 @@ from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.package.generate import Package
 from urdfsync.modelica import markers
 
-_IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
+_IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP})
 """Reasons for which a generated file stays."""
 _SETTLED = frozenset({Reason.MERGE, Reason.FORGET}) | ORPHANS
 """Reasons for which a build writes the text that both branches meant."""
@@ -48,12 +47,8 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: T
     key, files, last = action.origin or action.path, inputs.files, inputs.last
     path = inputs.folder.path(action.path)
     mine, generated = files.text(key), generation.package.content(path).decode()
-    record = last.files.get(key)
-    hashes = record.hashes if record and action.base in record.hashes else (action.base,)
-    known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
-    # if the text of one of several bases is lost, the user's changes are unknown: nothing is merged
-    bases = [text for text in known if text is not None] if None not in known else []
-    base, rejected, moved_to = bases[0] if bases else None, "", ""
+    base = generated if action.base == action.generated else last.base(action.base)
+    rejected, moved_to = "", ""
     if mine is None:
         mine = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
         rejected = describe_doubt(doubt) if doubt else "you turned the class into a folder"
@@ -68,10 +63,11 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: T
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
-    if not names and bases and last.record.former:
-        names = _names_since_undo(inputs, generation, action, frozenset(words_in(bases[0])))
-    numbers = renumbered.names(action, itertools.chain.from_iterable(map(words_in, bases)))
-    conflict = find_conflict(action, bases, mine, generated, {**names, **numbers})
+    words = words_in(base or "")
+    if not names and words and last.record.former:
+        names = _names_since_undo(inputs, generation, action, frozenset(words))
+    numbers = renumbered.names(action, words)
+    conflict = find_conflict(action, base, mine, generated, {**names, **numbers})
     proposal = conflict.merge.proposal if conflict.merge else ""
     for name, new in numbers.items():
         if GONE in new and new in proposal:  # no answer may write this name

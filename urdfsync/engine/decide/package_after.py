@@ -20,14 +20,9 @@ from urdfsync.engine.decide.package_names import class_of, identifier_of
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import encode, text_hash
 from urdfsync.engine.package.generate import Package
-from urdfsync.modelica.files import code_of, text_of
+from urdfsync.modelica.files import as_file, code_of, text_of
 
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
-
-
-def as_file(path: str) -> str:
-    """Return the path of a class's file, or the path that it would have if the class is a folder."""
-    return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
 
 
 class FileAfter(NamedTuple):
@@ -90,8 +85,7 @@ class PackageAfter(Mapping[str, bytes]):
             elif action.keeps_text:
                 is_forgotten = action.reason is Reason.FORGET
                 if (sha256 := files.hash(key, action.role)) and not is_forgotten:
-                    record = inputs.last.files.get(key)
-                    known = (action.generated, *(record.hashes if record else ()))
+                    known = (action.generated, inputs.last.files.get(key))
                     is_edited = action.reason is Reason.ORPHAN or sha256 not in known
                     found[inputs.folder.path(key)] = file._replace(is_edited=is_edited)
             elif not action.is_deletion:

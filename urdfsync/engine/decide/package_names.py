@@ -23,9 +23,9 @@ def renamed_names(inputs: Inputs, generation: Generation, differences: Differenc
     """
     if not (renamed := differences.identifiers):
         return {}
-    recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
-    files = {path: one for path, one in recorded.items() if path.endswith(".mo")}
-    before = declared_names(inputs.last.base(one.hashes[0]) or "" for path, one in files.items() if "/" not in path)
+    recorded = {inputs.last.folder.path(key): base for key, base in inputs.last.files.items()}
+    files = {path: base for path, base in recorded.items() if path.endswith(".mo")}
+    before = declared_names(inputs.last.base(base) or "" for path, base in files.items() if "/" not in path)
     names = names_of(inputs, generation, renamed, before := before | {*map(class_of, files)})
     gone = displaced(differences.renames)
     if last := inputs.last.version if differences.renames else None:

@@ -13,7 +13,6 @@ import msgspec
 from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.inspect.package_files import OnDisk
-from urdfsync.state.record import NEVER_WRITTEN, FileRecord
 
 
 class File(msgspec.Struct, frozen=True):
@@ -21,7 +20,8 @@ class File(msgspec.Struct, frozen=True):
 
     role: Role
     owner: str = ""
-    record: FileRecord = NEVER_WRITTEN
+    base: str | None = None
+    """Hash of the base; None if no build wrote the file."""
     on_disk: OnDisk = None
     generated: str | None = None
     """Hash of the generated text; None if the file is not generated."""
@@ -29,12 +29,12 @@ class File(msgspec.Struct, frozen=True):
     @property
     def is_free(self) -> bool:
         """Whether no text of the user is at the path: the file is missing or unedited."""
-        return self.on_disk is None or self.on_disk in self.record.hashes
+        return self.on_disk is None or self.on_disk == self.base
 
     @property
     def is_edited(self) -> bool:
         """Whether the user changed a file that urdfsync wrote."""
-        return isinstance(self.on_disk, str) and bool(self.record.hashes) and self.on_disk not in self.record.hashes
+        return isinstance(self.on_disk, str) and self.base is not None and self.on_disk != self.base
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason:
@@ -65,10 +65,10 @@ def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action,
     actions = []
     for path, file in sorted(files.items()):
         mine, generated, origin = file.on_disk, file.generated, None
-        base = file.record.base(mine, generated)
+        base = file.base
         old = moves.get(path) if generated is not None else None
         old_mine = files[old].on_disk if old else None
-        old_base = files[old].record.base(old_mine, generated) if old else None
+        old_base = files[old].base if old else None
         if old and path in edited:
             reason, origin, base, mine = Reason.MOVE, old, old_base, old_mine
         elif old and old_base and old_mine == old_base and mine != generated and file.is_free:
@@ -78,10 +78,10 @@ def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action,
         else:
             if path in origins:
                 base, mine = None, None
-            elif old_base and old_mine is None and isinstance(mine, str) and file.record == NEVER_WRITTEN:
+            elif old_base and old_mine is None and isinstance(mine, str) and file.base is None:
                 base = old_base  # the user moved the file there by hand
             reason = decide_file(base, mine, generated)
-        if reason is Reason.FORGET and not file.record.hashes:
+        if reason is Reason.FORGET and file.base is None:
             continue  # no build wrote this file, and it is no longer generated
         on_disk_hash = mine if isinstance(mine, str) else None
         actions.append(Action(path, reason, file.role, file.owner, base, generated, origin, mine=on_disk_hash))
@@ -125,9 +125,7 @@ def put_off(
     return tuple(msgspec.structs.replace(action, is_waiting=True) if waits(action) else action for action in actions)
 
 
-def file_records_after(
-    actions: Iterable[Action], recorded: Mapping[str, FileRecord], *, is_complete: bool
-) -> dict[str, FileRecord]:
+def file_records_after(actions: Iterable[Action], recorded: Mapping[str, str], *, is_complete: bool) -> dict[str, str]:
     """Return the records of a package's files after a build.
 
     A complete build renews the records of all files. An incomplete build renews only the records of files that it wrote
@@ -139,7 +137,7 @@ def file_records_after(
         if action.role is Role.ORDER or not (is_complete or is_generated):
             continue
         if action.generated is not None:
-            records[action.path] = FileRecord((action.generated,))
+            records[action.path] = action.generated
         elif is_complete and action.reason in ORPHANS and action.base is not None:
-            records[action.path] = FileRecord((action.base,))
+            records[action.path] = action.base
     return records

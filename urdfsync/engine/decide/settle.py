@@ -18,14 +18,15 @@ from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.package_names import names_of
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs, Replaced, Settled
-from urdfsync.engine.inspect.package_files import encode, text_hash, with_line_ends
+from urdfsync.engine.inspect.package_files import bare_hash, encode, text_hash, with_line_ends
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.markers import find_markers
+from urdfsync.modelica.stamp import Stamp, split, with_stamp
 from urdfsync.spelling import nearest
-from urdfsync.state.record import FileRecord, role_of
+from urdfsync.state.record import role_of
 
-_EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
+_EDITED = frozenset({Reason.KEEP, Reason.MOVE, Reason.MERGE})
 """Reasons of actions on edited files for which the user may choose `--take`."""
 
 
@@ -35,9 +36,12 @@ def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settle
     A choice is ignored if one of the two texts has changed, or if the choice does not fit the file. Raises
     OutputError for `--keep` on a file with markers of git.
     """
-    choices = _Choices(inputs, generation, decision)
+    choices, wanted = _Choices(inputs, generation, decision), dict(inputs.options.choices)
     by_path = {action.path: action for action in decision.actions}
-    for key, chosen in inputs.options.choices.items():
+    if inputs.options.adopts:
+        unowned = (one for one in decision.actions if one.reason is Reason.UNOWNED)
+        wanted |= {one.path: UsersChoice(Choice.KEEP, one.sides) for one in unowned}
+    for key, chosen in wanted.items():
         role = role_of(inputs.folder.path(key))
         action = by_path.get(key, Action(key, Reason.FORGET, role))  # the decision lacks a deleted file, for example
         if chosen.sides == action.sides and choices.apply(action, chosen):
@@ -79,14 +83,13 @@ class _Choices:
         content = inputs.store.aside_text(inputs.last.name, aside.file)
         if content is None:
             return False
-        settled.texts.update(aside.texts)
+        settled.texts.update(aside.base)
         for path, model in aside.beside.items():
             if (place := inputs.folder.key(path)) not in settled.contents and inputs.files.read(place) is None:
                 settled.contents[place] = encode(model)
-                settled.bases[place], texts = known_bases(model)
-                settled.texts.update(texts)
+                settled.texts.update(known_base(split(model)[0]))
         there = msgspec.structs.replace(action, path=key, origin=None)
-        self._add(there, content, FileRecord(aside.bases), Reason.UNDO, Choice.UNDO)
+        self._add(there, content, Reason.UNDO, Choice.UNDO)
         return True
 
     def _keep(self, action: Action) -> bool:
@@ -94,13 +97,13 @@ class _Choices:
         inputs, key = self._inputs, action.origin or action.path
         conflict = self._decision.disputed.get(action.path)
         if action.reason is Reason.ORPHAN:
-            self._add(action, inputs.files.read_on_disk(key), FileRecord(), Reason.KEEP, Choice.KEEP)
+            self._add(action, self._stamped(action, inputs.files.read_on_disk(key), None), Reason.KEEP, Choice.KEEP)
             return True
         if not (action.is_conflict or conflict):
             return False
-        record, content = _generated_base(action), inputs.files.read(key)
+        base, content = action.generated, inputs.files.read(key)
         if action.reason is Reason.ASKED:  # the user says that the part is the same: later exports still merge
-            record = inputs.last.files.get(key, record)
+            base = inputs.last.base_of(key, action.role) or base
         if conflict and action.origin:
             from urdfsync.merge.renames import rename, without_clashes  # imports the parser
             from urdfsync.modelica.layout import with_within
@@ -108,19 +111,23 @@ class _Choices:
             # the file gets new names only when it moves
             names = {new: old for old, new in without_clashes(self._decision.names, conflict.mine).items()}
             package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
-            record, texts = known_bases(with_within(rename(conflict.generated, "", names)[0], package))
-            self.settled.texts.update(texts)
+            former = known_base(with_within(rename(conflict.generated, "", names)[0], package))
+            self.settled.texts.update(former)
+            base = next(iter(former))
         if markers := find_markers((content or b"").decode(errors="replace")):
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
-        self._add(action, content, record, Reason.KEEP, Choice.KEEP)
+        if content is None:  # the class is a folder
+            place = f"{key.removesuffix('.mo')}/package.mo"
+            self.settled.contents[place] = self._stamped(action, inputs.files.read(place), base)
+        self._add(action, self._stamped(action, content, base), Reason.KEEP, Choice.KEEP)
         return True
 
     def _take(self, action: Action) -> bool:
         """Take the generated text, or delete a file that is not generated any more."""
         inputs, key = self._inputs, action.origin or action.path
         if action.reason is Reason.ORPHAN:
-            self._add(action, None, inputs.last.files.get(key, FileRecord()), Reason.DELETE, Choice.TAKE)
+            self._add(action, None, Reason.DELETE, Choice.TAKE)
             return True
         if action.mine is None or not (action.is_conflict or action.reason in _EDITED):
             return False
@@ -133,7 +140,7 @@ class _Choices:
             content = self._generation.content(inputs.folder.path(action.path), action.role, mine)
         if content is None:
             return False
-        self._add(action, content, _generated_base(action), Reason.UPDATE, Choice.TAKE)
+        self._add(action, self._stamped(action, content, action.generated), Reason.UPDATE, Choice.TAKE)
         return True
 
     def _merge(self, action: Action, chosen: UsersChoice) -> bool:
@@ -144,20 +151,30 @@ class _Choices:
         text = chosen.text if chosen.choice is Choice.EDIT else conflict.merged(chosen.choice)
         if text is None:
             return False
-        record = _generated_base(action)
+        base = action.generated
         if conflict.is_of_branches:  # the text was merged with no generated one: the build does that next
-            record = self._inputs.last.files.get(key, record)
+            base = self._inputs.last.base_of(key, action.role) or base
         reason = Reason.KEEP if text == conflict.mine else Reason.MERGE
-        self._add(action, encode(text), record, reason, chosen.choice)
+        self._add(action, self._stamped(action, encode(text), base), reason, chosen.choice)
         return True
 
-    def _add(self, action: Action, content: bytes | None, record: FileRecord, reason: Reason, choice: Choice) -> None:
-        """Add the new content and base of a file after a choice."""
+    def _stamped(self, action: Action, content: bytes | None, base: str | None) -> bytes | None:
+        """Return the content with the stamp of the action's file; without a base, the text becomes the user's own."""
+        file_id = self._decision.differences.ids.get(self._inputs.folder.path(action.path))
+        if action.role is Role.IMPORT:
+            self.settled.bases[action.path] = base
+        if content is None or action.role is Role.IMPORT:
+            return content
+        return with_stamp(content, Stamp(file_id, base) if file_id and base else None)
+
+    def _add(self, action: Action, content: bytes | None, reason: Reason, choice: Choice) -> None:
+        """Add the new content of a file after a choice."""
         key, last, settled = action.origin or action.path, self._inputs.last, self.settled
-        mine, former = self._inputs.files.read_on_disk(key), last.files.get(key, FileRecord())
-        if mine is not None and (choice is not Choice.UNDO or content != mine):  # otherwise nothing changes
-            settled.before[key] = Replaced(mine, former, last.bases(former))
-        settled.contents[key], settled.bases[key] = content, record
+        mine = self._inputs.files.read_on_disk(key)
+        is_same = mine is not None and content is not None and bare_hash(mine) == bare_hash(content)
+        if mine is not None and not (choice is Choice.UNDO and is_same):
+            settled.before[key] = Replaced(mine, known_base(last.base(last.base_of(key, action.role))))
+        settled.contents[key] = content
         changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
         settled.actions[key] = msgspec.structs.replace(action, **changes)
 
@@ -185,8 +202,8 @@ class _Choices:
             message, hint = "this file's own text moves to another file", "build first, then move the edit by hand"
         if message:
             raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
-        last, mine = inputs.last.files.get(target, FileRecord()), inputs.files.hash(target, action.role)
-        is_edited = mine not in (None, sha256, *last.hashes) and not is_leaving
+        base, mine = inputs.last.base_of(target, action.role), inputs.files.hash(target, action.role)
+        is_edited = mine not in (None, sha256, base) and not is_leaving
         text = (inputs.files.text(target) or "") if is_edited else package.content(path).decode()
         if target in settled.contents:
             text = (settled.contents[target] or b"").decode()
@@ -197,10 +214,11 @@ class _Choices:
         if key not in settled.contents:  # another edit may have moved here already
             mine_bytes = inputs.files.read(key) or b""
             source = self._generation.content(inputs.folder.path(key), action.role, mine_bytes)
-            self._add(action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
+            self._add(action, self._stamped(action, source, action.generated), Reason.UPDATE, Choice.MOVED)
         content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
         other = Action(target, Reason.MERGE, action.role, f"{kind} {new}", generated=sha256, mine=mine)
-        self._add(other, content, last if is_edited else FileRecord((sha256,)), Reason.MERGE, Choice.MOVED)
+        stamped = self._stamped(other, content, base if is_edited else sha256)
+        self._add(other, stamped, Reason.MERGE, Choice.MOVED)
         return True
 
     def _find_target(self, action: Action, new: str) -> str:
@@ -226,37 +244,30 @@ class _Choices:
 
     def _merge_into(self, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
         """Merge the edit of another element's file into a text of the element `new`; None for a contradiction."""
-        from urdfsync.merge.texts import merge, over_bases  # imports the parser
+        from urdfsync.merge.texts import merge  # imports the parser
         from urdfsync.modelica.lexer import words_in
 
         inputs, generation = self._inputs, self._generation
-        record = inputs.last.files.get(conflict.path, FileRecord())
-        bases = [*inputs.last.bases(record).values()] or [conflict.generated]
-        base, mine = (over_bases(bases, conflict.mine, is_modelica=True) or [(bases[0], conflict.mine)])[0]
+        base = conflict.generated if conflict.base is None else conflict.base
         identifiers = inputs.domain.names(generation.now.snapshot, inputs.robot.target)[kind]
         names = names_of(inputs, generation, {identifiers[old]: identifiers[new]}, frozenset(words_in(base)))
-        merged = merge(base, mine, text, is_modelica=True, names=names)
+        merged = merge(base, conflict.mine, text, is_modelica=True, names=names)
         return None if merged.flaw else merged.text
 
 
-def _generated_base(action: Action) -> FileRecord:
-    """Return a record with the generated text as base; without one, no base."""
-    return FileRecord((action.generated,) if action.generated else ())
-
-
-def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:
-    """Return a record with this base, and the base's text by its hash."""
-    texts = {} if base is None else {text_hash(base): base}
-    return FileRecord(tuple(texts)), texts
+def known_base(text: str | None) -> Mapping[str, str]:
+    """Return a base's text by its hash; nothing if it is unknown."""
+    return {} if text is None else {text_hash(text): text}
 
 
 def with_choices(inputs: Inputs, settled: Settled) -> Inputs:
-    """Return the inputs with the files and bases that choices have changed."""
+    """Return the inputs with the files that choices have changed."""
     left = {key: merge for key, merge in inputs.files.left_by_git.items() if key not in settled.contents}
     inputs = inputs.laid_over({**inputs.files.overlay, **settled.contents}, left)
+    stampless = settled.contents.keys() - settled.bases.keys()
+    own = {key for key in stampless if settled.contents[key] is not None and not inputs.files.stamp(key)}
     recorded = {**inputs.last.record.files, **settled.bases}
-    record = msgspec.structs.replace(
-        inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
-    )
+    files = {key: base for key, base in recorded.items() if key not in own and base is not None}
+    record = msgspec.structs.replace(inputs.last.record, files=files)
     last = msgspec.structs.replace(inputs.last, record=record, texts=settled.texts)
     return msgspec.structs.replace(inputs, last=last, settled=settled)

@@ -14,12 +14,15 @@ from urdfsync.engine.decide.conflicts import find_conflict
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.edit_origins import find_doubts
 from urdfsync.engine.decide.package_names import renamed_names
+from urdfsync.engine.decide.parts import is_of_part
 from urdfsync.engine.decide.renumbered import NOT_RENUMBERED, Renumbered, find_renumbered
 from urdfsync.engine.decide.rules import File, decide
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Doubt
+from urdfsync.modelica.files import as_file
+from urdfsync.modelica.stamp import Stamp
 from urdfsync.state.record import role_of
 
 
@@ -38,11 +41,11 @@ class Triage(NamedTuple):
 def triage(inputs: Inputs, generation: Generation, differences: Differences) -> Triage:
     """Decide on every file by hashes; ask about edits that may belong to other parts."""
     package, origins = generation.package, frozenset(differences.moves.values())
-    decided = decide(_find_files(inputs, generation), differences.moves)
+    decided = decide(_find_files(inputs, generation, differences), differences.moves)
     edits = [one for one in decided if one.reason in DISPUTED | {Reason.KEEP} and one.role is not Role.IMPORT]
     renumbered = find_renumbered(inputs, generation, differences, edits) if edits else NOT_RENUMBERED
     doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, renumbered, decided)}
-    actions = tuple(_adjust(inputs, package, action, doubts) for action in decided)
+    actions = tuple(_adjust(inputs, package, action, doubts, differences.ids) for action in decided)
     names: Mapping[str, str] = {}
     is_disputed = any(one.reason in DISPUTED and one.role is not Role.IMPORT for one in actions)
     if differences.other_elements or inputs.last.aside or is_disputed:
@@ -52,30 +55,27 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
     return Triage(actions, origins, doubts, renumbered, names)
 
 
-def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
+def _find_files(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, File]:
     """Return every recorded or generated file as it is before the build, by key."""
-    last, files = inputs.last, dict[str, File]()
+    last, files, moved = inputs.last, dict[str, File](), frozenset(differences.moves.values())
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
-        on_disk = inputs.files.on_disk(key, role)
-        record = last.effective_record(key, role, on_disk, generated)
-        files[key] = File(role, owner, record, on_disk, generated)
+        base, file_id = last.base_of(key, role), differences.ids.get(inputs.folder.path(key))
+        if file_id and key not in moved and (stamp := inputs.files.stamp(key)) and not is_of_part(stamp, file_id):
+            base = last.record.files.get(key)  # it is a copy of another part's file, or of another project's
+        files[key] = File(role, owner, base, inputs.files.on_disk(key, role), generated)
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
     for name, entry in generation.imported.imports.items():
         add(inputs.folder.key(entry.target), Role.IMPORT, name, entry.target_hash)
     for key in last.files.keys() - files.keys():
+        if key not in last.record.files and (as_file(key) in files or as_file(key) in last.record.files):
+            continue  # the user turned the class into a folder
         path = last.folder.path(key)
         # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
         old = last.package.artifacts.get(path) if last.package else None
         add(key, old.role if old else role_of(path), old.owner if old else "", None)
-    # listing the unknown files takes a while, and git leaves records only while it merges
-    unknown = [*find_unknown(inputs, files)] if inputs.left_records else []
-    for key in filter(inputs.left_records.__contains__, unknown):
-        role = role_of(inputs.folder.path(key))
-        if not last.is_chosen(key, on_disk := inputs.files.on_disk(key, role)):
-            files[key] = File(role, "", inputs.left_records[key], on_disk, None)
     return files
 
 
@@ -87,21 +87,25 @@ def find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
             yield key
 
 
-def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt]) -> Action:
+def _adjust(
+    inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt], ids: Mapping[str, str]
+) -> Action:
     """Correct an action by contents and options: the rules see only hashes."""
     left = inputs.files.left_by_git
     if left.get(action.path) and action.reason in (Reason.KEEP, Reason.UNCHANGED, Reason.UPDATE):
         return msgspec.structs.replace(action, reason=Reason.MARKERS)
     if left.get(action.path, True) is None:
         action = msgspec.structs.replace(action, is_left_by_git=True)
+    file_id = ids.get(inputs.folder.path(action.path))
+    if action.reason is Reason.UNCHANGED and file_id:
+        is_stamped = inputs.files.stamp(action.path) == Stamp(file_id, str(action.generated))
+        return action if is_stamped else msgspec.structs.replace(action, reason=Reason.UPDATE)
     if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
     if action.reason is Reason.DELETE and action.mine is not None and action.role is not Role.IMPORT:
         # a record alone proves nothing: its author, or git's union of two records, may name any file of the user's
         is_written = action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)
         return action if is_written else msgspec.structs.replace(action, reason=Reason.ORPHAN)
-    if action.reason is Reason.UNOWNED and inputs.options.adopts:
-        return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
     return action
 
 
@@ -122,7 +126,7 @@ def _with_other_names(
             mine.subtract(words)
             is_outdated = not is_settled and any(count > 0 and word in names for word, count in mine.items())
             if not is_outdated and (numbers := renumbered.names(action, words)):
-                is_outdated = find_conflict(action, [generated], text, generated, numbers).merged(None) != text
+                is_outdated = find_conflict(action, generated, text, generated, numbers).merged(None) != text
             if is_outdated:
                 action = msgspec.structs.replace(action, reason=Reason.CONFLICT)
         yield action

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,13 +12,11 @@ import msgspec
 
 from urdfsync import git
 from urdfsync.dependencies import reads
-from urdfsync.dependencies.places import real
 from urdfsync.diagnostics import SourceError, StateError
-from urdfsync.engine.inspect.package_files import Folder, PackageFiles
+from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.git.revisions import Revision, open_repository
-from urdfsync.git.unmerged import find_git_folder
 from urdfsync.state import bases, statefile
-from urdfsync.state.record import FileRecord, Record
+from urdfsync.state.record import Record
 from urdfsync.state.store import Store
 
 if TYPE_CHECKING:
@@ -135,39 +132,6 @@ def _commit_id(repository: pygit2.Repository, name: str) -> str:
         return str(repository.revparse_single(name).peel(pygit2.Commit).id)
     except (KeyError, ValueError, pygit2.GitError):
         return ""
-
-
-def read_left_records(
-    root: Path, files: PackageFiles, folder: Folder, store: Store, name: str
-) -> dict[str, FileRecord]:
-    """Return the records of files in a package's `folder` that one branch edited and the other deleted, by key.
-
-    Git leaves such a file in the working tree, but the united record does not list it. `name` is the robot's name in
-    the last build.
-    """
-    top = git.find_top(root) or ""
-    git_folder = find_git_folder(top)
-    if not any((git_folder / file).exists() for file in (*UNDER_WAY, "SQUASH_MSG")):
-        return {}  # importing pygit2 takes 55 ms
-    import pygit2
-
-    reads.depend_on_commits(top)
-    inside = f"{os.path.relpath(real(files.path(folder)), top).replace(os.sep, '/')}/".removeprefix("./")
-    found = dict[str, FileRecord]()
-    try:
-        for base, ours, theirs in Revision(Path(top), "HEAD").repository.index.conflicts or ():
-            left = ours or theirs
-            if not (base and left and left.path.startswith(inside)) or (ours and theirs):
-                continue
-            key = folder.key(left.path.removeprefix(inside))
-            for commit in ("HEAD",) if ours else UNDER_WAY:
-                state = read_text(commit, store.path(name))
-                record = statefile.loads(state, commit)[0] if state else None
-                if record and (file := record.files.get(key)):
-                    found[key] = file
-    except (SourceError, StateError, pygit2.GitError, KeyError, OSError):
-        return found  # as without a repository: it is damaged or shallow
-    return found
 
 
 def read_text(revision: str, file: Path) -> str | None:

@@ -18,7 +18,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncErro
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
-from urdfsync.engine.inspect.commits import CommittedBuild, read_commits, read_left_records
+from urdfsync.engine.inspect.commits import CommittedBuild, read_commits
 from urdfsync.engine.inspect.last_build import LastBuild, option_values
 from urdfsync.engine.inspect.package_files import Folder, PackageFiles, key_of
 from urdfsync.engine.inspect.parents import Parents
@@ -30,7 +30,7 @@ from urdfsync.files import Templates, digest, shown
 from urdfsync.git.unmerged import find_unmerged
 from urdfsync.modelica.files import text_of
 from urdfsync.state.notes import Use
-from urdfsync.state.record import FileRecord, Generator, Record
+from urdfsync.state.record import Generator, Record
 from urdfsync.state.store import Store
 from urdfsync.version import __version__
 
@@ -39,11 +39,10 @@ if TYPE_CHECKING:
 
 
 class Replaced(NamedTuple):
-    """A replaced text, and its base."""
+    """A replaced text with its stamp, and the text of its base by hash, if it is known."""
 
     text: bytes
-    record: FileRecord
-    bases: Mapping[str, str]
+    base: Mapping[str, str]
 
 
 class Settled(msgspec.Struct):
@@ -51,10 +50,11 @@ class Settled(msgspec.Struct):
 
     actions: dict[str, Action] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes | None] = msgspec.field(default_factory=dict)
-    """New contents; None for no file."""
-    bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
+    """New contents with their stamps; None for no file."""
     texts: dict[str, str] = msgspec.field(default_factory=dict)
-    """Texts of the bases in `bases`, by hash."""
+    """Texts of the bases of `contents`, by hash."""
+    bases: dict[str, str | None] = msgspec.field(default_factory=dict)
+    """Bases of imported files, which have no stamps."""
     before: dict[str, Replaced] = msgspec.field(default_factory=dict)
     """Texts before the choices."""
     names: Mapping[str, str] = {}
@@ -116,11 +116,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         below = os.path.join(os.path.realpath(self.robot.folder), "")  # noqa: PTH118 - git's paths are strings
         inside = (path.removeprefix(below) for path in self.unmerged_paths if path.startswith(below))
         return frozenset(map(self.folder.key, inside))
-
-    @cached_property
-    def left_records(self) -> Mapping[str, FileRecord]:
-        """The records of files that one branch edited and the other deleted, by key, while git merges the branches."""
-        return read_left_records(self.config.root, self.files, self.folder, self.store, self.last.name)
 
     @cached_property
     def commits(self) -> tuple[CommittedBuild, ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import re
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import PurePath
@@ -14,12 +13,12 @@ import msgspec
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Domain, ElementKey, Features, Import, Role, Snapshot, Target, Version
-from urdfsync.engine.inspect.package_files import Folder, OnDisk, PackageFiles
+from urdfsync.engine.inspect.package_files import Folder, PackageFiles
 from urdfsync.engine.package.generate import Package, generate
 from urdfsync.engine.package.imports import RecordedFile
 from urdfsync.files import Templates, digest
 from urdfsync.state.notes import Notes
-from urdfsync.state.record import NEVER_WRITTEN, FileRecord, Record, as_read
+from urdfsync.state.record import Record, as_read
 from urdfsync.state.store import Aside, Store
 
 NO_MODEL = (
@@ -68,29 +67,28 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return Target(self.record.package, self.record.class_)
 
     @cached_property
-    def files(self) -> Mapping[str, FileRecord]:
-        """The recorded files by key, without files that a build may not touch."""
-        return {key: file for key, file in self.record.files.items() if self._files.is_inside(key)}
+    def files(self) -> Mapping[str, str]:
+        """The bases of the files that builds have written, by key: as their stamps say, else as recorded.
 
-    def effective_record(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
-        """Return the recorded bases of a file; the text on disk itself if a build once wrote it.
-
-        A text that urdfsync once wrote is urdfsync's own even if the record differs: an overtaken build wrote the text,
-        or git restored it. A text that the user confirmed, such as by `--undo`, is his.
+        Files that a build may not touch are left out.
         """
-        record = self.files.get(key, NEVER_WRITTEN)
-        if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
-            return record
-        is_generated = self.has_written(on_disk) and not self.is_chosen(key, on_disk)
-        return FileRecord((on_disk,)) if is_generated else record
+        recorded = {key: base for key, base in self.record.files.items() if self._files.is_inside(key)}
+        stamps = self._files.stamps(self.folder)
+        return recorded | {
+            key: stamp.base for key, stamp in stamps.items() if key in recorded or self.has_written(stamp.base)
+        }
+
+    def base_of(self, key: str, role: Role) -> str | None:
+        """Return the base of a file, as its stamp says, else as recorded; None if no build wrote the file."""
+        if role is Role.IMPORT:
+            return self.files.get(key)
+        folder = f"{key.removesuffix('.mo')}/package.mo"
+        stamp = self._files.stamp(key) or (self._files.stamp(folder) if key.endswith(".mo") else None)
+        return stamp.base if stamp else self.files.get(key)
 
     def has_written(self, sha256: str) -> bool:
         """Whether a build once wrote the text with this hash, or a choice restores it as generated."""
         return sha256 in self.texts or self._store.has_written(self.name, sha256)
-
-    def is_chosen(self, key: str, on_disk: OnDisk) -> bool:
-        """Return whether a user's choice, such as `--undo`, made a file and its base."""
-        return self._files.is_chosen(key) or on_disk in self.record.confirmed
 
     @cached_property
     def options(self) -> Any:
@@ -116,7 +114,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
             files = list[RecordedFile]()
             for entry in entries:
                 key, is_noted = self.folder.key(entry.target), hash_of(entry) in self.notes.imports
-                written = self.files.get(key, NEVER_WRITTEN).hashes
+                written = self.files.get(key)
                 files.append(RecordedFile(entry, self._files.read(key), written, is_noted))
             imports[name] = next((file for file in files if file.is_intact), files[0])
         return imports
@@ -174,43 +172,14 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
             if self.package is not None:
                 raise
 
-    @cached_property
-    def respelled(self) -> Mapping[str, tuple[str, str]]:
-        """The present path, and the hash, of each class that was recorded under another name, by its recorded path.
-
-        A class is listed only if its two texts differ only in the name of the class.
-        """
-        recorded = {self.folder.path(key): file for key, file in self.files.items()}
-        if not (names := [path for path in recorded if path.endswith(".mo")]) or self.package is None:
-            return {}
-        artifacts, respelled = self.package.artifacts, dict[str, tuple[str, str]]()
-        if lost := [path for path in names if path not in artifacts]:
-            new = [path for path in artifacts if path.endswith(".mo") and path not in recorded]
-            paths = {_without_name(path, self.package.content(path).decode()): path for path in new}
-            for path in lost:
-                for sha256, text in self.bases(recorded[path]).items():
-                    if (key := _without_name(path, text)) in paths:
-                        respelled[path] = paths[key], sha256
-        return respelled
-
     def base(self, sha256: str | None) -> str | None:
         """Return the stored generated text with this hash; None if there is none."""
         return self.texts.get(sha256) or self._store.base(self.name, sha256) if sha256 else None
-
-    def bases(self, record: FileRecord) -> dict[str, str]:
-        """Return the stored texts of a file's bases, by hash."""
-        return {sha256: text for sha256 in record.hashes if (text := self.base(sha256)) is not None}
 
     @cached_property
     def aside(self) -> Mapping[str, Aside]:
         """The texts that builds and choices replaced, by path below the package."""
         return self._store.aside(self.name)
-
-
-def _without_name(path: str, text: str) -> tuple[str, str]:
-    """Return a class's folder, and the text of the class without its name."""
-    folder, _, name = path.removesuffix(".mo").rpartition("/")
-    return folder, re.sub(rf"\b{re.escape(name)}(?=(Parameters)?\b)", "\0", text)
 
 
 def hash_of(recorded: Any) -> str:

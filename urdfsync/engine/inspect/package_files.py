@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import enum
 import os
@@ -10,12 +11,14 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+from urdfsync import files
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import reads
 from urdfsync.dependencies.facts import NOTHING, is_young
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
-from urdfsync.files import Tree, digest, placed, shown, text_digest
+from urdfsync.files import Tree, digest, normalised, placed, shown
+from urdfsync.modelica.stamp import Stamp, split
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge
@@ -50,12 +53,13 @@ OnDisk: TypeAlias = str | ClassFolder | None
 
 
 class FileState(NamedTuple):
-    """The hashes of a file when it was read."""
+    """The hashes of a file when it was read, and its stamp."""
 
     sha256: str
     """Hash of the bytes, in hex."""
     text_sha256: str
-    """Hash of the text with line feeds as line endings, in hex."""
+    """Hash of the bare text with line feeds as line endings, in hex."""
+    stamp: Stamp | None = None
 
 
 _unchanged: dict[str, tuple[tuple[int, ...], FileState]] = {}
@@ -136,15 +140,20 @@ class PackageFiles:
         tree = self._tree(path.rpartition(os.sep)[0])
         return tree.read(path) if tree else None
 
+    def stamp(self, key: str) -> Stamp | None:
+        """Return a file's stamp; None without one. Raises OutputError as `read`."""
+        state = self.state(key)
+        return state.stamp if state else None
+
     def text(self, key: str) -> str | None:
-        """Return a file as text. Raises OutputError as `read`, and for other encodings than UTF-8."""
+        """Return a file's bare text. Raises OutputError as `read`, and for other encodings than UTF-8."""
         if key not in self.overlay and key in self._texts:
             return self._texts[key]
         content = self.read(key)
         if key not in self.overlay:
             self._states.setdefault(self._place(key), None if content is None else _state_of(content))
         try:
-            text = None if content is None else content.decode()
+            text = None if content is None else split(content.decode())[0]
         except UnicodeDecodeError as error:
             line = error.object.count(b"\n", 0, error.start) + 1
             hint, place = "save it as UTF-8, then try again", shown(self.path(key))
@@ -225,6 +234,15 @@ class PackageFiles:
                 return True
         return False
 
+    def stamps(self, folder: str) -> dict[str, Stamp]:
+        """Return the stamps of the Modelica files below the folder with this key, by key."""
+        found = dict[str, Stamp]()
+        for key in sorted(self.classes(folder)):
+            with contextlib.suppress(OutputError):  # a link of the user's
+                if stamp := self.stamp(key):
+                    found[key] = stamp
+        return found
+
     def classes(self, folder: str) -> set[str]:
         """Return all Modelica files below the folder with this key, the user's own included."""
         from urdfsync.modelica.files import modelica_files
@@ -261,15 +279,23 @@ def key_of(path: Path, root: Path) -> str:
     return Path(os.path.relpath(path, root)).as_posix()
 
 
+def bare_hash(content: bytes) -> str:
+    """Return the hash of the bare text of a file's content."""
+    return _state_of(content).text_sha256
+
+
 def _state_of(content: bytes) -> FileState:
     """Return the state of a file with this content."""
-    sha256 = digest(content)
-    return FileState(sha256, text_digest(content) if b"\r" in content else sha256)
+    sha256, stamp = digest(content), None
+    if b"__urdfsync" in content:
+        text, stamp = split(normalised(content).decode(errors="surrogateescape"))
+        return FileState(sha256, text_hash(text), stamp)
+    return FileState(sha256, files.text_hash(content) if b"\r" in content else sha256[:16])
 
 
 def text_hash(text: str) -> str:
     """Return the hash of a text, ignoring kinds of line ends."""
-    return text_digest(encode(text))
+    return files.text_hash(encode(text))
 
 
 def encode(text: str) -> bytes:

@@ -22,7 +22,8 @@ from urdfsync.engine.inspect.package_files import encode, text_hash
 from urdfsync.engine.package.generate import Package
 from urdfsync.git.revisions import Revision
 from urdfsync.modelica import markers
-from urdfsync.state.record import NEVER_WRITTEN, role_of
+from urdfsync.modelica.stamp import Stamp, split, with_stamp
+from urdfsync.state.record import role_of
 
 if TYPE_CHECKING:
     import pygit2
@@ -35,12 +36,20 @@ ways."""
 
 
 class Sides(NamedTuple):
-    """The versions of a file that git merged; lines end with line feeds."""
+    """The versions of a file that git merged: bare texts, whose lines end with line feeds."""
 
     base: str
     """The text in the common ancestor; empty without one."""
     ours: str
     theirs: str
+    stamps: tuple[Stamp | None, Stamp | None] = (None, None)
+    """The stamps of both sides."""
+
+
+def _sides(base: str, ours: str, theirs: str) -> Sides:
+    """Return the versions of a file by their texts with stamps."""
+    (our_text, our_stamp), (their_text, their_stamp) = split(ours), split(theirs)
+    return Sides(split(base)[0], our_text, their_text, (our_stamp, their_stamp))
 
 
 def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
@@ -59,15 +68,12 @@ def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
         on_disk = files.on_disk(key, role)
         if on_disk == text and key not in inputs.unmerged:
             continue  # most files are in step
-        is_edited = isinstance(on_disk, str) and on_disk not in (
-            text,
-            *last.effective_record(key, role, on_disk, text).hashes,
-        )
+        is_edited = isinstance(on_disk, str) and on_disk not in (text, last.base_of(key, role))
         found = _find_meant_text(inputs, key, is_edited=is_edited) if is_edited or key in inputs.unmerged else None
         if isinstance(found, str) and text_hash(found) == files.hash(key, role):
             continue  # the file has the meant text already, and only `git add` is missing
         if isinstance(found, str):
-            contents[key], left[key] = encode(found), None
+            contents[key], left[key] = with_stamp(encode(found), files.stamp(key)), None
         elif found is not None:
             left[key] = found
     return inputs.laid_over(contents, left) if left else inputs
@@ -77,12 +83,12 @@ def _find_meant_text(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merg
     """Return the text that both branches meant, or their merge if they contradict each other; None for other files."""
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
     has_markers, is_unmerged = bool(markers.find_markers(text)), key in inputs.unmerged
-    if not (has_markers or is_unmerged or last.files.get(key, NEVER_WRITTEN).is_ambiguous):
+    if not (has_markers or is_unmerged):
         return None
     if is_unmerged and not has_markers and (left := _read_left_side(file, plain(text))):
         if _is_chosen(inputs, key, plain(text)):
             return None  # `git add` is missing
-        return text if _are_generated(last, [left[1]]) else _merge_edits(last, key, left[0])
+        return text if _are_generated(last, [left[1]]) else _merge_edits(last, left[0])
     if not (has_markers or is_edited):
         return None
     sides = read_sides(file, text)
@@ -94,29 +100,28 @@ def _find_meant_text(inputs: Inputs, key: str, *, is_edited: bool) -> str | Merg
         return sides.ours
     if sides is None or not has_markers:
         return None
-    return _merge_edits(last, key, sides)
+    return _merge_edits(last, sides)
 
 
-def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | Merge:
+def _merge_edits(last: LastBuild, sides: Sides) -> str | Merge:
     """Merge two versions by their elements; if that fails, merge their edits into the same generated text.
 
     The second way ignores differences between exports: these are no contradictions between people.
     """
-    from urdfsync.merge.texts import merge_branches, over_bases  # imports the parser
+    from urdfsync.merge.texts import merge, merge_branches  # imports the parser
 
-    recorded = last.files[key].hashes if key in last.files else ()
-    bases = [base for sha256 in recorded if (base := last.base(sha256)) is not None]
-    ours, theirs = (dict(over_bases(bases, side, is_modelica=True)) for side in sides[1:])
-    versions = [sides, *((base, ours[base], theirs[base]) for base in ours if base in theirs)]
-    merges = [merge_branches(*texts) for texts in versions]
-    merge = min(merges, key=lambda one: len(one.contradictions))
-    return merge if merge.text is None else merge.text
+    merges = [merge_branches(*sides[:3])]
+    our_base, their_base = (last.base(stamp.base) if stamp else None for stamp in sides.stamps)
+    if our_base is not None and their_base is not None:
+        moved = merge(their_base, sides.theirs, our_base, is_modelica=True).text
+        merges += [merge_branches(our_base, sides.ours, moved)] if moved is not None else []
+    best = min(merges, key=lambda one: len(one.contradictions))
+    return best if best.text is None else best.text
 
 
 def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
     """Return whether builds wrote all of these texts."""
-    recorded = last.record.hashes
-    return all(sha256 in recorded or last.base(sha256) is not None for sha256 in map(text_hash, texts))
+    return all(last.has_written(text_hash(text)) for text in texts)
 
 
 def can_join(file: Path, text: str, *, is_united: bool) -> bool:
@@ -142,12 +147,12 @@ def _is_chosen(inputs: Inputs, key: str, text: str) -> bool:
     aside = last.aside.get(inputs.folder.path(key))
     if aside is None or aside.after != text_hash(text):
         return False
-    former = plain((inputs.store.aside_text(last.name, aside.file) or b"").decode(errors="replace"))
+    former = split(plain((inputs.store.aside_text(last.name, aside.file) or b"").decode(errors="replace")))[0]
     if former == text:
         return False  # an earlier `--keep` looks the same
     try:
         staged = _staged(Revision(file.parent, "HEAD").repository, file, former)
-        return any(former in sides[1:] or _is_untouched(former, sides) for sides in staged)
+        return any(former in sides[1:3] or _is_untouched(former, sides) for sides in staged)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
         return False  # as in `read_sides`
 
@@ -161,7 +166,7 @@ def _read_left_side(file: Path, text: str) -> tuple[Sides, str] | None:
 
     try:
         staged = _staged(Revision(file.parent, "HEAD").repository, file, text)
-        found = next((sides for sides in staged if text in sides[1:]), None)
+        found = next((sides for sides in staged if text in sides[1:3]), None)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
         return None  # as in `read_sides`
     return (found, found.theirs if text == found.ours else found.ours) if found else None
@@ -196,11 +201,11 @@ def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Si
             if base is None:  # if renames of both branches end here, the index may have git's merge of two other files
                 texts[1:] = (next(_read_side(file, one, number == 0), one) for number, one in enumerate(texts[1:]))
             if not any(map(markers.find_markers, texts[1:])):
-                yield Sides(*texts)
-        elif entries and text in texts[1:]:
+                yield _sides(*texts)
+        elif entries and text in (split(one)[0] for one in texts[1:]):
             # if both branches renamed a file, git writes the merge to both paths; each branch has only one path
             for version in _read_side(file, text, bool(ours)):
-                yield Sides(version, version, version)
+                yield _sides(version, version, version)
 
 
 def _read_side(file: Path, merged: str, is_ours: bool) -> Iterator[str]:
@@ -223,7 +228,7 @@ def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
         ancestor = repository.merge_base(commits[0].id, commits[1].id)
         # the base of a merge is the common ancestor; the base of a cherry-pick is the commit's parent
         for base in dict.fromkeys([str(ancestor or ""), f"{names[1]}^"]):
-            yield Sides(read_text(base, file) or "", ours, theirs)
+            yield _sides(read_text(base, file) or "", ours, theirs)
 
 
 def _is_untouched(text: str, sides: Sides) -> bool:
@@ -237,11 +242,11 @@ def _is_untouched(text: str, sides: Sides) -> bool:
     readings = markers.read_sides(text)
     if not any(map(markers.find_markers, readings)):  # nested markers come only from the driver
         is_merged = readings[0] == text
-        ours, theirs = (_changes(sides.base, side) for side in sides[1:]) if is_merged else _apart(sides)
+        ours, theirs = (_changes(sides.base, side) for side in sides[1:3]) if is_merged else _apart(sides)
         if _changes(sides.ours, readings[0]) <= theirs and _changes(sides.theirs, readings[1]) <= ours:
             return True
     first, middle, last = markers.signs(text)
-    driven, _ = merge_file(*sides, ((first, "mine"), (middle, "generated"), (last, "")))
+    driven, _ = merge_file(*sides[:3], ((first, "mine"), (middle, "generated"), (last, "")))
     return driven == markers.without_labels(text)
 
 
@@ -259,7 +264,7 @@ def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
     """Return the changes of each side that do not touch changes of the other side."""
     from urdfsync.merge.lines import find_regions
 
-    lines = [_lines(text) for text in sides]
+    lines = [_lines(text) for text in sides[:3]]
     ours, theirs = _Changes(), _Changes()
     for region in find_regions(*lines):
         if not region.is_generated:

@@ -14,9 +14,10 @@ from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.dependencies.reads import is_file, walk_files
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
-from urdfsync.files import Templates, digest, normalised, shown, text_digest
+from urdfsync.files import Templates, digest, normalised, shown, text_hash
 from urdfsync.modelica.files import class_path
 from urdfsync.modelica.literals import without_literals
+from urdfsync.modelica.stamp import Stamp, split, stamped
 
 if TYPE_CHECKING:
     from urdfsync.engine.package.render import Renderer
@@ -65,7 +66,7 @@ class Package:
     def hash(self, path: str) -> str:
         """Return the hash of one file's text."""
         if path not in self._hashes:
-            self._hashes[path] = text_digest(self.content(path))
+            self._hashes[path] = text_hash(self.content(path))
         return self._hashes[path]
 
     @property
@@ -243,6 +244,10 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
         return
     from urdfsync.modelica.layout import check_class_file  # imports the parser: 8 of 220 ms of a build
 
+    if split(stamped(text, Stamp("", "")))[0] != text:
+        file, line = renderer.find_origin(artifact.template, artifact.data, text, text.count("\n"))
+        message = f"the text for `{artifact.path}` has an empty annotation: leave it out"
+        raise _template_error(renderer.folders, artifact.template, file, line, message)
     findings = check_class_file(text, path, ".".join((package, *class_path(path).parts)))[1]
     for wrong in findings:
         if wrong.severity is Severity.ERROR:

@@ -48,7 +48,7 @@ class RecordedFile(msgspec.Struct, frozen=True, dict=True):
     entry: Import
     copy: bytes | None
     """The content of the file in the package."""
-    written: tuple[str, ...] = ()
+    written: str | None = None
     """The hashes that builds have recorded for this file."""
     is_noted: bool = False
     """Whether this machine and this version of urdfsync have converted the file."""
@@ -208,7 +208,7 @@ class _Importer(msgspec.Struct):
         for key, target, file in files:
             entry = file.entry
             # if the user put back an older copy, it does not belong to the recorded source
-            is_older = not file.is_intact and file.hash in file.written
+            is_older = not file.is_intact and file.hash == file.written
             is_placed_anew = self.has_moved or entry.target != target
             target_hash = file.hash if is_older or is_placed_anew else entry.target_hash
             own_facts = facts if file is own else entry.facts

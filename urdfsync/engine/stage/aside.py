@@ -13,14 +13,15 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.decide.decision import Decision
-from urdfsync.engine.decide.settle import known_bases
+from urdfsync.engine.decide.settle import known_base
 from urdfsync.engine.inspect.inputs import Inputs, Replaced
-from urdfsync.engine.inspect.package_files import PackageFiles, encode
+from urdfsync.engine.inspect.package_files import PackageFiles, bare_hash, encode, text_hash
 from urdfsync.engine.package.generate import Package
-from urdfsync.files import digest, shown, text_digest
+from urdfsync.files import digest, shown
 from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.stamp import split, with_stamp
 from urdfsync.spelling import counted
-from urdfsync.state.record import FileRecord, role_of
+from urdfsync.state.record import role_of
 from urdfsync.state.store import Aside
 
 
@@ -42,7 +43,7 @@ def put_aside(
         key = inputs.last.folder.key(path)  # the package may have moved since
         is_unsaved = _is_as_written(inputs.files, key, aside)
         if key in moved and is_unsaved and (text := inputs.store.aside_text(inputs.last.name, aside.file)) is not None:
-            former = Replaced(text, FileRecord(aside.bases), aside.texts)
+            former = Replaced(text, aside.base)
             replaced.setdefault(moved[key], _follow(inputs, former, moved[key], decision.names))
         elif is_unsaved or not contents:
             index[path] = aside
@@ -54,12 +55,14 @@ def put_aside(
     }
     deleted = [one for one in decision.actions if one.writes and one.reason is Reason.DELETE] if chosen else []
     models = (one.path for one in deleted if one.path.startswith(folder.key("")) and one.path.endswith(".mo"))
-    beside, texts = {folder.path(key): inputs.files.text(key) or "" for key in models}, dict[str, bytes]()
+    contents_of = ((key, inputs.files.read(key) or b"") for key in models)
+    beside = {folder.path(key): content.decode(errors="replace") for key, content in contents_of}
+    texts = dict[str, bytes]()
     for key, former in {**replaced, **chosen}.items():
         place, after = PurePosixPath(path_of(key)), contents.get(key, settled.contents.get(key))
         file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
-        sha256, bases = None if after is None else text_digest(after), (former.record.hashes, former.bases)
-        index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
+        sha256 = None if after is None else bare_hash(after)
+        index[str(place)] = Aside(file, sha256, former.base, beside if key in chosen else {})
         texts[file] = former.text
     return index, texts
 
@@ -102,11 +105,14 @@ def _follow(inputs: Inputs, former: Replaced, key: str, names: Mapping[str, str]
     from urdfsync.merge.renames import rename, without_clashes  # imports the parser
     from urdfsync.modelica.layout import with_within
 
-    text, base = former.text.decode(errors="surrogateescape"), next(iter(former.bases.values()), None)
+    text, stamp = split(former.text.decode(errors="surrogateescape"))
+    base = next(iter(former.base.values()), None)
     if base is not None:
         base, text = rename(base, text, without_clashes(names, text))
     class_name = (inputs.robot.target.package, *class_parts(inputs.folder.path(key)))
-    return Replaced(encode(with_within(text, ".".join(class_name))), *known_bases(base))
+    known = known_base(base)
+    stamp = stamp and stamp._replace(base=next(iter(known), stamp.base))
+    return Replaced(with_stamp(encode(with_within(text, ".".join(class_name))), stamp), known)
 
 
 def _replaced(
@@ -125,30 +131,29 @@ def _replaced(
         if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
             continue
         place = (action.origin or key) if is_moving else key
-        record = last.files.get(place, FileRecord())
+        base = last.base_of(place, action.role)
         state = files.state(place) if is_moving else files.state_on_disk(key)
         # a mesh is no text: bytes that look like line ends count
-        if state is None or not last.notes.written.intersection(record.hashes).isdisjoint(state):
+        if state is None or (base in last.notes.written and base in (state.sha256, state.text_sha256)):
             continue
         text = files.read(place) if is_moving else files.read_on_disk(key)
         if text is None:  # somebody has just deleted it
             continue
-        former = Replaced(text, record, last.bases(record))
+        former = Replaced(text, known_base(last.base(base)))
         if is_moving:
             former = _follow(inputs, former, key, decision.names)
         if former.text != contents[key]:
-            yield key, Replaced(former.text, *_bases_given_back(inputs, package, action, former))
+            yield key, former if action.role is Role.IMPORT else _given_back(inputs, package, action, former)
 
 
-def _bases_given_back(
-    inputs: Inputs, package: Package, action: Action, former: Replaced
-) -> tuple[FileRecord, Mapping[str, str]]:
-    """Return the bases of a text after `--undo`."""
+def _given_back(inputs: Inputs, package: Package, action: Action, former: Replaced) -> Replaced:
+    """Return a text with the base that it has after `--undo`."""
     # with the old base, the next build would merge the text again, unless only this command merges; or would take it
     # for generated
     is_merge = action.reason in (Reason.MERGE, Reason.MOVE) or action.is_left_by_git
-    is_own_base = text_digest(former.text) in former.record.hashes
-    is_based_anew = is_own_base or (is_merge and inputs.robot.on_conflict == "merge")
-    if action.generated and action.role is not Role.IMPORT and is_based_anew:
-        return known_bases(package.content(inputs.folder.path(action.path)).decode())
-    return (FileRecord(), {}) if is_own_base else (former.record, former.bases)
+    text, stamp = split(former.text.decode(errors="surrogateescape"))
+    is_own_base = stamp is not None and text_hash(text) == stamp.base
+    if stamp and action.generated and (is_own_base or (is_merge and inputs.robot.on_conflict == "merge")):
+        base = known_base(package.content(inputs.folder.path(action.path)).decode())
+        return Replaced(with_stamp(former.text, stamp._replace(base=action.generated)), base)
+    return Replaced(with_stamp(former.text, None), {}) if is_own_base else former

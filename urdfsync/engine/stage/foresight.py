@@ -45,20 +45,15 @@ def foresee_actions(inputs: Inputs, decision: Decision, record: Record) -> Actio
 
 def _next_actions(inputs: Inputs, decision: Decision) -> Iterator[Action]:
     """Yield the next action on each file. Raises _UncertainError."""
-    last, generated = inputs.last, {action.generated for action in decision.actions}
     for action in decision.actions:
         after = _next_action(action, decision.texts)
         if after is None:
             continue
         if after.reason is Reason.ORPHAN:  # the record has neither role nor owner
             after = msgspec.structs.replace(after, role=role_of(inputs.folder.path(after.path)), owner="")
-        if after.mine and after.reason in (Reason.KEEP, Reason.ORPHAN):
-            is_confirmed = action.mine in last.record.confirmed
-            if is_confirmed and action.reason is not Reason.KEEP:
-                raise _UncertainError
-            # a text that a build once wrote counts as urdfsync's
-            if not is_confirmed and (after.mine in generated or (after != action and last.has_written(after.mine))):
-                raise _UncertainError
+        is_confirmed = action.mine in inputs.last.record.confirmed and action.reason is not Reason.KEEP
+        if is_confirmed and after.mine and after.reason in (Reason.KEEP, Reason.ORPHAN):
+            raise _UncertainError
         yield after
 
 
@@ -72,8 +67,6 @@ def _next_action(action: Action, texts: Mapping[str, str]) -> Action | None:
             return None
         case Reason.KEEP | Reason.UNKNOWN | Reason.ORPHAN:
             return action
-        case Reason.INCLUDED:
-            mine = action.mine
         case Reason.MERGE | Reason.MOVE if action.generated and action.path in texts:
             mine = text_hash(texts[action.path])
         case Reason.UNCHANGED | Reason.UPDATE | Reason.CREATE | Reason.RESTORE:

@@ -15,12 +15,11 @@ from urdfsync.engine.decide.rules import file_records_after
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import hash_of, option_values
-from urdfsync.engine.inspect.package_files import text_hash
+from urdfsync.engine.inspect.package_files import bare_hash, encode, text_hash
 from urdfsync.engine.sources.source import expansion_hash
 from urdfsync.engine.stage.saved_conflicts import SavedConflicts
-from urdfsync.files import text_digest
 from urdfsync.state.notes import Notes, Use
-from urdfsync.state.record import FileRecord, Open, Question, Record, as_recorded
+from urdfsync.state.record import Open, Question, Record, as_recorded
 from urdfsync.state.store import Aside
 
 
@@ -54,6 +53,7 @@ def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> 
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
+        ids=differences.parts,
     )
     # an edit is not worth a commit of the record
     silent = msgspec.structs.replace(new, edited=old.edited)
@@ -76,7 +76,7 @@ def _open_record(
     files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
     renewed = dict(old.open.imports) if old.open else {}
     for key, entry in imports.items():
-        if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,)):
+        if files.get(inputs.folder.key(entry.target)) == entry.target_hash:
             renewed[key] = (entry,)
     renewed = {key: entries for key, entries in renewed.items() if entries != old.imports.get(key)}
     questions = (action for action in decision.actions if action.reason is Reason.ASKED)
@@ -89,7 +89,7 @@ def _open_record(
         old,
         files=files,
         open=Open(as_recorded(generation.now.snapshot), renames, asked, renewed),
-        confirmed=confirmed.union(text_digest(text) for text in inputs.settled.contents.values() if text is not None),
+        confirmed=confirmed.union(bare_hash(text) for text in inputs.settled.contents.values() if text is not None),
     )
     return old if new == old else msgspec.structs.replace(new, edited=judged)
 
@@ -125,8 +125,8 @@ def notes_after(
     A dry run writes no record. So it notes no edits of another model than the recorded one, and no saved versions.
     """
     old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
-    recorded, texts = inputs.last.record.hashes | record.hashes, generation.package.notes()
-    recorded |= {text_hash(model) for aside in saved for model in aside.beside.values()}  # `--undo` records them again
+    recorded, texts = {*inputs.last.files.values(), *record.files.values()}, generation.package.notes()
+    recorded |= {bare_hash(encode(model)) for aside in saved for model in aside.beside.values()}  # for `--undo`
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
     model, is_dry = hash_of(record.snapshot), inputs.options.dry

@@ -11,6 +11,7 @@ import msgspec
 from urdfsync.changes import Changes
 from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import Diagnostic, OutputError
+from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.edit_origins import EDITED
@@ -28,6 +29,7 @@ from urdfsync.engine.stage.record_after import notes_after, record_after
 from urdfsync.engine.stage.saved_conflicts import save_conflicts
 from urdfsync.files import digest, shown
 from urdfsync.modelica.markers import join_sides
+from urdfsync.modelica.stamp import Stamp, with_stamp
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.notes import Notes
 from urdfsync.state.record import Record
@@ -178,16 +180,17 @@ def _file_changes(inputs: Inputs, generation: Generation, decision: Decision) ->
 
 
 def _content(inputs: Inputs, generation: Generation, decision: Decision, action: Action) -> bytes:
-    key, files = action.path, inputs.files
+    key, files, path = action.path, inputs.files, inputs.folder.path(action.path)
+    stamp = files.stamp(action.origin or key) if action.role is not Role.IMPORT else None
+    if path in decision.differences.ids and action.generated:
+        stamp = Stamp(decision.differences.ids[path], action.generated)
     if key in decision.texts:
-        return encode(decision.texts[key])
-    state = files.state(key)
-    mine = (files.read(key) or b"") if state and state.sha256 != state.text_sha256 else b""
-    content = generation.content(inputs.folder.path(key), action.role, mine)
+        return with_stamp(encode(decision.texts[key]), stamp)
+    content = generation.content(path, action.role, files.read(key) or b"")
     if content is None:
         message, hint = "it can't be written: its source file is missing", "restore that file, or the imported copy"
         raise OutputError.of("no-source", message, shown(files.path(key)), hint=hint)
-    return content
+    return with_stamp(content, stamp) if stamp else content
 
 
 def _state_changes(
@@ -206,7 +209,7 @@ def _state_changes(
         return [], []
     source = _source_changes(inputs)
     recorded = store.save(store.path(inputs.robot.name), statefile.dumps(record).encode())
-    needed = {*last.record.hashes, *record.hashes, *(sha256 for one in saved for sha256 in one.bases)}
+    needed = {*last.files.values(), *record.files.values(), *(sha256 for one in saved for sha256 in one.base)}
     kept, is_renewing = needed if decision.is_complete else None, is_writing or bool(source or recorded)
     return [*_base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)], [*source, *recorded]
 
@@ -231,7 +234,7 @@ def _base_changes(
     store, last, settled = inputs.store, inputs.last, inputs.settled
     stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
     known = (item for texts in stored.values() for item in (texts or {}).items())
-    absent = record.hashes - {sha256 for sha256, text in known if text is not None}
+    absent = {*record.files.values(), *settled.texts} - {sha256 for sha256, text in known if text is not None}
     missing = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
     if absent:
         made = package.paths_by_hash  # found by hash, since a text may have another path now

@@ -89,5 +89,6 @@ equation
 <p>
 Links and joints of robot FloatingBuoy, connected. Each can be exchanged in a model that extends this one. Each joint that can be driven has two flanges for its drive: its name with <code>Axis</code> and with <code>Support</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-3d0d", base = "d459519e0d763b3e"));
 end FloatingBuoy;

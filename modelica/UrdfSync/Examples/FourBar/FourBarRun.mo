@@ -43,5 +43,6 @@ equation
 <p>
 Robot FourBar in its world, with one input per axis for its position and one output for what its drive has to give. The inputs are filtered, so that they need no derivatives. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-ca32", base = "07bb21f1b79c3ac7"));
 end FourBarRun;

@@ -19,5 +19,6 @@ record FourBarStart "Where joints of robot FourBar begin"
 <p>
 Positions at which the joints begin. Those of joints in loops close these, as near to the source as that goes. All other joints begin at zero, or where their limits are closest to it. They may be edited: urdfsync then keeps the file and reports when the source says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-06fd", base = "514d73a610a09bb2"));
 end FourBarStart;

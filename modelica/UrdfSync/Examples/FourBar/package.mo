@@ -8,5 +8,6 @@ package FourBar "Robot FourBar: links, joints, robot and benches"
 <p>
 Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything else up to date, and reports where both changed.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-cedc", base = "51570ea628b77e0d"));
 end FourBar;

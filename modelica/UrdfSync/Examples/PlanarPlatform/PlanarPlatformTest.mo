@@ -31,5 +31,6 @@ equation
 <p>
 Simulates without inputs: every axis of robot PlanarPlatform moves inside its limits and comes back. A warning in the log names a joint that passes one of its limits all the same, for example that of its effort. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-5e01", base = "8f3b31d64109910f"));
 end PlanarPlatformTest;

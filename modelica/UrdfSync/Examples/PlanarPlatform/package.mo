@@ -8,5 +8,6 @@ package PlanarPlatform "Robot PlanarPlatform: links, joints, robot and benches"
 <p>
 Made by urdfsync from a URDF. Every file can be edited: urdfsync keeps what you changed, brings everything else up to date, and reports where both changed.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-cedc", base = "233199bc39d27e94"));
 end PlanarPlatform;

@@ -64,5 +64,6 @@ equation
 <p>
 Robot SixAxisArm as <code>UrdfSync.Robots.GenericRobot</code> reads it from its record. It simulates without inputs: every axis moves inside its limits and comes back. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-fc1a", base = "68eac212d0b0161d"));
 end SixAxisArmGeneric;

@@ -1353,5 +1353,6 @@ record SixAxisArmParameters "Numbers of robot SixAxisArm as a whole"
 <p>
 All numbers of robot SixAxisArm in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. Where the package has models of the links and joints, these read the records of their elements, and the numbers here are a copy: an edit here changes no such model.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-d6f1", base = "7ca9031a7d1eb8a2"));
 end SixAxisArmParameters;

@@ -70,5 +70,6 @@ equation
 <p>
 Robot WheeledRobot as <code>UrdfSync.Robots.GenericRobot</code> reads it from its record. It simulates without inputs: every axis moves inside its limits and comes back. The generic robot touches nothing, so nothing holds it: it falls. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-fc1a", base = "cf7cb2f500c39776"));
 end WheeledRobotGeneric;

@@ -1275,5 +1275,6 @@ record WheeledRobotParameters "Numbers of robot WheeledRobot as a whole"
 <p>
 All numbers of robot WheeledRobot in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. Where the package has models of the links and joints, these read the records of their elements, and the numbers here are a copy: an edit here changes no such model.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-d6f1", base = "149edf286ec41068"));
 end WheeledRobotParameters;

@@ -157,5 +157,6 @@ equation
 <p>
 Robot WheeledRobot in its world, with one input per axis: its position, velocity or effort, as the source or the configuration commands it. Positions and velocities are filtered, so that they need no derivatives, and have an output for what the drive has to give; where the input is that, the outputs are position and velocity. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-ca32", base = "c8ebfffa26aee7ff"));
 end WheeledRobotRun;

@@ -23,5 +23,6 @@ record WheeledRobotSensors "Numbers of the sensors of robot WheeledRobot"
 <p>
 Numbers of the sensors of robot WheeledRobot. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-b0a5", base = "dc7eb14afe9dd435"));
 end WheeledRobotSensors;

@@ -93,5 +93,6 @@ equation
 <p>
 Simulates without inputs: every axis of robot WheeledRobot moves inside its limits and comes back. A warning in the log names a joint that passes one of its limits all the same, for example that of its effort. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-5e01", base = "e17038061b1fdc81"));
 end WheeledRobotTest;

@@ -62,5 +62,6 @@ equation
 <p>
 The URDF joint <code>clapper_swing</code>: link <code>clapper</code> relative to link <code>buoy</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "76f29b76-1e0d", base = "5f8c51838bb5f872"));
 end Clapper_swing;

@@ -20,5 +20,6 @@ record Clapper_swingParameters "Numbers of continuous joint \"clapper_swing\" fr
 <p>
 Numbers of continuous joint &quot;clapper_swing&quot; from link &quot;buoy&quot; to link &quot;clapper&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "76f29b76-352d", base = "dc74d11080fb1e88"));
 end Clapper_swingParameters;

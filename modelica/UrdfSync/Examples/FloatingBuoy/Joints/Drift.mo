@@ -35,5 +35,6 @@ equation
 <p>
 The URDF joint <code>drift</code>: link <code>buoy</code> relative to link <code>world</code> moves freely. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "1428f346-6ce9", base = "eb58b2e4da5d890c"));
 end Drift;

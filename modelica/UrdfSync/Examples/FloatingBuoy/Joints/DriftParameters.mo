@@ -11,5 +11,6 @@ record DriftParameters "Numbers of floating joint \"drift\" from link \"world\" 
 <p>
 Numbers of floating joint &quot;drift&quot; from link &quot;world&quot; to link &quot;buoy&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "1428f346-352d", base = "fffac6870e168807"));
 end DriftParameters;

@@ -8,5 +8,6 @@ package Joints "Joints of robot FloatingBuoy"
 <p>
 One model and one record of numbers per joint.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-3b89", base = "2782392e8e9f0546"));
 end Joints;

@@ -142,5 +142,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>buoy</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "aeb4b8f9-9817", base = "fe4729dfb2a10474"));
 end Buoy;

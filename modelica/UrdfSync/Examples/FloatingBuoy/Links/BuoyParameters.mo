@@ -136,5 +136,6 @@ record BuoyParameters "Numbers of link \"buoy\""
 <p>
 Numbers of link &quot;buoy&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "aeb4b8f9-a4a5", base = "85d164709da5a864"));
 end BuoyParameters;

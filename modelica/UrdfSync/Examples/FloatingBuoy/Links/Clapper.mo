@@ -70,5 +70,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>clapper</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "e43efffb-9817", base = "0468bde9a8ad21a0"));
 end Clapper;

@@ -48,5 +48,6 @@ record ClapperParameters "Numbers of link \"clapper\""
 <p>
 Numbers of link &quot;clapper&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "e43efffb-a4a5", base = "44d260e1b0c449f4"));
 end ClapperParameters;

@@ -46,5 +46,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>world</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "92c5a1d8-9817", base = "e7e1f460d3f43bc7"));
 end WorldLink;

@@ -9,5 +9,6 @@ record WorldLinkParameters "Numbers of link \"world\""
 <p>
 Numbers of link &quot;world&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "92c5a1d8-a4a5", base = "910c9b864bd6f478"));
 end WorldLinkParameters;

@@ -8,5 +8,6 @@ package Links "Links of robot FloatingBuoy"
 <p>
 One model and one record of numbers per link.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-afba", base = "7afc13cba2202488"));
 end Links;

@@ -49,5 +49,6 @@ equation
 <p>
 The URDF joint <code>crank_pin</code>: link <code>coupler</code> relative to link <code>crank</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "a03b3574-1e0d", base = "fd62c8f7307aef7c"));
 end Crank_pin;

@@ -17,5 +17,6 @@ record Crank_pinParameters "Numbers of continuous joint \"crank_pin\" from link 
 <p>
 Numbers of continuous joint &quot;crank_pin&quot; from link &quot;crank&quot; to link &quot;coupler&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "a03b3574-352d", base = "48ad12ae00b11ccd"));
 end Crank_pinParameters;

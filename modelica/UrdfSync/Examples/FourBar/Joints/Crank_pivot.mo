@@ -49,5 +49,6 @@ equation
 <p>
 The URDF joint <code>crank_pivot</code>: link <code>crank</code> relative to link <code>frame</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5a816b4d-1e0d", base = "e6ac7dec9444b1fa"));
 end Crank_pivot;

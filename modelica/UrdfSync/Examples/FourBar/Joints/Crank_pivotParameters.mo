@@ -17,5 +17,6 @@ record Crank_pivotParameters "Numbers of continuous joint \"crank_pivot\" from l
 <p>
 Numbers of continuous joint &quot;crank_pivot&quot; from link &quot;frame&quot; to link &quot;crank&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5a816b4d-352d", base = "7b44f658de29d1e8"));
 end Crank_pivotParameters;

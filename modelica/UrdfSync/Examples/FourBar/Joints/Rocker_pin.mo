@@ -47,5 +47,6 @@ equation
 <p>
 The loop <code>rocker_pin</code>: a frame of link <code>rocker</code> at a frame of link <code>coupler</code>, as a revolute joint holds it. The loop is planar: two equations in its plane close it. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "c430855c-c662", base = "e0141e467201a3e6"));
 end Rocker_pin;

@@ -17,5 +17,6 @@ record Rocker_pinParameters "Numbers of revolute joint \"rocker_pin\" that close
 <p>
 Numbers of revolute joint &quot;rocker_pin&quot; that closes a loop from link &quot;coupler&quot; to link &quot;rocker&quot;. They may be edited: urdfsync then keeps the file and reports when the source says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "c430855c-352d", base = "c3581b7d1742d433"));
 end Rocker_pinParameters;

@@ -49,5 +49,6 @@ equation
 <p>
 The URDF joint <code>rocker_pivot</code>: link <code>rocker</code> relative to link <code>frame</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ab164d6a-1e0d", base = "587e2564d27e091f"));
 end Rocker_pivot;

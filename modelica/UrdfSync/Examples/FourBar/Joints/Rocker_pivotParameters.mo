@@ -17,5 +17,6 @@ record Rocker_pivotParameters "Numbers of continuous joint \"rocker_pivot\" from
 <p>
 Numbers of continuous joint &quot;rocker_pivot&quot; from link &quot;frame&quot; to link &quot;rocker&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ab164d6a-352d", base = "d0e3a46df615e3b6"));
 end Rocker_pivotParameters;

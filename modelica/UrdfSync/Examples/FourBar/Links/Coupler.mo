@@ -70,5 +70,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>coupler</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "bb730311-9817", base = "ed33200505677c68"));
 end Coupler;

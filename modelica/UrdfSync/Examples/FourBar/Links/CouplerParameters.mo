@@ -49,5 +49,6 @@ record CouplerParameters "Numbers of link \"coupler\""
 <p>
 Numbers of link &quot;coupler&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "bb730311-a4a5", base = "f8741d1351e153aa"));
 end CouplerParameters;

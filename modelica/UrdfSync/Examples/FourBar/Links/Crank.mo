@@ -62,5 +62,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>crank</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "d8850225-9817", base = "9f20f8d052c40987"));
 end Crank;

@@ -39,5 +39,6 @@ record CrankParameters "Numbers of link \"crank\""
 <p>
 Numbers of link &quot;crank&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "d8850225-a4a5", base = "6d44c38511e3b35e"));
 end CrankParameters;

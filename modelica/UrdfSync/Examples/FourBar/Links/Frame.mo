@@ -54,5 +54,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>frame</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "37eaa7dd-9817", base = "17c59ba0e976dab8"));
 end Frame;

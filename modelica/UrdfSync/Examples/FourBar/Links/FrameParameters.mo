@@ -18,5 +18,6 @@ record FrameParameters "Numbers of link \"frame\""
 <p>
 Numbers of link &quot;frame&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "37eaa7dd-a4a5", base = "dfa419f896bf18e2"));
 end FrameParameters;

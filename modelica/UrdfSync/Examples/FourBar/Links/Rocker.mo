@@ -62,5 +62,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>rocker</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "f2f7b4c9-9817", base = "b15c569238773514"));
 end Rocker;

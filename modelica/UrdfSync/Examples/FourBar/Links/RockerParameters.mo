@@ -39,5 +39,6 @@ record RockerParameters "Numbers of link \"rocker\""
 <p>
 Numbers of link &quot;rocker&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "f2f7b4c9-a4a5", base = "c861cb1d5b5f41a8"));
 end RockerParameters;

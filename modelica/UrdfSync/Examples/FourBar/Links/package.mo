@@ -8,5 +8,6 @@ package Links "Links of robot FourBar"
 <p>
 One model and one record of numbers per link.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-afba", base = "6cc65b4f180f2c8a"));
 end Links;

@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>boom_swing</code>: link <code>boom</code> relative to link <code>platform</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "6e6995ca-1e0d", base = "edffe5eccd95cac6"));
 end Boom_swing;

@@ -20,5 +20,6 @@ record Boom_swingParameters "Numbers of revolute joint \"boom_swing\" from link 
 <p>
 Numbers of revolute joint &quot;boom_swing&quot; from link &quot;platform&quot; to link &quot;boom&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "6e6995ca-352d", base = "32fcceefb3b0b393"));
 end Boom_swingParameters;

@@ -87,5 +87,6 @@ equation
 <p>
 The URDF joint <code>glide</code>: link <code>platform</code> relative to link <code>world</code> slides in a plane and turns about its normal. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5cea8f3f-9f4f", base = "9991d48a5a4f2eab"));
 end Glide;

@@ -18,5 +18,6 @@ record GlideParameters "Numbers of planar joint \"glide\" from link \"world\" to
 <p>
 Numbers of planar joint &quot;glide&quot; from link &quot;world&quot; to link &quot;platform&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5cea8f3f-352d", base = "68b98c91cce009bd"));
 end GlideParameters;

@@ -8,5 +8,6 @@ package Joints "Joints of robot PlanarPlatform"
 <p>
 One model and one record of numbers per joint.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-3b89", base = "0c7fe680d596a17e"));
 end Joints;

@@ -78,5 +78,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>boom</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5c87d25c-9817", base = "76cf93c0f5cab003"));
 end Boom;

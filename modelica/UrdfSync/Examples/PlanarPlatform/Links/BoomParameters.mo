@@ -58,5 +58,6 @@ record BoomParameters "Numbers of link \"boom\""
 <p>
 Numbers of link &quot;boom&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5c87d25c-a4a5", base = "b80342efd7f9dcd2"));
 end BoomParameters;

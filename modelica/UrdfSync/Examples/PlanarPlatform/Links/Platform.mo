@@ -102,5 +102,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>platform</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "52400519-9817", base = "9fd1bb3a952623fd"));
 end Platform;

@@ -90,5 +90,6 @@ record PlatformParameters "Numbers of link \"platform\""
 <p>
 Numbers of link &quot;platform&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "52400519-a4a5", base = "4a09c5706f716f4c"));
 end PlatformParameters;

@@ -8,5 +8,6 @@ package Links "Links of robot PlanarPlatform"
 <p>
 One model and one record of numbers per link.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-afba", base = "ac130184f3f92263"));
 end Links;

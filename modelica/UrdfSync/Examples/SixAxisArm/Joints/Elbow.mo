@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>elbow</code>: link <code>elbow_housing</code> relative to link <code>upper_arm</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "056fd1cc-1e0d", base = "de72109219cb64af"));
 end Elbow;

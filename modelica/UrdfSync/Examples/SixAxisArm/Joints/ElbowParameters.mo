@@ -28,5 +28,6 @@ record ElbowParameters "Numbers of revolute joint \"elbow\" from link \"upper_ar
 <p>
 Numbers of revolute joint &quot;elbow&quot; from link &quot;upper_arm&quot; to link &quot;elbow_housing&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "056fd1cc-352d", base = "a6ed3cead5e7c15b"));
 end ElbowParameters;

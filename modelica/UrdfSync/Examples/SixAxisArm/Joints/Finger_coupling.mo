@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>finger_coupling</code>: link <code>finger_right</code> relative to link <code>gripper_body</code> slides within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "2301de4d-1e0d", base = "e567068a844ecbc6"));
 end Finger_coupling;

@@ -23,5 +23,6 @@ record Finger_couplingParameters "Numbers of prismatic joint \"finger_coupling\"
 <p>
 Numbers of prismatic joint &quot;finger_coupling&quot; from link &quot;gripper_body&quot; to link &quot;finger_right&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "2301de4d-352d", base = "7f5d6a4e1d6cf814"));
 end Finger_couplingParameters;

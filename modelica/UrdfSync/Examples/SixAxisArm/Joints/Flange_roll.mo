@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>flange_roll</code>: link <code>mounting_flange</code> relative to link <code>wrist</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "eb608c84-1e0d", base = "002d84654ff0eaa1"));
 end Flange_roll;

@@ -20,5 +20,6 @@ record Flange_rollParameters "Numbers of revolute joint \"flange_roll\" from lin
 <p>
 Numbers of revolute joint &quot;flange_roll&quot; from link &quot;wrist&quot; to link &quot;mounting_flange&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "eb608c84-352d", base = "393c8d681c5f2f1e"));
 end Flange_rollParameters;

@@ -24,5 +24,6 @@ equation
 <p>
 The URDF joint <code>flange_to_tool</code>: link <code>tool0</code> relative to link <code>mounting_flange</code> does not move. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "95f1384f-d5bf", base = "f138ce8f5c220910"));
 end Flange_to_tool;

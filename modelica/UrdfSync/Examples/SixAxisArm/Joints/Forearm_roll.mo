@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>forearm_roll</code>: link <code>forearm</code> relative to link <code>elbow_housing</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "590719fe-1e0d", base = "cf1d3d68ed11b7c9"));
 end Forearm_roll;

@@ -20,5 +20,6 @@ record Forearm_rollParameters "Numbers of revolute joint \"forearm_roll\" from l
 <p>
 Numbers of revolute joint &quot;forearm_roll&quot; from link &quot;elbow_housing&quot; to link &quot;forearm&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "590719fe-352d", base = "a3993c1be1b7aab9"));
 end Forearm_rollParameters;

@@ -24,5 +24,6 @@ equation
 <p>
 The URDF joint <code>grasp_frame</code>: link <code>grasp_point</code> relative to link <code>gripper_body</code> does not move. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "e9caeb11-d5bf", base = "611837cf54c3de99"));
 end Grasp_frame;

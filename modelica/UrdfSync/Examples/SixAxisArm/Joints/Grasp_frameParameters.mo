@@ -11,5 +11,6 @@ record Grasp_frameParameters "Numbers of fixed joint \"grasp_frame\" from link \
 <p>
 Numbers of fixed joint &quot;grasp_frame&quot; from link &quot;gripper_body&quot; to link &quot;grasp_point&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "e9caeb11-352d", base = "384c4ac69dc3a0ca"));
 end Grasp_frameParameters;

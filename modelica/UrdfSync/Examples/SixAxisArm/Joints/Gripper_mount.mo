@@ -24,5 +24,6 @@ equation
 <p>
 The URDF joint <code>gripper_mount</code>: link <code>gripper_body</code> relative to link <code>tool0</code> does not move. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "b3f890c5-d5bf", base = "27ee3f81c2d3c568"));
 end Gripper_mount;

@@ -11,5 +11,6 @@ record Gripper_mountParameters "Numbers of fixed joint \"gripper_mount\" from li
 <p>
 Numbers of fixed joint &quot;gripper_mount&quot; from link &quot;tool0&quot; to link &quot;gripper_body&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "b3f890c5-352d", base = "ab990e054df7d82f"));
 end Gripper_mountParameters;

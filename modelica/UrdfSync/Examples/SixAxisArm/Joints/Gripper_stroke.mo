@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>gripper_stroke</code>: link <code>finger_left</code> relative to link <code>gripper_body</code> slides within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "7b7b6b78-1e0d", base = "130b6db4d2526d0b"));
 end Gripper_stroke;

@@ -20,5 +20,6 @@ record Gripper_strokeParameters "Numbers of prismatic joint \"gripper_stroke\" f
 <p>
 Numbers of prismatic joint &quot;gripper_stroke&quot; from link &quot;gripper_body&quot; to link &quot;finger_left&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "7b7b6b78-352d", base = "54ddaae3eacca9e6"));
 end Gripper_strokeParameters;

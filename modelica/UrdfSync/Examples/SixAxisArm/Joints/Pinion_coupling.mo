@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>pinion_coupling</code>: link <code>drive_pinion</code> relative to link <code>gripper_body</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "8efc0703-1e0d", base = "0e6008c287ca1f89"));
 end Pinion_coupling;

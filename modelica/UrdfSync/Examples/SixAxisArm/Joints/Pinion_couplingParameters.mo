@@ -23,5 +23,6 @@ record Pinion_couplingParameters "Numbers of revolute joint \"pinion_coupling\" 
 <p>
 Numbers of revolute joint &quot;pinion_coupling&quot; from link &quot;gripper_body&quot; to link &quot;drive_pinion&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "8efc0703-352d", base = "3d09f05be8935554"));
 end Pinion_couplingParameters;

@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>shoulder</code>: link <code>upper_arm</code> relative to link <code>carousel</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5cd8ca66-1e0d", base = "959cd32cdb699bf6"));
 end Shoulder;

@@ -28,5 +28,6 @@ record ShoulderParameters "Numbers of revolute joint \"shoulder\" from link \"ca
 <p>
 Numbers of revolute joint &quot;shoulder&quot; from link &quot;carousel&quot; to link &quot;upper_arm&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5cd8ca66-352d", base = "1ce560485e872db2"));
 end ShoulderParameters;

@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>turret</code>: link <code>carousel</code> relative to link <code>base_link</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "59908be1-1e0d", base = "6e1526908dc30229"));
 end Turret;

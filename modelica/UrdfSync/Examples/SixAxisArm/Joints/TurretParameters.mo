@@ -31,5 +31,6 @@ record TurretParameters "Numbers of revolute joint \"turret\" from link \"base_l
 <p>
 Numbers of revolute joint &quot;turret&quot; from link &quot;base_link&quot; to link &quot;carousel&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "59908be1-352d", base = "5b8b20a8a58de0bd"));
 end TurretParameters;

@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>wrist_pitch</code>: link <code>wrist</code> relative to link <code>forearm</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "eeb0a3f3-1e0d", base = "8274bedc19468d8f"));
 end Wrist_pitch;

@@ -20,5 +20,6 @@ record Wrist_pitchParameters "Numbers of revolute joint \"wrist_pitch\" from lin
 <p>
 Numbers of revolute joint &quot;wrist_pitch&quot; from link &quot;forearm&quot; to link &quot;wrist&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "eeb0a3f3-352d", base = "06cbceb17ee46e2a"));
 end Wrist_pitchParameters;

@@ -8,5 +8,6 @@ package Joints "Joints of robot SixAxisArm"
 <p>
 One model and one record of numbers per joint.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-3b89", base = "3d2c7bc7aecdd665"));
 end Joints;

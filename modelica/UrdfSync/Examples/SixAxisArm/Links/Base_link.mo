@@ -118,5 +118,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>base_link</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ee359a99-9817", base = "34a7f15c18cb8b61"));
 end Base_link;

@@ -108,5 +108,6 @@ record Base_linkParameters "Numbers of link \"base_link\""
 <p>
 Numbers of link &quot;base_link&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ee359a99-a4a5", base = "d8da0ac2b141452d"));
 end Base_linkParameters;

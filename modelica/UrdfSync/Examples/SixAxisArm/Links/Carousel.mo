@@ -86,5 +86,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>carousel</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "26ce1b4f-9817", base = "2377667ccdee63e4"));
 end Carousel;

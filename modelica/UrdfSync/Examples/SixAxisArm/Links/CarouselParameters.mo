@@ -72,5 +72,6 @@ record CarouselParameters "Numbers of link \"carousel\""
 <p>
 Numbers of link &quot;carousel&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "26ce1b4f-a4a5", base = "889021e5c660aa61"));
 end CarouselParameters;

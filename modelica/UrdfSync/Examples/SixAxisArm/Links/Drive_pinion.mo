@@ -62,5 +62,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>drive_pinion</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "8c4bacf9-9817", base = "78ae6261bd45ddee"));
 end Drive_pinion;

@@ -41,5 +41,6 @@ record Drive_pinionParameters "Numbers of link \"drive_pinion\""
 <p>
 Numbers of link &quot;drive_pinion&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "8c4bacf9-a4a5", base = "bd50f1b63326bfc0"));
 end Drive_pinionParameters;

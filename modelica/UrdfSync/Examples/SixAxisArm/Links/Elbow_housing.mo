@@ -94,5 +94,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>elbow_housing</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "36e667d2-9817", base = "d9d2e50b985610a9"));
 end Elbow_housing;

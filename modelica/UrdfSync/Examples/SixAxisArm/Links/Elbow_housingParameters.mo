@@ -79,5 +79,6 @@ record Elbow_housingParameters "Numbers of link \"elbow_housing\""
 <p>
 Numbers of link &quot;elbow_housing&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "36e667d2-a4a5", base = "e0900e1efb793041"));
 end Elbow_housingParameters;

@@ -94,5 +94,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>finger_left</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "96528fac-9817", base = "ced7585a9ee52043"));
 end Finger_left;

@@ -80,5 +80,6 @@ record Finger_leftParameters "Numbers of link \"finger_left\""
 <p>
 Numbers of link &quot;finger_left&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "96528fac-a4a5", base = "fffc579c2dcbdd43"));
 end Finger_leftParameters;

@@ -94,5 +94,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>finger_right</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ac950fe7-9817", base = "56a9225076f72e5b"));
 end Finger_right;

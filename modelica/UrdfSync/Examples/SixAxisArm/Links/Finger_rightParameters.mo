@@ -76,5 +76,6 @@ record Finger_rightParameters "Numbers of link \"finger_right\""
 <p>
 Numbers of link &quot;finger_right&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ac950fe7-a4a5", base = "fcf73e1e86ad74ec"));
 end Finger_rightParameters;

@@ -110,5 +110,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>forearm</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "6528f35f-9817", base = "aa170aa0486825cf"));
 end Forearm;

@@ -97,5 +97,6 @@ record ForearmParameters "Numbers of link \"forearm\""
 <p>
 Numbers of link &quot;forearm&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "6528f35f-a4a5", base = "8365f08f4f0f115a"));
 end ForearmParameters;

@@ -46,5 +46,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>grasp_point</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "138e7918-9817", base = "9063f9757e706345"));
 end Grasp_point;

@@ -9,5 +9,6 @@ record Grasp_pointParameters "Numbers of link \"grasp_point\""
 <p>
 Numbers of link &quot;grasp_point&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "138e7918-a4a5", base = "e27de326e6c63671"));
 end Grasp_pointParameters;

@@ -86,5 +86,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>gripper_body</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "063c367a-9817", base = "a2ff8046a6392632"));
 end Gripper_body;

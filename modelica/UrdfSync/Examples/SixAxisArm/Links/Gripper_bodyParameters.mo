@@ -66,5 +66,6 @@ record Gripper_bodyParameters "Numbers of link \"gripper_body\""
 <p>
 Numbers of link &quot;gripper_body&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "063c367a-a4a5", base = "c2bba5acfe32ef09"));
 end Gripper_bodyParameters;

@@ -70,5 +70,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>mounting_flange</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "3c295cef-9817", base = "f0bcffe48be8465f"));
 end Mounting_flange;

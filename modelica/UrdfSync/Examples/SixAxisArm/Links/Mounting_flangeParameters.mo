@@ -49,5 +49,6 @@ record Mounting_flangeParameters "Numbers of link \"mounting_flange\""
 <p>
 Numbers of link &quot;mounting_flange&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "3c295cef-a4a5", base = "e2379cefd81977d6"));
 end Mounting_flangeParameters;

@@ -46,5 +46,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>tool0</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "31f781f5-9817", base = "462667b76dc73fa5"));
 end Tool0;

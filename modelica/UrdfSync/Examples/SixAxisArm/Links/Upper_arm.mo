@@ -110,5 +110,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>upper_arm</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "32685676-9817", base = "842c5005e33a5a01"));
 end Upper_arm;

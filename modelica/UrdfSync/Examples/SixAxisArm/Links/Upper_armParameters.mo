@@ -100,5 +100,6 @@ record Upper_armParameters "Numbers of link \"upper_arm\""
 <p>
 Numbers of link &quot;upper_arm&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "32685676-a4a5", base = "49b2c2a438edacb3"));
 end Upper_armParameters;

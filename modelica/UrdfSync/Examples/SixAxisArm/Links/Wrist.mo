@@ -70,5 +70,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>wrist</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "9ceaa769-9817", base = "0ae83f111f967891"));
 end Wrist;

@@ -50,5 +50,6 @@ record WristParameters "Numbers of link \"wrist\""
 <p>
 Numbers of link &quot;wrist&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "9ceaa769-a4a5", base = "aea38b26578e3aa4"));
 end WristParameters;

@@ -8,5 +8,6 @@ package Links "Links of robot SixAxisArm"
 <p>
 One model and one record of numbers per link.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-afba", base = "0bf527ca491a5315"));
 end Links;

@@ -24,5 +24,6 @@ equation
 <p>
 The URDF joint <code>camera_mount</code>: link <code>camera_optical_frame</code> relative to link <code>head</code> does not move. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "33a8b7a3-d5bf", base = "9d4aade95d57179c"));
 end Camera_mount;

@@ -11,5 +11,6 @@ record Camera_mountParameters "Numbers of fixed joint \"camera_mount\" from link
 <p>
 Numbers of fixed joint &quot;camera_mount&quot; from link &quot;head&quot; to link &quot;camera_optical_frame&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "33a8b7a3-352d", base = "188083e8501c99da"));
 end Camera_mountParameters;

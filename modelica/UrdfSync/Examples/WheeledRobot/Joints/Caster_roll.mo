@@ -62,5 +62,6 @@ equation
 <p>
 The URDF joint <code>caster_roll</code>: link <code>caster_wheel</code> relative to link <code>caster_fork</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "075170dd-1e0d", base = "6caadcc5d6345a0f"));
 end Caster_roll;

@@ -20,5 +20,6 @@ record Caster_rollParameters "Numbers of continuous joint \"caster_roll\" from l
 <p>
 Numbers of continuous joint &quot;caster_roll&quot; from link &quot;caster_fork&quot; to link &quot;caster_wheel&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "075170dd-352d", base = "1f6879a0940caa5f"));
 end Caster_rollParameters;

@@ -62,5 +62,6 @@ equation
 <p>
 The URDF joint <code>caster_swivel</code>: link <code>caster_fork</code> relative to link <code>base_link</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "e960663b-1e0d", base = "1e1f8f777107d1a2"));
 end Caster_swivel;

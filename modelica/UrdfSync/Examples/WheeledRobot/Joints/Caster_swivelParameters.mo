@@ -20,5 +20,6 @@ record Caster_swivelParameters "Numbers of continuous joint \"caster_swivel\" fr
 <p>
 Numbers of continuous joint &quot;caster_swivel&quot; from link &quot;base_link&quot; to link &quot;caster_fork&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "e960663b-352d", base = "4463370e05dbc698"));
 end Caster_swivelParameters;

@@ -62,5 +62,6 @@ equation
 <p>
 The URDF joint <code>drive_left</code>: link <code>wheel_left</code> relative to link <code>base_link</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "3c96cf6d-1e0d", base = "78887e5192449f68"));
 end Drive_left;

@@ -23,5 +23,6 @@ record Drive_leftParameters "Numbers of continuous joint \"drive_left\" from lin
 <p>
 Numbers of continuous joint &quot;drive_left&quot; from link &quot;base_link&quot; to link &quot;wheel_left&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "3c96cf6d-352d", base = "d329aa23c66d5bd8"));
 end Drive_leftParameters;

@@ -62,5 +62,6 @@ equation
 <p>
 The URDF joint <code>drive_right</code>: link <code>wheel_right</code> relative to link <code>base_link</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "9df8b7d5-1e0d", base = "ad2643164486e550"));
 end Drive_right;

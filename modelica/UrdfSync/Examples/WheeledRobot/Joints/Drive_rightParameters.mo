@@ -23,5 +23,6 @@ record Drive_rightParameters "Numbers of continuous joint \"drive_right\" from l
 <p>
 Numbers of continuous joint &quot;drive_right&quot; from link &quot;base_link&quot; to link &quot;wheel_right&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "9df8b7d5-352d", base = "0ed2b20e511c1545"));
 end Drive_rightParameters;

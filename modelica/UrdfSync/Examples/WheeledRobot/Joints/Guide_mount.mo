@@ -24,5 +24,6 @@ equation
 <p>
 The URDF joint <code>guide_mount</code>: link <code>column_guide</code> relative to link <code>base_link</code> does not move. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "b4b6837d-d5bf", base = "1ca918b57a5d96b3"));
 end Guide_mount;

@@ -11,5 +11,6 @@ record Guide_mountParameters "Numbers of fixed joint \"guide_mount\" from link \
 <p>
 Numbers of fixed joint &quot;guide_mount&quot; from link &quot;base_link&quot; to link &quot;column_guide&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "b4b6837d-352d", base = "d41d99d2d579d90a"));
 end Guide_mountParameters;

@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>head_pan</code>: link <code>neck</code> relative to link <code>column</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "26d902af-1e0d", base = "5b59130a0748f8a0"));
 end Head_pan;

@@ -25,5 +25,6 @@ record Head_panParameters "Numbers of revolute joint \"head_pan\" from link \"co
 <p>
 Numbers of revolute joint &quot;head_pan&quot; from link &quot;column&quot; to link &quot;neck&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "26d902af-352d", base = "01236212b7aeb013"));
 end Head_panParameters;

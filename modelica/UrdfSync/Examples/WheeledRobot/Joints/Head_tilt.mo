@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>head_tilt</code>: link <code>head</code> relative to link <code>neck</code> turns within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "4907c2a5-1e0d", base = "4228f3bb54bc916e"));
 end Head_tilt;

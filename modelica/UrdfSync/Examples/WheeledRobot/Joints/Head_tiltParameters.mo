@@ -25,5 +25,6 @@ record Head_tiltParameters "Numbers of revolute joint \"head_tilt\" from link \"
 <p>
 Numbers of revolute joint &quot;head_tilt&quot; from link &quot;neck&quot; to link &quot;head&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "4907c2a5-352d", base = "3e7b5ff6e37f58aa"));
 end Head_tiltParameters;

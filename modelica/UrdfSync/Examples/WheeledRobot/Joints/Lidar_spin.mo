@@ -62,5 +62,6 @@ equation
 <p>
 The URDF joint <code>lidar_spin</code>: link <code>lidar</code> relative to link <code>lidar_mast</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "7d3f01b0-1e0d", base = "c5fed2acdf5ec18d"));
 end Lidar_spin;

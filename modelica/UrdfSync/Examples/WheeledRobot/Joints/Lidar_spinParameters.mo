@@ -20,5 +20,6 @@ record Lidar_spinParameters "Numbers of continuous joint \"lidar_spin\" from lin
 <p>
 Numbers of continuous joint &quot;lidar_spin&quot; from link &quot;lidar_mast&quot; to link &quot;lidar&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "7d3f01b0-352d", base = "1d3c1f337d6bda76"));
 end Lidar_spinParameters;

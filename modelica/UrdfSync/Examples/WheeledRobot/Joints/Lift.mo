@@ -64,5 +64,6 @@ equation
 <p>
 The URDF joint <code>lift</code>: link <code>column</code> relative to link <code>column_guide</code> slides within its limits. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ef6cdf19-1e0d", base = "29bf97e6b64ebb53"));
 end Lift;

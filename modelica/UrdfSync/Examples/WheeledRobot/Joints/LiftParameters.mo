@@ -28,5 +28,6 @@ record LiftParameters "Numbers of prismatic joint \"lift\" from link \"column_gu
 <p>
 Numbers of prismatic joint &quot;lift&quot; from link &quot;column_guide&quot; to link &quot;column&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ef6cdf19-352d", base = "446a723eff78696f"));
 end LiftParameters;

@@ -24,5 +24,6 @@ equation
 <p>
 The URDF joint <code>mast_mount</code>: link <code>lidar_mast</code> relative to link <code>base_link</code> does not move. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ef89457d-d5bf", base = "8bd5c9317adeeb26"));
 end Mast_mount;

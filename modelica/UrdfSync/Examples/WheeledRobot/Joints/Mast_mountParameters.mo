@@ -11,5 +11,6 @@ record Mast_mountParameters "Numbers of fixed joint \"mast_mount\" from link \"b
 <p>
 Numbers of fixed joint &quot;mast_mount&quot; from link &quot;base_link&quot; to link &quot;lidar_mast&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ef89457d-352d", base = "f493fdbc386da8a9"));
 end Mast_mountParameters;

@@ -8,5 +8,6 @@ package Joints "Joints of robot WheeledRobot"
 <p>
 One model and one record of numbers per joint.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-3b89", base = "6d15196e60b9d7c0"));
 end Joints;

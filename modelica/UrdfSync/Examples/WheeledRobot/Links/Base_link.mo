@@ -124,5 +124,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>base_link</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ee359a99-9817", base = "7530e16dd5153aea"));
 end Base_link;

@@ -94,5 +94,6 @@ record Base_linkParameters "Numbers of link \"base_link\""
 <p>
 Numbers of link &quot;base_link&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "ee359a99-a4a5", base = "44e844ee8379aeb2"));
 end Base_linkParameters;

@@ -46,5 +46,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>camera_optical_frame</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "8f40afcc-9817", base = "994d783e7e69b572"));
 end Camera_optical_frame;

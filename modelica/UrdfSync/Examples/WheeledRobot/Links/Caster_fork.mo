@@ -78,5 +78,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>caster_fork</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "1dbd3c4f-9817", base = "aeb030e359ba768f"));
 end Caster_fork;

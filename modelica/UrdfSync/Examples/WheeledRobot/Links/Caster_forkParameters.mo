@@ -57,5 +57,6 @@ record Caster_forkParameters "Numbers of link \"caster_fork\""
 <p>
 Numbers of link &quot;caster_fork&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "1dbd3c4f-a4a5", base = "041d0df981d099b0"));
 end Caster_forkParameters;

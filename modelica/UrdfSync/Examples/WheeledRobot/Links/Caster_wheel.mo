@@ -77,5 +77,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>caster_wheel</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "982d147d-9817", base = "321364bfd6f7fe3d"));
 end Caster_wheel;

@@ -50,5 +50,6 @@ record Caster_wheelParameters "Numbers of link \"caster_wheel\""
 <p>
 Numbers of link &quot;caster_wheel&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "982d147d-a4a5", base = "67aca5a5fe6d2420"));
 end Caster_wheelParameters;

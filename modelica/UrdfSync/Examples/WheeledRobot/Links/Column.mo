@@ -77,5 +77,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>column</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "1f0d03fc-9817", base = "1557e4cafa524c14"));
 end Column;

@@ -48,5 +48,6 @@ record ColumnParameters "Numbers of link \"column\""
 <p>
 Numbers of link &quot;column&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "1f0d03fc-a4a5", base = "10b60df745a1361d"));
 end ColumnParameters;

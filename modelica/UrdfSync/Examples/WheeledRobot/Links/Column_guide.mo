@@ -85,5 +85,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>column_guide</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "4b39e45c-9817", base = "ca497d822a88de2a"));
 end Column_guide;

@@ -57,5 +57,6 @@ record Column_guideParameters "Numbers of link \"column_guide\""
 <p>
 Numbers of link &quot;column_guide&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "4b39e45c-a4a5", base = "d80a18d29a5b55c5"));
 end Column_guideParameters;

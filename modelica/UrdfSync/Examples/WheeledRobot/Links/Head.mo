@@ -101,5 +101,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>head</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5dac4e62-9817", base = "a02a89b5e1054596"));
 end Head;

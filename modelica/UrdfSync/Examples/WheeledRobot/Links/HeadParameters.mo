@@ -78,5 +78,6 @@ record HeadParameters "Numbers of link \"head\""
 <p>
 Numbers of link &quot;head&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5dac4e62-a4a5", base = "f010fab0e9b7c7b6"));
 end HeadParameters;

@@ -77,5 +77,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>lidar</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "254cf1d8-9817", base = "1d9f880cdc8099c0"));
 end Lidar;

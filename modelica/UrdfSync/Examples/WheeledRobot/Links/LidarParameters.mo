@@ -50,5 +50,6 @@ record LidarParameters "Numbers of link \"lidar\""
 <p>
 Numbers of link &quot;lidar&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "254cf1d8-a4a5", base = "9988e4ff1e5a352b"));
 end LidarParameters;

@@ -85,5 +85,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>lidar_mast</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "16178f7f-9817", base = "d7b175ab41704e73"));
 end Lidar_mast;

@@ -60,5 +60,6 @@ record Lidar_mastParameters "Numbers of link \"lidar_mast\""
 <p>
 Numbers of link &quot;lidar_mast&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "16178f7f-a4a5", base = "cdc29932b390338b"));
 end Lidar_mastParameters;

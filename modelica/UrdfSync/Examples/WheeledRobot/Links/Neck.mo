@@ -109,5 +109,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>neck</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5482de1b-9817", base = "f72d110a54a8dcab"));
 end Neck;

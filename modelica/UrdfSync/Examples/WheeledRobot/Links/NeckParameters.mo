@@ -87,5 +87,6 @@ record NeckParameters "Numbers of link \"neck\""
 <p>
 Numbers of link &quot;neck&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "5482de1b-a4a5", base = "edc8c6730cd58e2b"));
 end NeckParameters;

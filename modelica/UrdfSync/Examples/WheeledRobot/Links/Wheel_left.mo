@@ -101,5 +101,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>wheel_left</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "3e9f65a4-9817", base = "ec7ea45a91052add"));
 end Wheel_left;

@@ -78,5 +78,6 @@ record Wheel_leftParameters "Numbers of link \"wheel_left\""
 <p>
 Numbers of link &quot;wheel_left&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "3e9f65a4-a4a5", base = "6171d18566cae12f"));
 end Wheel_leftParameters;

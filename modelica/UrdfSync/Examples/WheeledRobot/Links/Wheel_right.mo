@@ -101,5 +101,6 @@ equation
 <p>
 Rigid body, visuals and collisions of the URDF link <code>wheel_right</code>. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "c8464579-9817", base = "e7ffe79189202f05"));
 end Wheel_right;

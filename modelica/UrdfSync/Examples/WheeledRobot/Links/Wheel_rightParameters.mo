@@ -78,5 +78,6 @@ record Wheel_rightParameters "Numbers of link \"wheel_right\""
 <p>
 Numbers of link &quot;wheel_right&quot;. They may be edited: urdfsync then keeps the file and reports when the URDF says something new.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "c8464579-a4a5", base = "cffd3ca2fc517149"));
 end Wheel_rightParameters;

@@ -8,5 +8,6 @@ package Links "Links of robot WheeledRobot"
 <p>
 One model and one record of numbers per link.
 </p>
-</html>"));
+</html>"),
+    __urdfsync(id = "18d63be1-afba", base = "91853a6da5708402"));
 end Links;

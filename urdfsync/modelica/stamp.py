@@ -1,0 +1,102 @@
+"""The stamp of a generated class: which part its file belongs to, and which generated text the file last had.
+
+A stamp is the last argument of the class's annotation, which Modelica obliges other tools to keep:
+`__urdfsync(id = "1f0c3a52", base = "9f86d081884c7d65")`. A text without its stamp is *bare*. A stamp is a statement,
+not a proof: anybody can write one.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+_WORD = "__urdfsync"
+_STAMP = re.compile(_WORD + r'\s*\(\s*id\s*=\s*"([^"\\]*)"\s*,\s*base\s*=\s*"([^"\\]*)"\s*\)')
+_MARKED = re.compile(
+    rf"^<{{7,}}(?=\s)[^\n]*\n([^\n]*{_WORD}[^\n]*\n)(?:\|{{7,}}(?=\s)[^\n]*\n[^\n]*\n)?={{7,}}\r?\n[^\n]*{_WORD}[^\n]*\n>{{7,}}(?=\s)[^\n]*\n",
+    re.MULTILINE,
+)
+"""Git's markers around a stamp alone: both branches exported the part."""
+_ANY = re.compile(rf"\n[ \t]*annotation\s*\(\s*{_STAMP.pattern}\s*\)\s*;|,\s*{_STAMP.pattern}")
+_LAST = rf"[ \t]*{_WORD}[^\n]*?\)[ \t]*(\)[ \t]*;\r?\n)"
+_LINES = r"((?:(?![<|=>]{7})[^\n]*\n)*)"
+_FIRST = re.compile(
+    rf",\n(<{{7,}}(?=\s)[^\n]*\n){_LAST}{_LINES}(?:(\|{{7,}}(?=\s)[^\n]*\n){_LAST})?{_LINES}(={{7,}}\r?\n){_LAST}"
+)
+"""Git's markers around stamps that begin both sides, with the lines after our one."""
+_ALONE = re.compile(r"(\s*\))\s*;[ \t]*(\r?\n)?")
+_TOKENS = re.compile(r'"(?:[^"\\]|\\.)*+"|//[^\n]*+|/\*.*?\*/|[;\[\]]', re.DOTALL)
+_END = re.compile(r"\bend\s+[^\s;]+\s*$")
+_BLANKS = r"(?:\s|//[^\n]*\n|/\*.*?\*/)*"
+_HEAD = r"(?:[\w\s]*\b(?:package|model|record|block|class|connector|function|type|operator)\s+[^\s;\"]+" + (
+    rf"{_BLANKS}(?:\"(?:[^\"\\]|\\.)*+\"{_BLANKS}\+?{_BLANKS})*)?"
+)
+_ANNOTATION = re.compile(
+    rf"{_BLANKS}{_HEAD}(?:(?:public|protected|initial|equation|algorithm)\b{_BLANKS})*annotation\s*\(", re.DOTALL
+)
+
+
+class Stamp(NamedTuple):
+    """What a generated file says about itself."""
+
+    id: str
+    """The lasting id of the file: of its part, and of its template."""
+    base: str
+    """The hash of the bare generated text that the file last had, or was merged with."""
+
+
+def with_stamp(content: bytes, stamp: Stamp | None) -> bytes:
+    """Return the content of a file with this stamp in place of its own; None for no stamp."""
+    bare, _ = split(content.decode(errors="surrogateescape"))
+    return (stamped(bare, stamp) if stamp else bare).encode(errors="surrogateescape")
+
+
+def split(text: str) -> tuple[str, Stamp | None]:
+    """Return the bare text and its stamp; None if the text has none. Of several stamps, the last one counts."""
+    if _WORD not in text:
+        return text, None
+    if "<<<<<<<" in text and "<<<<<<<" in (text := _MARKED.sub(r"\1", text)):
+        found = _STAMP.search(text)  # other lines are between markers, too, and each side may have a stamp
+        return _ANY.sub("", _FIRST.sub(r"\2\1\3\4\6\7", text)), Stamp(*found.groups()) if found else None
+    at = text.rfind(_WORD)
+    if (found := _STAMP.match(text, at)) is None:
+        return text, None
+    before, after = text[:at], text[found.end() :]
+    if (left := before.rstrip()).endswith(","):
+        bare = left[:-1] + after
+    elif (right := after.lstrip()).startswith(","):
+        bare = before + right[1:].lstrip()
+    elif (alone := _ALONE.match(after)) and (head := before.rpartition("annotation")[0]):
+        if re.search(r"\bend\b", after) is None:  # nothing follows the annotation of a short class
+            bare = head.rstrip() + after[alone.end(1) :]
+        else:
+            line = head.rstrip(" \t")
+            is_line = line.endswith("\n") and alone[2]
+            bare = line + after[alone.end() :] if is_line else head + after[alone.end(1) + 1 :].lstrip(" ")
+    else:
+        return text, None
+    return bare, Stamp(*found.groups())
+
+
+def stamped(bare: str, stamp: Stamp) -> str:
+    """Return the text of a class with its stamp; without a class, the text itself."""
+    mark, ends, depth = f'{_WORD}(id = "{stamp.id}", base = "{stamp.base}")', [-1, -1], 0
+    for token in _TOKENS.finditer(bare):
+        if token[0] == ";" and depth == 0:
+            ends.append(token.start())
+        depth += (token[0] == "[") - (token[0] == "]")
+    if (end := ends[-1]) < 0:
+        return bare
+    line_end = "\r\n" if bare.endswith("\r\n") else "\n"
+    if last := _END.search(bare, ends[-2] + 1, end):
+        if _ANNOTATION.match(bare, ends[-3] + 1, ends[-2]):
+            close = bare.rindex(")", 0, ends[-2])
+            comma = "" if bare[:close].rstrip().endswith("(") else f",{line_end}    "
+            return f"{bare[:close]}{comma}{mark}{bare[close:]}"
+        place = last.start()
+        clause = f"  annotation ({mark});{line_end}" if bare[:place].endswith("\n") else f"annotation ({mark}); "
+        return bare[:place] + clause + bare[place:]
+    if re.search(r"\bannotation\s*\(", bare[ends[-2] + 1 : end]) and bare[:end].rstrip().endswith(")"):
+        close = bare.rindex(")", 0, end)
+        return f"{bare[:close]}, {mark}{bare[close:]}"
+    return f"{bare[:end]} annotation ({mark}){bare[end:]}"
