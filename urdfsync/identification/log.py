@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
-from urdfsync.diagnostics import ConfigError, SourceError
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain.regressor import QUANTITIES, Array, Axis
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, shown
@@ -54,7 +54,18 @@ _UNITS = {
     ("m", "effort"): "N",
 }
 _MARGIN = 1.05
-"""So far beyond its limits, as a factor, a joint may be."""
+"""So far beyond its limits, as a factor, a joint is in another unit."""
+_FAR = 3.0
+"""Beyond its limits, as a factor, a joint is in an unknown unit; below, the log passes a limit of the source."""
+_GREATEST = 1e9
+"""In SI: greater numbers are faults of a recorder."""
+_SURE_MOTION = 0.05
+"""In rad or m · 10: positions that deviate less do not judge recorded velocities."""
+_VARIABLES = {
+    "rad": {"position": "robot.{}.revolute.phi", "velocity": "robot.{}.revolute.w", "effort": "robot.{}Axis.tau"},
+    "m": {"position": "robot.{}.prismatic.s", "velocity": "robot.{}.prismatic.v", "effort": "robot.{}Axis.f"},
+}
+"""Names in a table of `simulate --csv`, in which all numbers are in SI."""
 
 
 class Column(NamedTuple):
@@ -62,6 +73,8 @@ class Column(NamedTuple):
 
     place: int
     factor: float
+    is_stated: bool
+    """Whether the header, the user or `simulate` has stated the unit: then it is not guessed."""
 
 
 class LogPiece(NamedTuple):
@@ -80,6 +93,8 @@ class Log:
         """Raises UrdfsyncError for a file without positions and efforts of a joint."""
         self.file, self._axes, self._options = file, axes, options
         self.dropped = Counter[str]()
+        self.ranges = dict[int, tuple[float, float]]()
+        """The least and the greatest position of each measured axis."""
         is_bag = (file / "metadata.yaml").is_file() or file.suffix.lower() in SUFFIXES
         if not file.exists() or not (is_bag or file.is_file()):
             what = f"{kind_of(file.stat().st_mode)} is there" if file.exists() else "there is no such file"
@@ -109,8 +124,13 @@ class Log:
             _refuse(file, message, 1, hint + f"`--column {first}.effort=NAME`")
 
     def _find_columns(self) -> tuple[Column, dict[tuple[int, str], Column]]:
-        levels = _aliases(self._axes)
-        time: Column | None = None
+        levels, time = _aliases(self._axes), None
+        simulated = {
+            name.format(axis.component): (k, quantity)
+            for k, axis in enumerate(self._axes)
+            for quantity, name in _VARIABLES[axis.unit].items()
+        }
+        is_simulated = not simulated.keys().isdisjoint(self.header)
         stated = dict(self._stated())
         taken = {column.place for column in stated.values()}
         columns = dict[tuple[int, str], Column]()
@@ -119,7 +139,7 @@ class Log:
                 continue
             name, unit = name_and_unit(cell)
             if _plain(_bare(name)) in _TIMES and time is None:
-                time = Column(place, _TIME_UNITS.get(unit) or self._factor(cell, unit, "s"))
+                time = Column(place, _TIME_UNITS.get(unit) or self._factor(cell, unit, "s"), is_stated=bool(unit))
                 continue
             meant = [each for each in _meant(name, levels) if each not in stated]
             if len(meant) > 1:
@@ -134,8 +154,11 @@ class Log:
                     message = f"two columns give the {quantity} of {self._axes[k].name}: {both}"
                     hint = f"rename one, or choose by `--column {self._axes[k].name}.{quantity}={cell}`"
                     _refuse(self.file, message, 1, hint)
-                columns[k, quantity] = Column(place, factor)
+                columns[k, quantity] = Column(place, factor, is_stated=bool(unit) or is_simulated)
         columns |= stated
+        for place, cell in enumerate(self.header):
+            if cell in simulated:  # the inputs and outputs of Run have the same numbers
+                columns.setdefault(simulated[cell], Column(place, 1.0, is_stated=True))
         if time is None:
             _refuse(self.file, "no column is the time", 1, "name it `time` in s, or `time [ms]`")
         if self._options.motor_side:
@@ -155,18 +178,19 @@ class Log:
             target, _, source = text.partition("=")
             joint, _, quantity = target.rpartition(".")
             name, star, number = source.rpartition("*")
-            name, factor = (name, number) if star and source not in self.header else (source, "1")
+            name, factor = (name, number) if star and source not in self.header else (source, "")
             if joint not in joints or quantity not in QUANTITIES or name not in self.header:
                 names = f"the joints are {', '.join(joints)}; the columns are {', '.join(self.header)[:300]}"
                 message = f"`--column {text}` names no joint, quantity ({', '.join(QUANTITIES)}) or column"
                 raise ConfigError.of("log", message, hint=names)
+            k, unit = joints[joint], name_and_unit(name)[1]
             try:
-                value = float(factor)
+                value = float(factor) if factor else self._factor(name, unit, _UNITS[self._axes[k].unit, quantity])
             except ValueError:
                 raise ConfigError.of("log", f"`--column {text}`: {factor!r} is no number") from None
             if not value or not math.isfinite(value):
                 raise ConfigError.of("log", f"`--column {text}`: the factor has to be finite, and not 0")
-            yield (joints[joint], quantity), Column(self.header.index(name), value)
+            yield (k, quantity), Column(self.header.index(name), value, is_stated=bool(factor or unit))
 
     def _factor(self, cell: str, unit: str, wanted: str) -> float:
         if unit and unit not in UNITS[wanted]:
@@ -212,10 +236,14 @@ class Log:
         shape = len(rows), len(self._axes)
         tables = {quantity: np.zeros(shape) for quantity in QUANTITIES}
         tables["position"] += [axis.start for axis in self._axes]
-        for (k, quantity), column in self.columns.items():
-            tables[quantity][:, k] = column.factor * rows[:, column.place]
+        for k, quantity in self.columns:
+            tables[quantity][:, k] = self._in_si(times, rows, k, quantity)
         for k in self.measured:
-            self._check_range(self._axes[k], tables["position"][:, k])
+            self._check_position(k, tables["position"][:, k])
+            self._check_effort(k, tables["effort"][:, k])
+        for k, quantity in self.columns:
+            if quantity == "velocity" and (k, "position") in self.columns:
+                self._check_velocity(self._axes[k], times, tables["position"][:, k], tables["velocity"][:, k])
         moving = [k for k in range(shape[1]) if (k, "position") in self.columns]
         has_velocities = all((k, "velocity") in self.columns for k in moving)
         return LogPiece(times, tables["position"], tables["velocity"] if has_velocities else None, tables["effort"])
@@ -227,20 +255,65 @@ class Log:
             hint = f"write `time [{units[0]}]` if that is its unit" if units else ""
             _refuse(self.file, f"the log has a row each {usual:.4g} s, too few for a motion", 1, hint)
 
-    def _check_range(self, axis: Axis, values: Array) -> None:
-        """Refuse positions that are degrees, or those of motors."""
-        ends = float(values.min()), float(values.max())
-        width = max(map(abs, axis.range)) if np.isfinite(axis.range).all() else 40 * math.pi
-        most = max(map(abs, ends))
-        if most <= _MARGIN * width or (self._options.motor_side and axis.reduction != 1):
+    def _in_si(self, times: Array, rows: Array, k: int, quantity: str) -> Array:
+        """Return the numbers of a column. Raises SourceError for one that nobody has measured."""
+        column = self.columns[k, quantity]
+        with np.errstate(over="ignore"):
+            values = column.factor * rows[:, column.place]
+        if (faults := np.flatnonzero(~(np.abs(values) < _GREATEST))).size:
+            number, time = rows[faults[0], column.place], times[faults[0]]
+            message = f"`{self.header[column.place]}` is {number:g} at {time:.9g} s, which nobody has measured"
+            _refuse(self.file, message, hint="leave the row out, or state the unit")
+        return np.asarray(values)
+
+    def _check_position(self, k: int, values: Array) -> None:
+        """Refuse positions far beyond the limits of a joint, unless their unit is stated."""
+        axis, low, high = self._axes[k], float(values.min()), float(values.max())
+        before = self.ranges.get(k, (low, high))
+        self.ranges[k] = min(low, before[0]), max(high, before[1])
+        is_limited = np.isfinite(axis.range).all()
+        width, most = max(map(abs, axis.range)) if is_limited else 40 * math.pi, max(-low, high)
+        column, is_motors = self.columns[k, "position"], self._options.motor_side and axis.reduction != 1
+        if column.is_stated or is_motors or most <= (_FAR if is_limited else _MARGIN) * width:
             return
-        message = f"{axis.name} moves from {ends[0]:.4g} to {ends[1]:.4g} {axis.unit}, far beyond its limits"
+        cell = name_and_unit(self.header[column.place])[0]
+        message = f"{axis.name} moves from {low:.4g} to {high:.4g} {axis.unit}, far beyond its limits"
+        other, unit, factor = ("degrees", "deg", math.pi / 180) if axis.unit == "rad" else ("millimetres", "mm", 1e-3)
+        hint = f"state the unit in the header: `{cell} [{unit}]` or `{cell} [{axis.unit}]`"
         if abs(axis.reduction) > 1 and most / abs(axis.reduction) <= _MARGIN * width:
-            _refuse(self.file, f"{message}: its motor would, by a gear of {axis.reduction:g}", 0, "give `--motor-side`")
-        if axis.unit == "rad" and math.radians(most) <= _MARGIN * width:
-            _refuse(self.file, f"{message}: these look like degrees", 1, f"write `{axis.name}.position [deg]`")
-        if axis.unit == "m" and most / 1000 <= _MARGIN * width:
-            _refuse(self.file, f"{message}: these look like millimetres", 1, f"write `{axis.name}.position [mm]`")
+            hint = f"give `--motor-side`, or {hint}"
+            _refuse(self.file, f"{message}: its motor would, by a gear of {axis.reduction:g}", 1, hint)
+        words = f": these look like {other}" if factor * most <= _MARGIN * width else ""
+        _refuse(self.file, f"{message}{words}", 1, hint)
+
+    def _check_effort(self, k: int, values: Array) -> None:
+        """Refuse efforts that are beyond the limit of a joint most of the time, unless their unit is stated."""
+        axis, size, column = self._axes[k], float(np.sqrt(np.mean(values**2))), self.columns[k, "effort"]
+        if size > axis.effort and not column.is_stated:
+            unit, cell = _UNITS[axis.unit, "effort"], name_and_unit(self.header[column.place])[0]
+            message = f"the effort of {axis.name} is {size:.4g} {unit} on average (RMS), and its limit {axis.effort:g}"
+            hint = f"state the unit in the header: `{cell} [{unit}]`, or give a factor: `--column`"
+            _refuse(self.file, message, 1, hint)
+
+    def _check_velocity(self, axis: Axis, times: Array, position: Array, velocity: Array) -> None:
+        """Refuse velocities that are not those of the positions: other units, signs or joints."""
+        way = np.concatenate([[0.0], np.cumsum(np.diff(times) * (velocity[1:] + velocity[:-1]) / 2)])
+        line = np.column_stack([np.ones_like(times), times - times[0]])  # an offset of the sensor drifts
+        position, way = (each - line @ np.linalg.lstsq(line, each, rcond=None)[0] for each in (position, way))
+        ratio = float(position @ way / max(position @ position, 1e-300))
+        if np.std(position) > (_SURE_MOTION if axis.unit == "rad" else _SURE_MOTION / 10) and not 0.5 < ratio < 2:
+            message = f"the velocity of {axis.name} is {ratio:.3g} times that of its position"
+            _refuse(self.file, message, 1, "state units in the header, or leave out the column of the velocity")
+
+    def doubts(self) -> Iterator[Diagnostic]:
+        """Yield a warning for each joint that passes a limit of its position."""
+        for k, (low, high) in self.ranges.items():
+            axis = self._axes[k]
+            first, last = axis.range
+            if max(first - low, high - last) > (_MARGIN - 1) / 5 * (last - first):
+                message = f"joint {axis.name}: position passes its limits, {first:.4g} … {last:.4g} {axis.unit}"
+                hint = f"the log has {low:.4g} … {high:.4g}: correct the limits, or the unit in the header of the log"
+                yield Diagnostic(Severity.WARNING, "limit-passed", message, shown(self.file), hint=hint)
 
     def told(self) -> tuple[str, ...]:
         """Return what was left out, in words."""
