@@ -147,6 +147,8 @@ class ToolResult(msgspec.Struct):
 class JointFit(msgspec.Struct, frozen=True):
     """The efforts of one joint in a log: root mean squares of all, and of the unexplained parts."""
 
+    KEYS = ("element", "unit", "measured", "before", "after", "explained", "offset", "samples")
+
     element: str
     unit: str
     measured: float
@@ -158,8 +160,8 @@ class JointFit(msgspec.Struct, frozen=True):
 
     @property
     def explained(self) -> float:
-        """The share of the squared error before that is gone after."""
-        return 1 - (self.after / self.before) ** 2 if self.before else 0.0
+        """The share of the measured effort that the model explains, with its numbers after."""
+        return max(0.0, 1 - self.after / self.measured) if self.measured else 0.0
 
 
 class Judgement(msgspec.Struct, frozen=True):
@@ -170,6 +172,7 @@ class Judgement(msgspec.Struct, frozen=True):
     log: str
     seconds: float
     joints: tuple[JointFit, ...]
+    diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
     def misfit(self) -> float:
