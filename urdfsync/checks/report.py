@@ -68,7 +68,7 @@ def _measured(log: Judgement) -> Iterator[tuple[str, str]]:
     yield f"{log.log}: {100 * log.misfit:.1f} % of the measured efforts unexplained ({log.seconds:.3g} s)", "bold"
     for joint in log.joints:
         left = f"{joint.after:.3g} of {joint.measured:.3g} {joint.unit} are left (RMS)"
-        yield f"  {joint.element}: {100 * joint.explained:.1f} % explained; {left}", ""
+        yield f"  {joint.element}: {100 * (joint.explained or 0):.1f} % explained; {left}", ""
 
 
 def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:

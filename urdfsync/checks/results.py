@@ -157,11 +157,13 @@ class JointFit(msgspec.Struct, frozen=True):
     offset: float
     """The constant part of the measured effort that no part of the model explains."""
     samples: int
+    is_doubtful: bool = False
+    """Whether the log is hardly that of the robot."""
 
     @property
-    def explained(self) -> float:
-        """The share of the measured effort that the model explains, with its numbers after."""
-        return max(0.0, 1 - self.after / self.measured) if self.measured else 0.0
+    def explained(self) -> float | None:
+        """The share of the measured effort that the model explains, with its numbers after; None for a doubtful log."""
+        return None if self.is_doubtful or not self.measured else max(0.0, 1 - self.after / self.measured)
 
 
 class Judgement(msgspec.Struct, frozen=True):

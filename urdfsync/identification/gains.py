@@ -63,7 +63,7 @@ def find_gains(problem: LeastSquares, evidence: Evidence, sizes: Array, delay: f
     count, first = problem.count, 10 * len(problem.bodies)
     spreads = np.concatenate([_SPREAD * sizes[:first], _LOSS_SPREAD * sizes[first:count]])
     slopes = problem.slopes(problem.start)[:count, :count] * spreads
-    used = [axis for axis, factor in enumerate(evidence.factors) if factor is not None]
+    used = [int(axis) for axis in np.flatnonzero(evidence.counts)]
     rows = [evidence.factors[axis] for axis in used]
     efforts = [each[:, count + problem.axes : -1] @ target_at(delay)[:-1] for each in rows]
     models, ways = [each[:, -1] for each in rows], [each[:, :count] @ slopes for each in rows]

@@ -70,7 +70,8 @@ def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[Sty
 
 def _joint(joint: JointFit) -> tuple[str, ...]:
     roots = (f"{value:.3g}" for value in (joint.measured, joint.before, joint.after))
-    return (joint.element.partition(" ")[2], *roots, f"{100 * joint.explained:.1f} %", joint.unit)
+    explained = "-" if joint.explained is None else f"{100 * joint.explained:.1f} %"
+    return (joint.element.partition(" ")[2], *roots, explained, joint.unit)
 
 
 def _number(number: FittedNumber) -> tuple[str, ...]:

@@ -164,13 +164,23 @@ def identify(
     _check_names(options, regressor)
     problem, fitted, notes = _problem(regressor, measured, records, options)
     before, first = _fitted(problem, measured, _of_log(problem)), _fitted(problem, measured, fitted)
-    doubts = [*_doubts(_joints(measured, measured.evidence, before, first)), *_log_doubts(problem, measured, float(before.after[-1]))]
+    doubts = [
+        *_doubts(_joints(measured, measured.evidence, before, first)),
+        *_log_doubts(problem, measured, float(before.after[-1])),
+    ]
     sure, result = [] if doubts else sure_places(problem, first), before if doubts else first
     if not doubts and not options.unsure:
         result = _fitted(problem, measured, [*sure, *_of_log(problem)])
     numbers = () if doubts else _numbers(problem, first, result, sure, records)
     chosen = [number for number in numbers if number.is_sure or options.unsure]
     written = records.write(chosen) if write else ()
+    joints, held_out = (
+        tuple(
+            msgspec.structs.replace(joint, is_doubtful=bool(doubts))
+            for joint in _joints(measured, each, before, result)
+        )
+        for each in (measured.evidence, measured.held_out)
+    )
     unexcited = dict[str, list[str]]()
     for place in fitted:
         if not first.is_fitted[place] and place < problem.count:
@@ -183,12 +193,12 @@ def identify(
         rate=measured.rate,
         cutoff=measured.cutoff,
         delay=float(result.after[-1]),
-        joints=_joints(measured, measured.evidence, before, result),
+        joints=joints,
         numbers=numbers,
         unexcited=tuple(Unexcited(element, tuple(paths)) for element, paths in unexcited.items()),
         freed=tuple(result.freed),
         dropped=measured.told(),
-        held_out=_joints(measured, measured.held_out, before, result),
+        held_out=held_out,
         written=written,
         is_writing=write,
         is_doubtful=bool(doubts),
@@ -228,9 +238,8 @@ def _doubts(joints: Sequence[JointFit]) -> Iterator[Diagnostic]:
 
 def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iterator[Diagnostic]:
     """Yield an error for each joint whose effort is that of another unit, sign or joint, or of another motion."""
-    evidence, log, friction = measured.evidence, measured.log, dict[str, float]()
-    for loss in problem.losses:
-        friction[loss.joint] = max(loss.value, friction.get(loss.joint, 0.0))
+    evidence, log = measured.evidence, measured.log
+    friction = {loss.joint: loss.value for loss in problem.losses if loss.path.endswith("friction")}
     model = measured.at(np.array([*np.zeros(len(signals.SHIFTS)), 1.0]))
     gains = find_gains(problem, evidence, natural_sizes(problem, measured, evidence.roots(model)), delay)
     efforts, left = (
@@ -248,7 +257,9 @@ def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iter
         elif not evidence.counts[j] + measured.held_out.counts[j] and left[j] > max(
             _DOUBTFUL * efforts[j], _CONSIDERABLE * efforts.max(), 2 * friction.get(axis.name, 0.0)
         ):
-            words = f"it stands still or is at its limit, and {left[j]:.3g} {unit} of its effort are no effect of others"
+            words = (
+                f"it stands still or is at its limit, and {left[j]:.3g} {unit} of its effort are no effect of others"
+            )
             yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT)
 
 
@@ -318,7 +329,10 @@ def natural_sizes(problem: LeastSquares, measured: Measured, efforts: Array | No
         efforts = measured.evidence.roots(measured.at(np.array([*signals.target_at(0.0)[:-1], 0.0])))
     usual = float(np.mean(efforts[measured.evidence.counts > 0]))
     efforts = np.where(measured.evidence.counts > 0, efforts, usual)
-    by_joint = {axis.name: effort / measured.sizes[:, j] for j, (axis, effort) in enumerate(zip(measured.axes, efforts, strict=True))}
+    by_joint = {
+        axis.name: effort / measured.sizes[:, j]
+        for j, (axis, effort) in enumerate(zip(measured.axes, efforts, strict=True))
+    }
     unmeasured = np.full(3, usual)
     others = [max(loss.value, by_joint.get(loss.joint, unmeasured)[k % 3]) for k, loss in enumerate(problem.losses)]
     return problem.sizes(np.array([*others, *(_USUAL_OFFSET * efforts), _USUAL_DELAY]))
