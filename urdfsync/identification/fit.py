@@ -79,7 +79,7 @@ class Evidence:
         return np.sqrt(np.array(squares) / np.maximum(self.counts - used, 1)) + 1e-12
 
     def deviations(self, first: int, combination: Array) -> Array:
-        """Return the standard deviations of a combination; the columns from `first` on are the constants of the axes."""
+        """Return the standard deviation of a combination for each axis; its constant is in a column from `first` on."""
         deviations = np.zeros(len(self.counts))
         for axis, factor in enumerate(self.factors):
             if factor is not None:

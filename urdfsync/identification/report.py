@@ -47,7 +47,11 @@ def identification_lines(result: Identification) -> Iterator[StyledLine]:
             (f"  {counted(len(result.written), 'record')} written", "bold"), ("; `urdfsync diff --edits`", "dim")
         )
     else:
-        why = "no change is sure, so each number stays" if result.is_writing else "`--write` writes the sure numbers"
+        why = (
+            "no change is sure, so each number stays"
+            if result.is_writing
+            else "`--write` writes the numbers into the records"
+        )
         why = "the log is hardly that of the robot" if result.is_doubtful else why
         yield line((f"  nothing written: {why}", "dim"))
     yield from file_lines(result.files)

@@ -103,7 +103,7 @@ class LimitedProcess:
 
 
 def answer_requests(answer: Callable[[bytes, IO[bytes]], tuple[Answer, Sequence[bytes]]]) -> None:
-    """Answer requests until stdin is closed: each is a line, and contents that follow. This is the process's program."""
+    """Answer requests until stdin is closed, as the program of the process. Contents follow the line of a request."""
     requests, answers = sys.stdin.buffer, reserve_stdout()
     while line := requests.readline():
         found, files = answer(line, requests)
