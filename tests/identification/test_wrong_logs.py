@@ -80,7 +80,7 @@ def right(folder: Path) -> Array:
     loaded = urdfsync.load()
     regressor = read_records(loaded, loaded.robots[0], 10).regressor()
     times = np.arange(0, 12, 0.02)
-    phases = np.outer(times, [0.9, 1.1, 1.7]) + [0, 1, 2]
+    phases = np.outer(times, [0.9, 1.1, 1.7]) + np.array([0, 1, 2])
     sizes, rates = np.array([1.8, 1.2, 1.6]), np.array([0.9, 1.1, 1.7])
     q, v, a = (
         sizes * np.sin(phases) + 0.1 * np.sin(3.1 * phases),

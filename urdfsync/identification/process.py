@@ -89,10 +89,11 @@ class LogProcess(LimitedProcess):
             answer, files = self.ask(request, (), seconds, _WALL * seconds)
         except (TimeoutError, ValueError) as error:
             self._refuse(str(error))
-        if answer.problem:
-            self.end()
-            self._refuse(answer.problem)
         facts = answer.facts[0] if answer.facts else {}
+        if answer.problem or "finding" in facts:
+            self.end()
+        if answer.problem:
+            self._refuse(answer.problem)
         if finding := facts.get("finding"):
             raise (ConfigError if facts["is_of_user"] else SourceError)(msgspec.convert(finding, Diagnostic))
         return facts, files[0] if files else b""
