@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -114,7 +115,7 @@ def test_a_small_file_that_unpacks_to_any_size(
     """The file is refused in one line, and leaves nothing on the disk."""
     file = make(folder)
     (folder / "tmp").mkdir()
-    monkeypatch.setattr(process.tempfile, "tempdir", str(folder / "tmp"))
+    monkeypatch.setattr(tempfile, "tempdir", str(folder / "tmp"))
     with pytest.raises(SourceError, match=f"^[^\\n]*{words}[^\\n]*$"):
         read(file)
     assert [*(folder / "tmp").iterdir()] == []
