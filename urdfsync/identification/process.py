@@ -42,7 +42,7 @@ class LogRequest(msgspec.Struct, frozen=True):
 
 def is_recording(file: Path) -> bool:
     """Return whether a log is a recording of ROS 2."""
-    return (file / "metadata.yaml").is_file() or file.suffix.lower() in _SUFFIXES
+    return (file / "metadata.yaml").is_file() or (file.suffix.lower() in _SUFFIXES and file.is_file())
 
 
 class LogProcess(LimitedProcess):
