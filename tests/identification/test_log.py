@@ -122,6 +122,27 @@ def test_the_motors_side_without_a_gear(folder: Path) -> None:
         list(Log(file, [direct, geared], options).pieces())
 
 
+@pytest.mark.parametrize(
+    "header", ["time,elbow.position [rad],elbow.effort [N.m]", "time,robot.elbow.revolute.phi,robot.elbowAxis.tau"]
+)
+def test_a_stated_unit_is_believed(folder: Path, header: str) -> None:
+    """The columns of `simulate --csv` have their units, too; positions beyond the limits are a warning."""
+    log = read(write(header, 600, 60))
+    (piece,) = log.pieces()
+    assert np.abs(piece.position[:, 0]).max() == pytest.approx(60, rel=0.01)
+    (warning,) = log.doubts()
+    assert "joint elbow: position passes its limits, -1.5 … 1.5 rad" in warning.message
+    (piece,) = read(write("time,enc [deg],cur", 100, 57.3), "elbow.position=enc [deg]", "elbow.effort=cur*2").pieces()
+    assert np.ptp(piece.position[:, 0]) < 1
+
+
+def test_a_little_beyond_the_limits_is_a_warning(folder: Path) -> None:
+    log = read(write("time,elbow.position,elbow.effort", 600, 2))
+    (piece,) = log.pieces()
+    assert np.abs(piece.position[:, 0]).max() == pytest.approx(2, rel=0.01)
+    assert [warning.code for warning in log.doubts()] == ["limit-passed"]
+
+
 @pytest.mark.parametrize(("step", "unit"), [(2.0, "ms"), (2e3, "us"), (2e6, "ns")])
 def test_times_in_another_unit_are_told_by_their_steps(folder: Path, step: float, unit: str) -> None:
     with pytest.raises(SourceError, match=rf"too few for a motion; write `time \[{unit}\]`"):

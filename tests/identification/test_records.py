@@ -79,4 +79,4 @@ def test_a_second_fit_of_the_same_log_edits_nothing(gripper: Path, execute: Exec
     execute("identify", "gripper", "log.csv", "--write")
     with unchanged(gripper):
         told = execute("identify", "gripper", "log.csv", "--write").lines[-1]
-    assert told == "  nothing written: each number is that of its record, but for a tenth of its error"
+    assert told == "  nothing written: no change is sure, so each number stays"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
@@ -110,6 +111,46 @@ def test_a_model_is_judged_by_one_number(gripper: Path, execute: Execute) -> Non
     assert judged().misfit < 0.1 * before.misfit
 
 
+@pytest.mark.slow
+def test_explained_is_one_number(gripper: Path, execute: Execute) -> None:
+    """The share after a fit is that of the written records in `check --log`; sure numbers alone explain it."""
+    (result,) = execute("identify", "gripper", "log.csv", "--write", "--format=json").json["results"]
+    before, after = result["joints"][0], judged().joints[0]
+    assert before["explained"] == pytest.approx(1 - before["after"] / before["measured"])
+    assert after.explained == pytest.approx(before["explained"], abs=1e-4)
+    assert all(number["is_sure"] for number in result["numbers"] if number["before"] == 0)
+
+
+@pytest.mark.slow
+def test_only_sure_numbers_are_written(gripper: Path, execute: Execute) -> None:
+    """With too few numbers to explain the log no change is sure; `--all` writes it all the same."""
+    arguments = ["identify", "gripper", "log.csv", "--joint", "drive", "--write"]
+    with unchanged(gripper):
+        printed = execute(*arguments)
+    assert "(not sure)" in printed.out
+    assert printed.lines[-1] == "  nothing written: no change is sure, so each number stays"
+    assert execute(*arguments, "--all").lines[-1].startswith("  1 record written")
+    assert "`--all` needs `--write`" in execute(*arguments[:-1], "--all", code=2).words
+
+
+@pytest.mark.slow
+def test_errors_contain_those_of_the_numbers_that_stay(gripper: Path, execute: Execute) -> None:
+    """Masses of the source are wrong, and stay: the real numbers are within three errors, but no conditional ones."""
+    (result,) = execute("identify", "gripper", "log.csv", "--format=json").json["results"]
+    truth = {"origin.xyz[2]": 1, "origin.xyz[3]": 2}
+    root = ET.fromstring(measured.changed(measured.GRIPPER, 1))
+    centre = root.find("link[@name='left']/inertial/origin")
+    assert centre is not None
+    apart = []
+    for number in result["numbers"]:
+        place = truth.get(number["path"].removeprefix("inertial."))
+        if number["element"] == "link left" and place:
+            error = number["after"] - float(centre.get("xyz", "").split()[place])
+            assert abs(error) < 3 * number["error"]
+            apart.append(abs(error) / number["conditional"])
+    assert max(apart) > 6
+
+
 def judged() -> Judgement:
     loaded = urdfsync.load()
     return judge(loaded, loaded.robots[0], Path("log.csv"), IdentifyOptions(), no_progress)
@@ -164,7 +205,7 @@ def test_a_source_that_a_command_makes(gripper: Path, execute: Execute) -> None:
     )
     Path("made.urdf").write_text(measured.GRIPPER)
     execute("build", "--trust", "--quiet")
-    execute("identify", "gripper", "log.csv", "--joint", "drive", "--write")
+    execute("identify", "gripper", "log.csv", "--joint", "drive", "--write", "--all")
     _, (line,) = patch_and_told(code=2)
     assert "its source is made by a command" in line
 
@@ -191,9 +232,10 @@ def test_a_joint_that_never_moves(gripper: Path, execute: Execute, recording: me
 @pytest.mark.slow
 def test_efforts_of_another_sign_are_told(gripper: Path, execute: Execute, recording: measured.Recording) -> None:
     recording._replace(efforts=-recording.efforts).write(Path("other.csv"))
-    printed = execute("identify", "gripper", "other.csv", "--write")
-    assert "joint drive: no numbers explain its effort" in printed.words
-    assert "friction = 0," in DRIVE.read_text(), "friction is never negative"
+    with unchanged(gripper):
+        printed = execute("identify", "gripper", "other.csv", "--write", code=5)
+    assert "error: joint drive: no numbers explain its effort" in printed.words
+    assert printed.lines[-1] == "  nothing written: the log is hardly that of the robot"
 
 
 def test_efforts_that_are_always_0(gripper: Path, execute: Execute, recording: measured.Recording) -> None:
@@ -228,7 +270,7 @@ def test_a_joint_that_stands_still_is_named(leg: Path, execute: Execute) -> None
     rows = np.column_stack([times, 0.5 * moving, moving, still, 5 * moving, 6 * moving, 1 + 0.1 * moving])
     header = "time," + ",".join(f"{joint}.{what}" for what in ("q", "tau") for joint in ("hip", "thigh", "calf"))
     np.savetxt("still.csv", rows, "%.9g", ",", header=header, comments="")
-    printed = execute("identify", "leg", "still.csv", "--joint", "calf", "--joint", "hip")
+    printed = execute("identify", "leg", "still.csv", "--joint", "hip", code=5)  # its efforts are no robot's
     assert "whose effort is constant or at its limit: all of calf" in printed.words
     assert "joint calf: it stands still, or its effort is constant, so it can't be fitted" in printed.words
 

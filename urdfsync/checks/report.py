@@ -67,8 +67,8 @@ def _measured(log: Judgement) -> Iterator[tuple[str, str]]:
     """Yield how far the model is from a log: one number, then each joint."""
     yield f"{log.log}: {100 * log.misfit:.1f} % of the measured efforts unexplained ({log.seconds:.3g} s)", "bold"
     for joint in log.joints:
-        share = f"{100 * joint.before / joint.measured:.1f} %" if joint.measured else "-"
-        yield f"  {joint.element}: {share}; {joint.before:.3g} of {joint.measured:.3g} {joint.unit} (RMS)", ""
+        left = f"{joint.after:.3g} of {joint.measured:.3g} {joint.unit} are left (RMS)"
+        yield f"  {joint.element}: {100 * (joint.explained or 0):.1f} % explained; {left}", ""
 
 
 def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:

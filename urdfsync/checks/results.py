@@ -147,6 +147,8 @@ class ToolResult(msgspec.Struct):
 class JointFit(msgspec.Struct, frozen=True):
     """The efforts of one joint in a log: root mean squares of all, and of the unexplained parts."""
 
+    KEYS = ("element", "unit", "measured", "before", "after", "explained", "offset", "samples")
+
     element: str
     unit: str
     measured: float
@@ -155,11 +157,13 @@ class JointFit(msgspec.Struct, frozen=True):
     offset: float
     """The constant part of the measured effort that no part of the model explains."""
     samples: int
+    is_doubtful: bool = False
+    """Whether the log is hardly that of the robot."""
 
     @property
-    def explained(self) -> float:
-        """The share of the squared error before that is gone after."""
-        return 1 - (self.after / self.before) ** 2 if self.before else 0.0
+    def explained(self) -> float | None:
+        """The share of the measured effort that the model explains, with its numbers after; None for a doubtful log."""
+        return None if self.is_doubtful or not self.measured else max(0.0, 1 - self.after / self.measured)
 
 
 class Judgement(msgspec.Struct, frozen=True):
@@ -170,6 +174,7 @@ class Judgement(msgspec.Struct, frozen=True):
     log: str
     seconds: float
     joints: tuple[JointFit, ...]
+    diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
     def misfit(self) -> float:

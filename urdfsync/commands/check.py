@@ -77,6 +77,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         for result in check_robots(configured.config, configured.robots, options, progress):
             if judgement:
                 result.log = judgement
+                result.diagnostics = (*result.diagnostics, *judgement.diagnostics)
             results.append(result)
             show_result(console, result)
     finally:

@@ -39,7 +39,8 @@ def add(commands: arguments.Commands) -> None:
     )
     option("--until", type=arguments.amount, metavar="S", help="fit the log up to this time, and predict the rest")
     option("--plot", type=Path, metavar="FILE.png|svg", help="draw measured efforts, and those before and after")
-    option("--write", action="store_true", help="write the fitted numbers into the records")
+    option("--write", action="store_true", help="write the numbers whose change is sure into the records")
+    option("--all", dest="unsure", action="store_true", help="with --write: those that are not sure, too")
     option(
         "--excite", type=Path, metavar="FILE.csv", help="write a motion for a log instead, which `simulate` can play"
     )
@@ -62,10 +63,12 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.add(motion)
         console.tell(excitation_lines(motion))
         return console.end(Exit.IN_STEP)
+    if args.unsure and not args.write:
+        raise arguments.UsageError(args.parser, "`--all` needs `--write`")
     files = {"plot": args.plot} if args.plot else {}
     given = {"log": args.log, "files": files, "write": args.write}
     result = arguments.call(identify, IdentifyOptions, args, console, **given)
     console.add(result)
     console.tell(identification_lines(result))
     console.findings(result.diagnostics)
-    return console.end(Exit.IN_STEP)
+    return console.end(Exit.DOUBTFUL if result.is_doubtful else Exit.IN_STEP)

@@ -6,15 +6,13 @@ import argparse
 import os
 import shlex
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 from urdfsync import git
 from urdfsync.commands import arguments
-from urdfsync.config import STATE_FOLDER
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.result import Exit
-from urdfsync.files import put, shown, text_digest
+from urdfsync.files import put, shown
 from urdfsync.output.console import Console, line
 from urdfsync.spelling import counted
 
@@ -141,7 +139,8 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
         return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)]
     (base, before), (mine, stamp), (other, others) = map(split, (base, mine, other))
     merged, conflicts = merge_file(base, mine, other, markers)
-    if stamp and others and not conflicts and (stamp.base, others.base) == (text_hash(mine), text_hash(other)):
+    unedited = [side and side.base == text_hash(text) for text, side in ((mine, stamp), (other, others))]
+    if stamp and all(unedited) and not conflicts:
         stamp = stamp._replace(base=text_hash(merged))  # nobody has edited the file
     elif stamp == before:  # if both sides exported the part, the next build takes our stamp as it is
         stamp = others
@@ -151,23 +150,9 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     if not conflicts:
         return []
     message, hint = f"{counted(len(conflicts), 'conflict')} between markers", "settle them in the file"
-    if _is_generated(contents):
+    if any(unedited):  # the next build decides about this file
         hint = "resolve the source first, then run `urdfsync build`: it writes this file anew, or asks about edits"
     return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)]
-
-
-def _is_generated(contents: Sequence[bytes]) -> bool:
-    """Return whether a build of this clone wrote one of the versions. Then the next build decides about the file."""
-    from urdfsync.state.store import Store  # as above
-
-    try:
-        states = git.list_paths("ls-files", "--", f"*{STATE_FOLDER}/robots/*.state")
-    except git.GitError:  # somebody tries the driver outside of a clone
-        return False
-    top = Path(git.find_top(os.curdir) or os.curdir).absolute()
-    stores = [Store(folder) for folder in {(top / state).parents[2] for state in states}]
-    hashes = [*map(text_digest, contents)]
-    return any(store.has_written(name, sha256) for store in stores for name in store.names() for sha256 in hashes)
 
 
 def _label(given: str, default: str) -> str:

@@ -32,6 +32,8 @@ class Exit(enum.IntEnum):
     ERROR = 2
     CONFLICT = 3
     LOCKED = 4
+    DOUBTFUL = 5
+    """A log is hardly that of the robot."""
     INTERRUPTED = 130
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,7 +15,7 @@ from urdfsync.domain.regressor import QUANTITIES, Array
 from urdfsync.extras import install_command
 from urdfsync.files import shown
 
-SUFFIXES = (".mcap", ".db3")
+TOO_LARGE = "the log unpacks to more than"
 _TYPE = "sensor_msgs/msg/JointState"
 _NAMED = 1000
 """The joints are those that so many first messages name."""
@@ -35,9 +36,9 @@ class Message(NamedTuple):
 class Bag:
     """The joint states of one topic."""
 
-    def __init__(self, file: Path, topic: str) -> None:
-        """Raises UrdfsyncError without such messages, and for a topic that is not clear."""
-        self.file, self.topic = file, topic
+    def __init__(self, file: Path, topic: str, most: float = math.inf) -> None:
+        """Raises UrdfsyncError without such messages, for more than `most` bytes, and for a topic that is not clear."""
+        self.file, self.topic, self._most = file, topic, most
         first = list(itertools.islice(self._messages(), _NAMED))
         if not first:
             raise SourceError.of("log", f"topic {self.topic} has no messages", shown(file))
@@ -76,12 +77,16 @@ class Bag:
         try:
             with Reader(self.file) as reader:
                 chosen = self._choose(reader.connections)
+                size = 0
                 for _, received, content in reader.messages(chosen):
+                    size += len(content)
+                    if size > self._most:
+                        raise SourceError.of("log", f"{TOO_LARGE} {self._most:.3g} bytes", shown(self.file))  # noqa: TRY301
                     state: Any = types.deserialize_cdr(content, _TYPE)
                     stamp = state.header.stamp.sec + 1e-9 * state.header.stamp.nanosec
                     values = {quantity: getattr(state, quantity) for quantity in QUANTITIES}
                     yield Message(1e-9 * received, stamp, state.name, values)
-        except UrdfsyncError:
+        except (UrdfsyncError, MemoryError):
             raise
         # a damaged file raises errors of rosbags, SQLite, LZ4, Zstandard, struct or YAML
         except Exception as error:  # noqa: BLE001

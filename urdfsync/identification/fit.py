@@ -36,6 +36,10 @@ _TENSOR = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 """Rows and columns of the numbers of a tensor, in the order of `NUMBERS`."""
 _ROUNDS = 3
 """Each round of the fit weighs the joints by the residuals of the round before."""
+_SURE = 3.0
+"""A change of so many standard errors is sure."""
+_SPREAD = 0.35
+"""Of a number's natural size: so far may the source be wrong."""
 
 
 def triangle(rows: Array) -> Array:
@@ -74,6 +78,16 @@ class Evidence:
         squares = [self.squares(j, combination) for j in range(len(self.counts))]
         return np.sqrt(np.array(squares) / np.maximum(self.counts - used, 1)) + 1e-12
 
+    def deviations(self, first: int, combination: Array) -> Array:
+        """Return the standard deviation of a combination for each axis; its constant is in a column from `first` on."""
+        deviations = np.zeros(len(self.counts))
+        for axis, factor in enumerate(self.factors):
+            if factor is not None:
+                values, constant = factor @ combination, factor[:, first + axis]
+                rest = values - constant * (constant @ values) / (constant @ constant)
+                deviations[axis] = np.linalg.norm(rest) / np.sqrt(self.counts[axis])
+        return deviations
+
     def squares(self, axis: int, combination: Array) -> float:
         """Return the sum of squares of a combination of the columns, over all samples."""
         factor = self.factors[axis]
@@ -85,7 +99,9 @@ class Fit(NamedTuple):
 
     after: Array
     covariance: Array
-    """Of all numbers; 0 for one that stays."""
+    """Of all numbers, on the condition that those that stay are right; 0 for a number that stays."""
+    errors: Array
+    """Standard errors of all numbers, with a spread of those that stay; 0 for a number that stays."""
     is_fitted: np.ndarray
     freed: Sequence[str]
     delta: Array
@@ -94,8 +110,8 @@ class Fit(NamedTuple):
     """The derivatives of the weighed efforts by the linear parameters and the delay."""
 
     @property
-    def errors(self) -> Array:
-        """Standard errors; 0 for a number that stays."""
+    def conditional_errors(self) -> Array:
+        """Standard errors if the numbers that stay are right."""
         return np.asarray(np.sqrt(np.diag(self.covariance)))
 
 
@@ -206,6 +222,21 @@ class LeastSquares:
         ]
         return np.concatenate([1 / np.maximum(slopes, 1e-12), others])
 
+    def spread(self, sizes: Array) -> Array:
+        """Return the covariance of the source's errors; `sizes` are the natural ones.
+
+        A body is wrong in each direction of its logarithm alike: a longer link has two greater moments of inertia.
+        """
+        first, places = 10 * len(self.bodies), range(len(self.start))
+        others = _SPREAD * self.start[first : self.count], sizes[self.count :]
+        spread = np.diag(np.concatenate([np.zeros(first), *others]) ** 2)
+        slopes = self.distance_slopes(self.start, places)
+        for k in range(len(self.bodies)):
+            part = slice(10 * k, 10 * k + 10)
+            units = slopes[16 * k : 16 * k + 16, part] * sizes[part]
+            spread[part, part] = np.linalg.inv(units.T @ units) * np.outer(sizes[part], sizes[part]) * _SPREAD**2
+        return spread
+
 
 def _log_differences(values: Array) -> Array:
     """Return the difference quotients of the logarithm between eigenvalues: its derivative, in their frame."""
@@ -216,8 +247,10 @@ def _log_differences(values: Array) -> Array:
     return np.where(is_near, 2 / (one + other), quotients)
 
 
-def fit(problem: LeastSquares, evidence: Evidence, fitted: Collection[int], sizes: Array, alike: Array) -> Fit:
-    """Fit the numbers at the places `fitted`.
+def fit(
+    problem: LeastSquares, evidence: Evidence, fitted: Collection[int], sizes: Array, spread: Array, alike: Array
+) -> Fit:
+    """Fit the numbers at the places `fitted`; `spread` is the covariance of the errors of the others.
 
     `alike` is the number of neighbouring samples of each axis that tell one thing.
     """
@@ -242,13 +275,34 @@ def fit(problem: LeastSquares, evidence: Evidence, fitted: Collection[int], size
                 break
             freed += [problem.bodies[k].name for k in pushed if problem.bodies[k].name not in freed]
             chosen = sorted({*chosen, *freed_places})
-        covariance = np.zeros((count + 1, count + 1))
-        units = np.outer(sizes[chosen], sizes[chosen])
-        covariance[np.ix_(chosen, chosen)] = np.linalg.inv(jacobian.T @ jacobian) * units
+        covariance, errors = np.zeros((count + 1, count + 1)), np.zeros(count + 1)
+        units, inverse = np.outer(sizes[chosen], sizes[chosen]), np.linalg.inv(jacobian.T @ jacobian)
+        covariance[np.ix_(chosen, chosen)] = inverse * units
         unexplained = np.concatenate([problem.delta(x)[:-1], -target_at(x[-1])])
         roots = evidence.roots(unexplained, len(chosen) / max(1, int(np.count_nonzero(evidence.counts))))
     is_fitted = np.isin(np.arange(count + 1), chosen)
-    return Fit(x, covariance, is_fitted, tuple(freed), problem.delta(x)[:-1], matrix)
+    # the numbers that stay are wrong by about their spread, and the fitted ones make up for that
+    effects = inverse @ jacobian[: len(matrix)].T @ (matrix @ problem.slopes(x))[:, ~is_fitted] * sizes[chosen, None]
+    made_up = effects @ spread[np.ix_(~is_fitted, ~is_fitted)] @ effects.T
+    errors[chosen] = np.sqrt(np.diag(covariance)[chosen] + np.diag(made_up))
+    return Fit(x, covariance, errors, is_fitted, tuple(freed), problem.delta(x)[:-1], matrix)
+
+
+def sure_places(problem: LeastSquares, result: Fit) -> list[int]:
+    """Return the places of the numbers whose change is sure, if the other numbers of records stay.
+
+    One after the other, the number with the least sure change stays, and those that make up for it change a little.
+    """
+    changes, covariance = result.after - problem.start, result.covariance.copy()
+    places = [int(place) for place in np.flatnonzero(result.is_fitted) if place < problem.count]
+    while places:
+        surenesses = np.abs(changes[places]) / np.sqrt(covariance[places, places])
+        if surenesses.min() >= _SURE:
+            break
+        place = places.pop(int(surenesses.argmin()))
+        effect = covariance[:, place] / covariance[place, place]
+        changes, covariance = changes - changes[place] * effect, covariance - np.outer(effect, covariance[place])
+    return places
 
 
 def _order(problem: LeastSquares, fitted: Collection[int]) -> list[int]:

@@ -1,32 +1,28 @@
 """Reads a log of positions, velocities and efforts of joints piece by piece: CSV, Parquet, recordings of ROS 2.
 
-A piece has at most `ROWS` rows, however long the file is. Gaps and resets of the time end a piece.
+A piece has at most 50,000 rows, however long the file is. Gaps and resets of the time end a piece.
 """
 
 from __future__ import annotations
 
-import csv
-import itertools
 import math
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple, NoReturn
+from typing import NamedTuple
 
 import numpy as np
 
-from urdfsync.diagnostics import ConfigError, SourceError
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain.regressor import QUANTITIES, Array, Axis
-from urdfsync.extras import install_command
 from urdfsync.files import kind_of, shown
-from urdfsync.identification.bag import SUFFIXES, Bag
+from urdfsync.identification.process import LogProcess, is_recording
 from urdfsync.identification.results import IdentifyOptions
-from urdfsync.numerals import find_separator
+from urdfsync.identification.tables import TIME_UNITS, refuse
 from urdfsync.simulation.motion import UNITS
 from urdfsync.spelling import counted, name_and_unit
 
-ROWS = 50_000
 _LEAST = 50
 """Shorter pieces are left out: the filter takes as much from both ends."""
 _GAP = 5
@@ -40,7 +36,6 @@ _WORDS = {
 _ALL_WORDS = {word for words in _WORDS.values() for word in words.split()}
 _PREFIX = re.compile(r"^[\W_]*(joint[\W_]*states[\W_]*)?(robot[\W_]*)?", re.IGNORECASE)
 _TIMES = ("time", "t", "timestamp", "stamp")
-_TIME_UNITS = {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _UNSORTED = 0.1
 """A greater share of steps back in time is no reset."""
 _SLOWEST = 0.2
@@ -54,7 +49,18 @@ _UNITS = {
     ("m", "effort"): "N",
 }
 _MARGIN = 1.05
-"""So far beyond its limits, as a factor, a joint may be."""
+"""So far beyond its limits, as a factor, a joint is in another unit."""
+_FAR = 3.0
+"""Beyond its limits, as a factor, a joint is in an unknown unit; below, the log passes a limit of the source."""
+_GREATEST = 1e9
+"""In SI: greater numbers are faults of a recorder."""
+_SURE_MOTION = 0.05
+"""In rad or m · 10: positions that deviate less do not judge recorded velocities."""
+_VARIABLES = {
+    "rad": {"position": "robot.{}.revolute.phi", "velocity": "robot.{}.revolute.w", "effort": "robot.{}Axis.tau"},
+    "m": {"position": "robot.{}.prismatic.s", "velocity": "robot.{}.prismatic.v", "effort": "robot.{}Axis.f"},
+}
+"""Names in a table of `simulate --csv`, in which all numbers are in SI."""
 
 
 class Column(NamedTuple):
@@ -62,6 +68,8 @@ class Column(NamedTuple):
 
     place: int
     factor: float
+    is_stated: bool
+    """Whether the header, the user or `simulate` has stated the unit: then it is not guessed."""
 
 
 class LogPiece(NamedTuple):
@@ -80,23 +88,19 @@ class Log:
         """Raises UrdfsyncError for a file without positions and efforts of a joint."""
         self.file, self._axes, self._options = file, axes, options
         self.dropped = Counter[str]()
-        is_bag = (file / "metadata.yaml").is_file() or file.suffix.lower() in SUFFIXES
+        self.ranges = dict[int, tuple[float, float]]()
+        """The least and the greatest position of each measured axis."""
+        is_bag = is_recording(file)
         if not file.exists() or not (is_bag or file.is_file()):
             what = f"{kind_of(file.stat().st_mode)} is there" if file.exists() else "there is no such file"
-            _refuse(file, what, hint="name a CSV or Parquet file, or a recording of ROS 2")
+            refuse(file, what, hint="name a CSV or Parquet file, or a recording of ROS 2")
         if options.topic and not is_bag:
             raise ConfigError.of("log", "`--topic` is for recordings of ROS 2", shown(file))
-        self._bag = Bag(file, options.topic) if is_bag else None
-        self._is_parquet = file.suffix.lower() in (".parquet", ".pq")
-        if self._bag:
-            self.header = self._bag.header
-        else:
-            self.header = _parquet(file).schema_arrow.names if self._is_parquet else _header(file)
+        self._content = LogProcess(file, options.topic)
+        self.header, instants = self._content.open()
         self.time, self.columns = self._find_columns()
-        if self._is_parquet:
-            kind = str(_parquet(file).schema_arrow.types[self.time.place])
-            if kind.startswith(("timestamp", "duration")):  # they have their unit, whatever the header says
-                self.time = self.time._replace(factor=1.0)
+        if self.time.place in instants:  # they have their unit, whatever the header says
+            self.time = self.time._replace(factor=1.0)
         self.measured = [k for k in range(len(axes)) if {(k, "position"), (k, "effort")} <= self.columns.keys()]
         """The axes with positions and efforts, by number."""
         used = {self.time.place, *(column.place for column in self.columns.values())}
@@ -106,11 +110,16 @@ class Log:
             message = f"no joint has a position and an effort: the columns are {', '.join(self.header)[:300]}"
             first = axes[0].name
             hint = f"the joints are {names}: name the columns {first}.position and {first}.effort, or give "
-            _refuse(file, message, 1, hint + f"`--column {first}.effort=NAME`")
+            refuse(file, message, 1, hint + f"`--column {first}.effort=NAME`")
 
     def _find_columns(self) -> tuple[Column, dict[tuple[int, str], Column]]:
-        levels = _aliases(self._axes)
-        time: Column | None = None
+        levels, time = _aliases(self._axes), None
+        simulated = {
+            name.format(axis.component): (k, quantity)
+            for k, axis in enumerate(self._axes)
+            for quantity, name in _VARIABLES[axis.unit].items()
+        }
+        is_simulated = not simulated.keys().isdisjoint(self.header)
         stated = dict(self._stated())
         taken = {column.place for column in stated.values()}
         columns = dict[tuple[int, str], Column]()
@@ -119,25 +128,28 @@ class Log:
                 continue
             name, unit = name_and_unit(cell)
             if _plain(_bare(name)) in _TIMES and time is None:
-                time = Column(place, _TIME_UNITS.get(unit) or self._factor(cell, unit, "s"))
+                time = Column(place, TIME_UNITS.get(unit) or self._factor(cell, unit, "s"), is_stated=bool(unit))
                 continue
             meant = [each for each in _meant(name, levels) if each not in stated]
             if len(meant) > 1:
                 of = " or ".join(f"the {quantity} of {self._axes[k].name}" for k, quantity in meant)
                 k, quantity = meant[0]
                 hint = f"choose by `--column {self._axes[k].name}.{quantity}={cell}`"
-                _refuse(self.file, f"column `{cell}` may be {of}", 1, hint)
+                refuse(self.file, f"column `{cell}` may be {of}", 1, hint)
             for k, quantity in meant:
                 factor = self._factor(cell, unit, _UNITS[self._axes[k].unit, quantity])
                 if (k, quantity) in columns:
                     both = f"`{self.header[columns[k, quantity].place]}` and `{cell}`"
                     message = f"two columns give the {quantity} of {self._axes[k].name}: {both}"
                     hint = f"rename one, or choose by `--column {self._axes[k].name}.{quantity}={cell}`"
-                    _refuse(self.file, message, 1, hint)
-                columns[k, quantity] = Column(place, factor)
+                    refuse(self.file, message, 1, hint)
+                columns[k, quantity] = Column(place, factor, is_stated=bool(unit) or is_simulated)
         columns |= stated
+        for place, cell in enumerate(self.header):
+            if cell in simulated:  # the inputs and outputs of Run have the same numbers
+                columns.setdefault(simulated[cell], Column(place, 1.0, is_stated=True))
         if time is None:
-            _refuse(self.file, "no column is the time", 1, "name it `time` in s, or `time [ms]`")
+            refuse(self.file, "no column is the time", 1, "name it `time` in s, or `time [ms]`")
         if self._options.motor_side:
             if columns and all(self._axes[k].reduction == 1 for k, _ in columns):
                 message = "`--motor-side` needs gears, and the source has none for the joints of the log"
@@ -145,7 +157,7 @@ class Log:
             for (k, quantity), column in columns.items():
                 ratio = self._axes[k].reduction
                 factor = column.factor * (ratio if quantity == "effort" else 1 / ratio)
-                columns[k, quantity] = column._replace(factor=factor)
+                columns[k, quantity] = Column(column.place, factor, is_stated=column.is_stated or ratio != 1)
         return time, columns
 
     def _stated(self) -> Iterator[tuple[tuple[int, str], Column]]:
@@ -155,28 +167,29 @@ class Log:
             target, _, source = text.partition("=")
             joint, _, quantity = target.rpartition(".")
             name, star, number = source.rpartition("*")
-            name, factor = (name, number) if star and source not in self.header else (source, "1")
+            name, factor = (name, number) if star and source not in self.header else (source, "")
             if joint not in joints or quantity not in QUANTITIES or name not in self.header:
                 names = f"the joints are {', '.join(joints)}; the columns are {', '.join(self.header)[:300]}"
                 message = f"`--column {text}` names no joint, quantity ({', '.join(QUANTITIES)}) or column"
                 raise ConfigError.of("log", message, hint=names)
+            k, unit = joints[joint], name_and_unit(name)[1]
             try:
-                value = float(factor)
+                value = float(factor) if factor else self._factor(name, unit, _UNITS[self._axes[k].unit, quantity])
             except ValueError:
                 raise ConfigError.of("log", f"`--column {text}`: {factor!r} is no number") from None
             if not value or not math.isfinite(value):
                 raise ConfigError.of("log", f"`--column {text}`: the factor has to be finite, and not 0")
-            yield (joints[joint], quantity), Column(self.header.index(name), value)
+            yield (k, quantity), Column(self.header.index(name), value, is_stated=bool(factor or unit))
 
     def _factor(self, cell: str, unit: str, wanted: str) -> float:
         if unit and unit not in UNITS[wanted]:
-            _refuse(self.file, f"`{cell}` can't be read in {unit}", 1, f"give it in {' or '.join(UNITS[wanted])}")
+            refuse(self.file, f"`{cell}` can't be read in {unit}", 1, f"give it in {' or '.join(UNITS[wanted])}")
         return UNITS[wanted][unit] if unit else 1.0
 
     def pieces(self) -> Iterator[LogPiece]:
         """Yield the pieces of the log. Raises SourceError for a row that can't be read, and for wrong units."""
         usual, last = 0.0, -math.inf
-        for rows in self._rows():
+        for rows in self._content.rows():
             used = [self.time.place, *(column.place for column in self.columns.values())]
             whole = np.isfinite(rows[:, used]).all(axis=1)
             self.dropped["row without a number"] += int(np.count_nonzero(~whole))
@@ -186,7 +199,7 @@ class Log:
             if np.count_nonzero(steps[1:] < 0) > _UNSORTED * len(steps):
                 count = np.count_nonzero(steps[1:] < 0)
                 message = f"times are not sorted: {count} of {len(steps)} rows are earlier than the row before"
-                _refuse(self.file, message, hint="sort the rows by time")
+                refuse(self.file, message, hint="sort the rows by time")
             usual = usual or (float(np.median(steps[1:][steps[1:] > 0])) if (steps[1:] > 0).any() else 0.0)
             self._check_steps(usual)
             again = steps == 0
@@ -202,20 +215,18 @@ class Log:
                 elif len(part):
                     self.dropped["row in a piece that is too short"] += len(part)
 
-    def _rows(self) -> Iterator[Array]:
-        """Yield the rows of the file, at most `ROWS` at a time."""
-        if self._bag:
-            return self._bag.rows(ROWS)
-        return _parquet_rows(self.file) if self._is_parquet else _csv_rows(self.file, self.header)
-
     def _piece(self, times: Array, rows: Array) -> LogPiece:
         shape = len(rows), len(self._axes)
         tables = {quantity: np.zeros(shape) for quantity in QUANTITIES}
         tables["position"] += [axis.start for axis in self._axes]
-        for (k, quantity), column in self.columns.items():
-            tables[quantity][:, k] = column.factor * rows[:, column.place]
+        for k, quantity in self.columns:
+            tables[quantity][:, k] = self._in_si(times, rows, k, quantity)
         for k in self.measured:
-            self._check_range(self._axes[k], tables["position"][:, k])
+            self._check_position(k, tables["position"][:, k])
+            self._check_effort(k, tables["effort"][:, k])
+        for k, quantity in self.columns:
+            if quantity == "velocity" and (k, "position") in self.columns:
+                self._check_velocity(self._axes[k], times, tables["position"][:, k], tables["velocity"][:, k])
         moving = [k for k in range(shape[1]) if (k, "position") in self.columns]
         has_velocities = all((k, "velocity") in self.columns for k in moving)
         return LogPiece(times, tables["position"], tables["velocity"] if has_velocities else None, tables["effort"])
@@ -223,24 +234,69 @@ class Log:
     def _check_steps(self, usual: float) -> None:
         """Refuse times in another unit than the header says."""
         if usual > _SLOWEST:
-            units = [unit for unit in ("ms", "us", "ns") if usual * _TIME_UNITS[unit] <= _SLOWEST]
+            units = [unit for unit in ("ms", "us", "ns") if usual * TIME_UNITS[unit] <= _SLOWEST]
             hint = f"write `time [{units[0]}]` if that is its unit" if units else ""
-            _refuse(self.file, f"the log has a row each {usual:.4g} s, too few for a motion", 1, hint)
+            refuse(self.file, f"the log has a row each {usual:.4g} s, too few for a motion", 1, hint)
 
-    def _check_range(self, axis: Axis, values: Array) -> None:
-        """Refuse positions that are degrees, or those of motors."""
-        ends = float(values.min()), float(values.max())
-        width = max(map(abs, axis.range)) if np.isfinite(axis.range).all() else 40 * math.pi
-        most = max(map(abs, ends))
-        if most <= _MARGIN * width or (self._options.motor_side and axis.reduction != 1):
+    def _in_si(self, times: Array, rows: Array, k: int, quantity: str) -> Array:
+        """Return the numbers of a column. Raises SourceError for one that nobody has measured."""
+        column = self.columns[k, quantity]
+        with np.errstate(over="ignore"):
+            values = column.factor * rows[:, column.place]
+        if (faults := np.flatnonzero(~(np.abs(values) < _GREATEST))).size:
+            number, time = rows[faults[0], column.place], times[faults[0]]
+            message = f"`{self.header[column.place]}` is {number:g} at {time:.9g} s, which nobody has measured"
+            refuse(self.file, message, hint="leave the row out, or state the unit")
+        return np.asarray(values)
+
+    def _check_position(self, k: int, values: Array) -> None:
+        """Refuse positions far beyond the limits of a joint, unless their unit is stated."""
+        axis, low, high = self._axes[k], float(values.min()), float(values.max())
+        before = self.ranges.get(k, (low, high))
+        self.ranges[k] = min(low, before[0]), max(high, before[1])
+        is_limited = np.isfinite(axis.range).all()
+        width, most = max(map(abs, axis.range)) if is_limited else 40 * math.pi, max(-low, high)
+        column = self.columns[k, "position"]
+        if column.is_stated or most <= (_FAR if is_limited else _MARGIN) * width:
             return
-        message = f"{axis.name} moves from {ends[0]:.4g} to {ends[1]:.4g} {axis.unit}, far beyond its limits"
+        cell = name_and_unit(self.header[column.place])[0]
+        message = f"{axis.name} moves from {low:.4g} to {high:.4g} {axis.unit}, far beyond its limits"
+        other, unit, factor = ("degrees", "deg", math.pi / 180) if axis.unit == "rad" else ("millimetres", "mm", 1e-3)
+        hint = f"state the unit in the header: `{cell} [{unit}]` or `{cell} [{axis.unit}]`"
         if abs(axis.reduction) > 1 and most / abs(axis.reduction) <= _MARGIN * width:
-            _refuse(self.file, f"{message}: its motor would, by a gear of {axis.reduction:g}", 0, "give `--motor-side`")
-        if axis.unit == "rad" and math.radians(most) <= _MARGIN * width:
-            _refuse(self.file, f"{message}: these look like degrees", 1, f"write `{axis.name}.position [deg]`")
-        if axis.unit == "m" and most / 1000 <= _MARGIN * width:
-            _refuse(self.file, f"{message}: these look like millimetres", 1, f"write `{axis.name}.position [mm]`")
+            hint = f"give `--motor-side`, or {hint}"
+            refuse(self.file, f"{message}: its motor would, by a gear of {axis.reduction:g}", 1, hint)
+        words = f": these look like {other}" if factor * most <= _MARGIN * width else ""
+        refuse(self.file, f"{message}{words}", 1, hint)
+
+    def _check_effort(self, k: int, values: Array) -> None:
+        """Refuse efforts that are beyond the limit of a joint most of the time, unless their unit is stated."""
+        axis, size, column = self._axes[k], float(np.sqrt(np.mean(values**2))), self.columns[k, "effort"]
+        if size > axis.effort and not column.is_stated:
+            unit, cell = _UNITS[axis.unit, "effort"], name_and_unit(self.header[column.place])[0]
+            message = f"the effort of {axis.name} is {size:.4g} {unit} on average (RMS), and its limit {axis.effort:g}"
+            hint = f"state the unit in the header: `{cell} [{unit}]`, or give a factor: `--column`"
+            refuse(self.file, message, 1, hint)
+
+    def _check_velocity(self, axis: Axis, times: Array, position: Array, velocity: Array) -> None:
+        """Refuse velocities that are not those of the positions: other units, signs or joints."""
+        way = np.concatenate([[0.0], np.cumsum(np.diff(times) * (velocity[1:] + velocity[:-1]) / 2)])
+        line = np.column_stack([np.ones_like(times), times - times[0]])  # an offset of the sensor drifts
+        position, way = (each - line @ np.linalg.lstsq(line, each, rcond=None)[0] for each in (position, way))
+        ratio = float(position @ way / max(position @ position, 1e-300))
+        if np.std(position) > (_SURE_MOTION if axis.unit == "rad" else _SURE_MOTION / 10) and not 0.5 < ratio < 2:
+            message = f"the velocity of {axis.name} is {ratio:.3g} times that of its position"
+            refuse(self.file, message, 1, "state units in the header, or leave out the column of the velocity")
+
+    def doubts(self) -> Iterator[Diagnostic]:
+        """Yield a warning for each joint that passes a limit of its position."""
+        for k, (low, high) in self.ranges.items():
+            axis = self._axes[k]
+            first, last = axis.range
+            if max(first - low, high - last) > (_MARGIN - 1) / 5 * (last - first):
+                message = f"joint {axis.name}: position passes its limits, {first:.4g} … {last:.4g} {axis.unit}"
+                hint = f"the log has {low:.4g} … {high:.4g}: correct the limits, or the unit in the header of the log"
+                yield Diagnostic(Severity.WARNING, "limit-passed", message, shown(self.file), hint=hint)
 
     def told(self) -> tuple[str, ...]:
         """Return what was left out, in words."""
@@ -298,87 +354,3 @@ def _bare(name: str) -> str:
 
 def _plain(name: str) -> str:
     return _SEPARATORS.sub("", name).lower()
-
-
-def _header(file: Path) -> list[str]:
-    try:
-        with file.open(encoding="utf-8-sig", newline="") as lines:
-            first = lines.readline(100_000)
-            separator, text = find_separator(first)
-            return [cell.strip() for cell in next(csv.reader([text or lines.readline()], delimiter=separator), [])]
-    except UnicodeDecodeError:
-        _refuse(file, "the file is no text", hint="name a CSV or Parquet file")
-    except (OSError, csv.Error) as error:
-        _refuse(file, f"the file can't be read: {error}")
-
-
-def _csv_rows(file: Path, header: Sequence[str]) -> Iterator[Array]:
-    """Yield the rows as numbers, with NaN for an empty cell."""
-    with file.open(encoding="utf-8-sig", newline=None) as lines:
-        separator, _ = find_separator(lines.readline())
-        number = 2
-        try:
-            while chunk := list(itertools.islice(lines, ROWS)):
-                if separator != ",":
-                    chunk = [line.replace(",", ".") for line in chunk]
-                try:
-                    rows = np.loadtxt(chunk, delimiter=separator, ndmin=2, comments=None)
-                except ValueError:  # empty cells, or a fault: the slow way finds out
-                    rows = np.array(list(_cells(file, chunk, separator, number, len(header))))
-                if rows.size and rows.shape[1] != len(header):
-                    _refuse(file, f"the row has {rows.shape[1]} cells, the header {len(header)}", number)
-                if rows.size:
-                    yield rows
-                number += len(chunk)
-        except UnicodeDecodeError:
-            _refuse(file, "the file is not in UTF-8", number)
-
-
-def _cells(file: Path, chunk: Sequence[str], separator: str, number: int, width: int) -> Iterator[list[float]]:
-    for line, row in enumerate(csv.reader(chunk, delimiter=separator), number):
-        if not any(cell.strip() for cell in row):
-            continue
-        if len(row) != width:
-            _refuse(file, f"the row has {len(row)} cells, the header {width}", line)
-        try:
-            yield [float(cell) if cell.strip() else math.nan for cell in row]
-        except ValueError as error:
-            _refuse(file, f"a cell is no number: {str(error).rpartition(': ')[2]}", line)
-
-
-def _parquet(file: Path) -> Any:
-    try:
-        from pyarrow import ArrowException, parquet
-    except ImportError:
-        raise ConfigError.of(
-            "log", "Parquet needs pyarrow, which is not installed", hint=install_command("log")
-        ) from None
-    try:
-        return parquet.ParquetFile(file)
-    except (ArrowException, OSError) as error:
-        _refuse(file, f"the file can't be read: {str(error).splitlines()[0]}")
-
-
-def _parquet_rows(file: Path) -> Iterator[Array]:
-    source = _parquet(file)
-    from pyarrow import ArrowException
-
-    try:
-        for batch in source.iter_batches(batch_size=ROWS):
-            yield np.column_stack([_numbers(column.to_numpy(zero_copy_only=False)) for column in batch.columns])
-    except (TypeError, ValueError) as error:
-        _refuse(file, f"a column has no numbers: {error}")
-    except (ArrowException, OSError) as error:
-        _refuse(file, f"the file can't be read: {str(error).splitlines()[0]}", hint="copy or record it anew")
-
-
-def _numbers(values: np.ndarray) -> Array:
-    """Return numbers as they are, and instants and durations in s."""
-    if values.dtype.kind not in "mM":
-        return np.array(values, float)
-    unit, _ = np.datetime_data(values.dtype)
-    return np.where(np.isnat(values), np.nan, values.astype(np.int64) * _TIME_UNITS.get(unit, 1.0))
-
-
-def _refuse(file: Path, message: str, line: int = 0, hint: str = "") -> NoReturn:
-    raise SourceError.of("log", message, shown(file), line, hint=hint)

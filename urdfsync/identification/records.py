@@ -99,7 +99,7 @@ class Records:
         changes = dict[str, list[tuple[RecordValue, str]]]()
         values = dict[tuple[str, str], list[str]]()
         for number in numbers:
-            if not number.is_written or abs(number.after - number.before) < _NOISE * number.error:
+            if not number.is_written or abs(number.after - number.before) < _NOISE * number.conditional:
                 continue
             item, path = _ITEM.search(number.path), _ITEM.sub("", number.path)
             copies = self.values[number.element][path]

@@ -11,10 +11,8 @@ from urdfsync.output.console import StyledLine, file_lines, findings, html, line
 from urdfsync.spelling import counted, growth
 
 _JOINTS = ("joint", "measured", "before", "after", "explained", "unit")
-_NUMBERS = ("element", "number", "before", "after", "± error", "change")
+_NUMBERS = ("element", "number", "before", "after", "± error", "± conditional", "change")
 _TENSOR = NUMBERS[4:]
-_SURE = 3
-"""A number has changed if it did by so many standard errors."""
 
 
 class IdentificationDisplay(Identification, frozen=True):
@@ -33,7 +31,8 @@ def identification_lines(result: Identification) -> Iterator[StyledLine]:
     if result.held_out:
         yield line(("  the seconds that were not fitted:", ""))
         yield from _table(_JOINTS, map(_joint, result.held_out))
-    yield from _table(_NUMBERS, map(_number, result.numbers))
+    if result.numbers:
+        yield from _table(_NUMBERS, map(_number, result.numbers))
     if result.unexcited:
         yield line(("  stays, since the motion does not determine it:", ""))
         yield from (line((f"    {text}", "dim")) for text in _grouped(result.unexcited))
@@ -48,8 +47,12 @@ def identification_lines(result: Identification) -> Iterator[StyledLine]:
             (f"  {counted(len(result.written), 'record')} written", "bold"), ("; `urdfsync diff --edits`", "dim")
         )
     else:
-        has_numbers = "each number is that of its record, but for a tenth of its error"
-        why = has_numbers if result.is_writing else "`--write` writes the numbers into the records"
+        why = (
+            "no change is sure, so each number stays"
+            if result.is_writing
+            else "`--write` writes the numbers into the records"
+        )
+        why = "the log is hardly that of the robot" if result.is_doubtful else why
         yield line((f"  nothing written: {why}", "dim"))
     yield from file_lines(result.files)
 
@@ -71,15 +74,16 @@ def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[Sty
 
 def _joint(joint: JointFit) -> tuple[str, ...]:
     roots = (f"{value:.3g}" for value in (joint.measured, joint.before, joint.after))
-    return (joint.element.partition(" ")[2], *roots, f"{100 * joint.explained:.1f} %", joint.unit)
+    explained = "-" if joint.explained is None else f"{100 * joint.explained:.1f} %"
+    return (joint.element.partition(" ")[2], *roots, explained, joint.unit)
 
 
 def _number(number: FittedNumber) -> tuple[str, ...]:
     change = number.after - number.before
     percent = growth(number.before, number.after)
     share = f"{change:+.3g}" if percent is None else f"{percent:+.1f} %"
-    sure = share if abs(change) > _SURE * number.error else f"{share} (not sure)"
-    values = f"{number.before:.5g}", f"{number.after:.5g}", f"{number.error:.2g}"
+    sure = share if number.is_sure else f"{share} (not sure)"
+    values = f"{number.before:.5g}", f"{number.after:.5g}", f"{number.error:.2g}", f"{number.conditional:.2g}"
     return number.element, _short(number.path), *values, sure
 
 

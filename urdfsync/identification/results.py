@@ -29,6 +29,8 @@ class IdentifyOptions(msgspec.Struct, frozen=True):
     """The filter's cut-off frequency in Hz; None chooses it by the motion."""
     until: float | None = None
     """The time in the log, in s from its beginning, up to which it is fitted; the rest is only predicted."""
+    unsure: bool = False
+    """Whether to write numbers whose change is not sure, too."""
     wait: float = 60.0
 
 
@@ -41,7 +43,11 @@ class FittedNumber(msgspec.Struct, frozen=True):
     before: float
     after: float
     error: float
-    """Standard error."""
+    """Standard error, if the numbers that stay are as wrong as those of a source may be."""
+    conditional: float = 0.0
+    """Standard error if the numbers that stay are right."""
+    is_sure: bool = True
+    """Whether the log shows a change, if the other numbers stay."""
     is_written: bool = False
     """Whether the number is in a record, now or with `--write`."""
 
@@ -69,7 +75,7 @@ class Identification(msgspec.Struct, frozen=True):
 
     KEYS = (
         *("robot", "log", "seconds", "rate", "cutoff", "delay", "joints", "held_out", "numbers", "unexcited"),
-        *("freed", "dropped", "written", "files", "diagnostics"),
+        *("freed", "dropped", "is_doubtful", "written", "files", "diagnostics"),
     )
 
     robot: str
@@ -94,6 +100,8 @@ class Identification(msgspec.Struct, frozen=True):
     """The joints in the part of the log that was not fitted."""
     written: tuple[str, ...] = ()
     """The changed records, from the configuration's folder."""
+    is_doubtful: bool = False
+    """Whether the log is hardly that of the robot: then nothing is fitted."""
     is_writing: bool = False
     """Whether the numbers were to be written."""
     files: Mapping[str, Path] = {}

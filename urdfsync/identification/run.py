@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
+import msgspec
 import numpy as np
 
 from urdfsync.checks.results import JointFit, Judgement
@@ -15,7 +16,8 @@ from urdfsync.domain.regressor import NUMBERS, QUANTITIES, Array, MovingLink, Re
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.identification import signals
-from urdfsync.identification.fit import Evidence, Fit, LeastSquares, fit, is_body
+from urdfsync.identification.fit import Evidence, Fit, LeastSquares, fit, is_body, sure_places
+from urdfsync.identification.gains import find_gains
 from urdfsync.identification.log import Log
 from urdfsync.identification.records import Records, read_records
 from urdfsync.identification.results import (
@@ -33,6 +35,11 @@ _STORED = 3_000_000
 
 _DOUBTFUL = 0.5
 """The unexplained share of an effort from which on the log is hardly that of the robot."""
+_GAIN = 1.45
+"""A factor of all efforts that the source hardly explains; masses and frictions are wrong by so much."""
+_STATED_GAIN = 3.0
+"""Likewise, if the log states the unit of its efforts."""
+_HINT = "look for another sign, unit or joint in the log"
 _CONSIDERABLE = 0.05
 """In the greatest effort of a joint: a smaller effort may be that of a sensor's offset."""
 _USUAL_DELAY = 0.005
@@ -50,12 +57,11 @@ class Measured:
         self.regressor, self.log = regressor, Log(file, regressor.axes, options)
         self.axes = [regressor.axes[k] for k in self.log.measured]
         self.parameters = 10 * len(regressor.bodies) + len(regressor.losses)
-        self.evidence, self.held_out = Evidence(len(self.axes)), Evidence(len(self.axes))
+        self.evidence, self.held_out, self.unused = (Evidence(len(self.axes)) for _ in range(3))
         self.sizes = np.full((3, len(self.axes)), 1e-12)
         """The greatest speed, 1 and acceleration of each axis, as damping, dry friction and inertia act on them."""
         self.seconds = self.rate = 0.0
         self._stored: list[tuple[Array, Array, np.ndarray]] = []
-        self._left_out = 0
         # two passes: where a robot rests or a log has gaps, a piece does not tell how fast the motion is
         self.cutoff = options.cutoff or signals.find_cutoff(self.log.pieces(), regressor.axes, self.log.measured)
         self.log.dropped.clear()
@@ -87,7 +93,6 @@ class Measured:
         chosen = self.log.measured
         places, derivatives, model = signals.thinned(samples, self.cutoff, derivatives[:, chosen], model[:, chosen])
         times, is_free = samples.times[places], samples.is_free[places][:, chosen]
-        self._left_out += int(np.count_nonzero(~is_free))
         self.sizes[0] = np.maximum(self.sizes[0], np.abs(samples.v[:, chosen]).max(axis=0))
         self.sizes[2] = np.maximum(self.sizes[2], np.abs(samples.a[:, chosen]).max(axis=0))
         self.sizes[1] = 1.0
@@ -98,20 +103,12 @@ class Measured:
             early = is_free[:, j] & (times < end)
             self.evidence.add(j, rows[early, j])
             self.held_out.add(j, rows[is_free[:, j] & (times >= end), j])
+            self.unused.add(j, rows[~is_free[:, j], j])
         if sum(block.size for _, block, _ in self._stored) + rows.size < _STORED or not self._stored:
             self._stored.append((times, rows, is_free))
 
-    def find_delay(self) -> float:
-        """Return the delay of the efforts in s with which the model, as it is, explains most."""
-        from scipy.optimize import minimize_scalar
-
-        def cost(delay: float) -> float:
-            return float(self.evidence.counts @ np.log(self.evidence.roots(self._at(signals.target_at(delay)))))
-
-        coarse, step = float(min(signals.SHIFTS[1:-1], key=cost)), float(np.diff(signals.SHIFTS)[0])
-        return float(minimize_scalar(cost, bounds=(coarse - step, coarse + step), method="bounded").x)
-
-    def _at(self, target: Array) -> Array:
+    def at(self, target: Array) -> Array:
+        """Return a combination of efforts, and of the model's, as one of all columns."""
         return np.concatenate([np.zeros(self.parameters + len(self.axes)), target])
 
     def joint_fits(self, evidence: Evidence, target: Array, delta: Array) -> tuple[JointFit, ...]:
@@ -121,7 +118,7 @@ class Measured:
         rows, left = [], np.concatenate([delta, -target])
         for j, axis in enumerate(self.axes):
             if count := int(evidence.counts[j]):
-                parts = self._at(measured), self._at(target), left
+                parts = self.at(measured), self.at(target), left
                 whole, before, after = (math.sqrt(evidence.squares(j, part) / count) for part in parts)
                 unit, offset = "N·m" if axis.unit == "rad" else "N", float(delta[self.parameters + j])
                 rows.append(JointFit(f"joint {axis.name}", unit, whole, before, after, offset, count))
@@ -135,7 +132,7 @@ class Measured:
         return EffortSeries(times, measured, model, model + rows[:, :, :count] @ delta, is_free)
 
     def doubts(self, options: IdentifyOptions) -> Iterator[Diagnostic]:
-        """Yield a warning for what was asked for and is not in the log."""
+        """Yield a warning for what is not in the log, and for limits that it passes."""
         if options.until is not None and not self.held_out.counts.any():
             message = f"`--until {options.until:g}` holds nothing out: the log has no sample after that time"
             hint = f"its last time is {self.end:.4g} s after its first"
@@ -143,13 +140,14 @@ class Measured:
             yield Diagnostic(Severity.WARNING, "identify", message, hint=hint + again)
         fitted = {axis.name for axis, count in zip(self.axes, self.evidence.counts, strict=True) if count}
         for axis in self.regressor.axes:
-            if axis.name in options.joints and axis.name not in fitted:
+            if axis.name not in fitted:
                 why = "stands still, or its effort is constant" if axis in self.axes else "is not in the log"
                 yield Diagnostic(Severity.WARNING, "identify", f"joint {axis.name}: it {why}, so it can't be fitted")
+        yield from self.log.doubts()
 
     def told(self) -> tuple[str, ...]:
         """Return what was left out of the log, in words."""
-        held, counts = self._left_out, self.evidence.counts + self.held_out.counts
+        held, counts = int(self.unused.counts.sum()), self.evidence.counts + self.held_out.counts
         words = f"{held} filtered samples of joints that stand still, or whose effort is constant or at its limit"
         still = [axis.name for axis, count in zip(self.axes, counts, strict=True) if not count]
         words += f": all of {', '.join(still)}" if still else ""
@@ -165,16 +163,27 @@ def identify(
     measured = Measured(regressor, log, options, progress)
     _check_names(options, regressor)
     problem, fitted, notes = _problem(regressor, measured, records, options)
-    result = _fitted(problem, measured, fitted)
-    delay = float(result.after[-1])
-    target = signals.target_at(delay)
-    joints = measured.joint_fits(measured.evidence, target, result.delta)
-    notes += [*_doubts(joints), *measured.doubts(options)]
-    numbers = _numbers(problem, result, fitted, records)
-    written = records.write(numbers) if write else ()
+    before, first = _fitted(problem, measured, _of_log(problem)), _fitted(problem, measured, fitted)
+    doubts = [
+        *_doubts(_joints(measured, measured.evidence, before, first)),
+        *_log_doubts(problem, measured, float(before.after[-1])),
+    ]
+    sure, result = [] if doubts else sure_places(problem, first), before if doubts else first
+    if not doubts and not options.unsure:
+        result = _fitted(problem, measured, [*sure, *_of_log(problem)])
+    numbers = () if doubts else _numbers(problem, first, result, sure, records)
+    chosen = [number for number in numbers if number.is_sure or options.unsure]
+    written = records.write(chosen) if write else ()
+    joints, held_out = (
+        tuple(
+            msgspec.structs.replace(joint, is_doubtful=bool(doubts))
+            for joint in _joints(measured, each, before, result)
+        )
+        for each in (measured.evidence, measured.held_out)
+    )
     unexcited = dict[str, list[str]]()
     for place in fitted:
-        if not result.is_fitted[place] and place < problem.count:
+        if not first.is_fitted[place] and place < problem.count:
             element, path = _name(problem, place)
             unexcited.setdefault(element, []).append(path)
     return Identification(
@@ -183,41 +192,86 @@ def identify(
         seconds=measured.seconds,
         rate=measured.rate,
         cutoff=measured.cutoff,
-        delay=delay,
+        delay=float(result.after[-1]),
         joints=joints,
         numbers=numbers,
         unexcited=tuple(Unexcited(element, tuple(paths)) for element, paths in unexcited.items()),
         freed=tuple(result.freed),
         dropped=measured.told(),
-        held_out=measured.joint_fits(measured.held_out, target, result.delta),
+        held_out=held_out,
         written=written,
         is_writing=write,
-        diagnostics=(*notes, *records.notes),
-        series=measured.series(target, result.delta),
+        is_doubtful=bool(doubts),
+        diagnostics=(*doubts, *notes, *measured.doubts(options), *records.notes),
+        series=measured.series(signals.target_at(float(result.after[-1])), result.delta),
     )
 
 
+def _of_log(problem: LeastSquares) -> range:
+    """Return the places of the numbers that belong to a log, and to no record: offsets and the delay."""
+    return range(problem.count, len(problem.start))
+
+
+def _joints(measured: Measured, evidence: Evidence, before: Fit, after: Fit) -> tuple[JointFit, ...]:
+    """Return how well the model explains each joint, with the offsets and the delay that suit it, before and after."""
+    one, other = (
+        measured.joint_fits(evidence, signals.target_at(float(each.after[-1])), each.delta) for each in (before, after)
+    )
+    return tuple(msgspec.structs.replace(b, before=a.after) for a, b in zip(one, other, strict=True))
+
+
 def _doubts(joints: Sequence[JointFit]) -> Iterator[Diagnostic]:
-    """Yield a warning for each joint whose effort is hardly that of the robot."""
+    """Yield an error for each joint whose effort is hardly that of the robot."""
     most = {unit: max(joint.measured for joint in joints if joint.unit == unit) for unit in {j.unit for j in joints}}
     for joint in joints:
         if joint.after > _DOUBTFUL * joint.measured:
             words = f"no numbers explain its effort, {100 * joint.after / joint.measured:.0f} % is left"
+        elif joint.after > joint.before + _CONSIDERABLE * joint.measured:
+            words = "the fit is worse than no fit, since the efforts of the joints contradict each other"
         elif joint.before > joint.measured > _CONSIDERABLE * most[joint.unit]:
             share = 100 * joint.before / joint.measured
             words = f"the source's numbers are worse than none, {share:.0f} % of its effort is left before the fit"
         else:
             continue
-        hint = "look for another sign, unit or joint in the log"
-        yield Diagnostic(Severity.WARNING, "identify", f"{joint.element}: {words}", hint=hint)
+        yield Diagnostic(Severity.ERROR, "identify", f"{joint.element}: {words}", hint=_HINT)
+
+
+def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iterator[Diagnostic]:
+    """Yield an error for each joint whose effort is that of another unit, sign or joint, or of another motion."""
+    evidence, log = measured.evidence, measured.log
+    friction = {loss.joint: loss.value for loss in problem.losses if loss.path.endswith("friction")}
+    model = measured.at(np.array([*np.zeros(len(signals.SHIFTS)), 1.0]))
+    gains = find_gains(problem, evidence, natural_sizes(problem, measured, evidence.roots(model)), delay)
+    efforts, left = (
+        measured.unused.deviations(measured.parameters, measured.at(np.array([*signals.target_at(0.0)[:-1], part])))
+        for part in (0.0, -1.0)
+    )
+    for j, axis in enumerate(measured.axes):
+        column = log.columns[log.measured[j], "effort"]
+        unit, cell = "N.m" if axis.unit == "rad" else "N", log.header[column.place]
+        question = "" if column.is_stated else f"; if the log is right, state the unit: `{cell} [{unit}]`"
+        if evidence.counts[j] and gains.is_other(j, _STATED_GAIN if column.is_stated else _GAIN):
+            own = gains.usual * gains.factors[j] / abs(float(np.nanmedian(gains.factors)))
+            words = f"its effort in the log is {own:.3g} times that of a robot near the source"
+            yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT + question)
+        elif not evidence.counts[j] + measured.held_out.counts[j] and left[j] > max(
+            _DOUBTFUL * efforts[j], _CONSIDERABLE * efforts.max(), 2 * friction.get(axis.name, 0.0)
+        ):
+            words = (
+                f"it stands still or is at its limit, and {left[j]:.3g} {unit} of its effort are no effect of others"
+            )
+            yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT)
 
 
 def judge(config: Config, robot: RobotConfig, log: Path, options: IdentifyOptions, progress: Progress) -> Judgement:
     """Return how far the records of a robot are from a log. Raises UrdfsyncError."""
-    measured = Measured(read_records(config, robot, options.wait).regressor(), log, options, progress)
-    target = signals.target_at(measured.find_delay())
-    fits = measured.joint_fits(measured.evidence, target, np.zeros(measured.parameters + len(measured.axes)))
-    return Judgement(shown(log), measured.seconds, fits)
+    records = read_records(config, robot, options.wait)
+    regressor = records.regressor()
+    measured = Measured(regressor, log, options, progress)
+    problem, _, _ = _problem(regressor, measured, records, options)
+    result = _fitted(problem, measured, _of_log(problem))
+    joints = _joints(measured, measured.evidence, result, result)
+    return Judgement(shown(log), measured.seconds, joints, tuple(measured.doubts(options)))
 
 
 def _check_axes(regressor: Regressor) -> None:
@@ -266,30 +320,34 @@ def _problem(
     return LeastSquares(bodies, regressor.losses, len(measured.axes)), fitted, notes
 
 
-def natural_sizes(problem: LeastSquares, measured: Measured) -> Array:
-    """Return the natural size of each number: of losses, that with which they make up the whole effort."""
-    nothing = np.zeros(len(problem.start) - 1)
-    joints = measured.joint_fits(measured.evidence, signals.target_at(0.0), nothing)
-    efforts = {joint.element: joint.measured for joint in joints}
-    by_joint = {f"joint {axis.name}": measured.sizes[:, j] for j, axis in enumerate(measured.axes)}
-    usual = float(np.mean(list(efforts.values())))
-    others = [
-        max(loss.value, efforts.get(name := f"joint {loss.joint}", usual) / by_joint.get(name, np.ones(3))[k % 3])
-        for k, loss in enumerate(problem.losses)
-    ]
-    offsets = [_USUAL_OFFSET * efforts.get(f"joint {axis.name}", usual) for axis in measured.axes]
-    return problem.sizes(np.array([*others, *offsets, _USUAL_DELAY]))
+def natural_sizes(problem: LeastSquares, measured: Measured, efforts: Array | None = None) -> Array:
+    """Return the natural size of each number: of losses, that with which they make up a whole effort.
+
+    `efforts` are the root mean squares of the axes' efforts, else those in the log.
+    """
+    if efforts is None:
+        efforts = measured.evidence.roots(measured.at(np.array([*signals.target_at(0.0)[:-1], 0.0])))
+    usual = float(np.mean(efforts[measured.evidence.counts > 0]))
+    efforts = np.where(measured.evidence.counts > 0, efforts, usual)
+    by_joint = {
+        axis.name: effort / measured.sizes[:, j]
+        for j, (axis, effort) in enumerate(zip(measured.axes, efforts, strict=True))
+    }
+    unmeasured = np.full(3, usual)
+    others = [max(loss.value, by_joint.get(loss.joint, unmeasured)[k % 3]) for k, loss in enumerate(problem.losses)]
+    return problem.sizes(np.array([*others, *(_USUAL_OFFSET * efforts), _USUAL_DELAY]))
 
 
 def _fitted(problem: LeastSquares, measured: Measured, fitted: Sequence[int]) -> Fit:
     sizes = natural_sizes(problem, measured)
-    first = fit(problem, measured.evidence, fitted, sizes, np.ones(len(measured.axes)))
+    spread = problem.spread(sizes)
+    first = fit(problem, measured.evidence, fitted, sizes, spread, np.ones(len(measured.axes)))
     series = measured.series(signals.target_at(first.after[-1]), first.delta)
     left = (series.measured - series.after).T
     alike = [
         signals.alike(each[used]) if used.any() else 1.0 for each, used in zip(left, series.is_used.T, strict=True)
     ]
-    return fit(problem, measured.evidence, fitted, sizes, np.array(alike))
+    return fit(problem, measured.evidence, fitted, sizes, spread, np.array(alike))
 
 
 def _name(problem: LeastSquares, place: int) -> tuple[str, str]:
@@ -299,14 +357,26 @@ def _name(problem: LeastSquares, place: int) -> tuple[str, str]:
     return f"joint {loss.joint}", loss.path
 
 
-def _numbers(problem: LeastSquares, result: Fit, fitted: Sequence[int], records: Records) -> tuple[FittedNumber, ...]:
-    """Return the fitted numbers."""
+def _numbers(
+    problem: LeastSquares, first: Fit, last: Fit, sure: Collection[int], records: Records
+) -> tuple[FittedNumber, ...]:
+    """Return the numbers of a first fit; those whose change is sure are as the last fit has them."""
     numbers = list[FittedNumber]()
-    for place in fitted:
-        if result.is_fitted[place] and place < problem.count:
-            element, path = _name(problem, place)
-            values = float(problem.start[place]), float(result.after[place]), float(result.errors[place])
-            numbers.append(FittedNumber(element, path, *values, records.has(element, path)))
+    for place in map(int, np.flatnonzero(first.is_fitted[: problem.count])):
+        element, path = _name(problem, place)
+        is_sure = place in sure and bool(last.is_fitted[place])
+        result = last if is_sure else first
+        number = FittedNumber(
+            element=element,
+            path=path,
+            before=float(problem.start[place]),
+            after=float(result.after[place]),
+            error=float(result.errors[place]),
+            conditional=float(result.conditional_errors[place]),
+            is_sure=is_sure,
+            is_written=records.has(element, path),
+        )
+        numbers.append(number)
     return tuple(numbers)
 
 

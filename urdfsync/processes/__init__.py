@@ -63,15 +63,15 @@ def exit_cause(code: int) -> str:
 
 
 @contextlib.contextmanager
-def limits(seconds: float, memory: int) -> Iterator[None]:
-    """Limit CPU time (s) and memory (bytes, on Linux) of this process, and forbid writing files.
+def limits(seconds: float, memory: int, largest: int = 0) -> Iterator[None]:
+    """Limit CPU time (s), memory (bytes, on Linux) and written files (bytes of each) of this process.
 
     SIGPROF ends the process when its time is over. Load libraries before. Windows has no such limits.
     """
     if sys.platform == "win32":
         yield
         return
-    kinds = {resource.RLIMIT_FSIZE: 0, resource.RLIMIT_CORE: 0}
+    kinds = {resource.RLIMIT_FSIZE: largest, resource.RLIMIT_CORE: 0}
     if sys.platform == "linux":  # macOS accepts this limit but does not enforce it
         kinds[resource.RLIMIT_DATA] = memory
     before = {kind: resource.getrlimit(kind) for kind in kinds}

@@ -30,8 +30,8 @@ UNITS = {
     "m": {"m": 1.0, "mm": 1e-3},
     "rad/s": {"rad/s": 1.0, "deg/s": math.pi / 180},
     "m/s": {"m/s": 1.0, "mm/s": 1e-3},
-    "N.m": {"N.m": 1.0, "N·m": 1.0},
-    "N": {"N": 1.0},
+    "N.m": {"N.m": 1.0, "N·m": 1.0, "Nm": 1.0, "N.mm": 1e-3, "kN.m": 1e3},
+    "N": {"N": 1.0, "kN": 1e3},
     "s": {"s": 1.0, "ms": 1e-3},
 }
 """The possible units of a column, with their factors, by the unit of the input."""

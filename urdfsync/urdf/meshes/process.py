@@ -1,20 +1,15 @@
-"""A process reads untrusted meshes: its limits protect against files that exploit a fault of a library."""
+"""Reads untrusted meshes in a process with limits."""
 
 from __future__ import annotations
 
-import atexit
-import contextlib
-import os
-import signal
-import subprocess
-import threading
-from collections.abc import Mapping, Sequence
-from typing import IO, Any, TypeAlias, cast
+from collections.abc import Mapping
+from typing import Any, TypeAlias
 
 import msgspec
 
 from urdfsync.diagnostics import cut
-from urdfsync.processes import importable, python_module
+from urdfsync.processes import python_module
+from urdfsync.processes.limited import LimitedProcess
 from urdfsync.urdf.robot import Vector
 
 FOR_PICTURE = 4
@@ -29,8 +24,6 @@ COARSER = "export the mesh with fewer triangles"
 """The hint for a mesh beyond a limit."""
 _LONGEST = 300
 """The greatest number of characters of an error message from a library."""
-_MAX_LINE = 10_000_000
-_MAX_FILE = 100_000_000
 
 MeshFacts: TypeAlias = dict[str, Any]
 """Facts of a shape by name: see `convert`."""
@@ -68,33 +61,17 @@ class MeshRequest(msgspec.Struct, frozen=True):
     """Limit of the CPU time, in s."""
 
 
-class MeshAnswer(msgspec.Struct, frozen=True):
-    """A line from the process; the bytes of each file follow."""
-
-    sizes: tuple[int, ...] = ()
-    facts: tuple[MeshFacts, ...] = ()
-    problem: str = ""
-    """The reason why the file can't be used; empty for a usable file."""
-    hint: str = ""
-    is_last: bool = False
-    """Whether the process is too large to give the next mesh its full memory."""
-
-
 def is_binary_stl(content: bytes) -> bool:
     """Return whether an STL file is binary. Some binary files begin with `solid`, as texts do."""
     return len(content) == STL_COUNT.stop + _STL_FACET * int.from_bytes(content[STL_COUNT], "little")
 
 
-class MeshProcess:
-    """The process, which starts for the first mesh.
+class MeshProcess(LimitedProcess):
+    """The process, which reads one mesh after the other."""
 
-    After a mesh that reached a limit, the next mesh starts a new process. This program handles signals while the
-    process reads. When this program ends, the end of stdin ends the process.
-    """
-
-    def __init__(self) -> None:
-        self._process: subprocess.Popen[bytes] | None = None
-        self._lock = threading.Lock()  # the workers of a Dask cluster are threads
+    def command(self) -> tuple[list[str], dict[str, str]]:
+        """Return the command that starts the process."""
+        return python_module("urdfsync.urdf.meshes.worker"), {}
 
     def read(
         self, request: MeshRequest, content: bytes, others: Mapping[str, bytes] | None = None
@@ -103,75 +80,16 @@ class MeshProcess:
 
         Raises MeshError, or OSError if the process can't start.
         """
-        others = others or {}
+        others, seconds = others or {}, CPU_SECONDS * (FOR_PICTURE if request.most else 1)
         sizes = {name: len(other) for name, other in others.items()}
-        request = msgspec.structs.replace(
-            request, size=len(content), others=sizes, seconds=CPU_SECONDS * (FOR_PICTURE if request.most else 1)
-        )
-        with self._lock:
-            process = self._process = self._process or self._start()
-            timer = threading.Timer(WALL_SECONDS, process.kill)
-            timer.start()
-            try:
-                answer, files = _ask(process, request, (content, *others.values()))
-                if answer.is_last:
-                    self.end()
-            except (OSError, ValueError) as error:  # the process has ended, or the answer is invalid
-                raise self._failure(process, request) from error
-            except BaseException:  # after an interruption, the pipe may hold half an answer
-                self.end()
-                raise
-            finally:
-                timer.cancel()
+        request = msgspec.structs.replace(request, size=len(content), others=sizes, seconds=seconds)
+        try:
+            answer, files = self.ask(request, (content, *others.values()), seconds, WALL_SECONDS)
+        except TimeoutError as error:
+            raise MeshError(str(error), COARSER) from error
+        except ValueError as error:
+            raise MeshError(str(error)) from error
         if answer.problem:
             text = "".join(char if char.isprintable() else " " for char in cut(answer.problem, _LONGEST))
             raise MeshError(text, answer.hint)
         return list(zip(files, answer.facts, strict=True))
-
-    def _failure(self, process: subprocess.Popen[bytes], request: MeshRequest) -> MeshError:
-        """End the process; return the limit that it passed."""
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(1)  # it may end a moment after its pipes
-        code = -(process.returncode or 0)
-        self.end()
-        limit = {signal.SIGKILL: WALL_SECONDS, getattr(signal, "SIGPROF", None): request.seconds}.get(code)
-        if limit is None:
-            return MeshError("the process that reads the file fails")
-        return MeshError(f"reading the file takes more than {limit:g} s", COARSER)
-
-    def end(self) -> None:
-        """End the process, if it runs."""
-        process, self._process = self._process, None
-        if process is not None:
-            atexit.unregister(self.end)
-            process.kill()
-            with contextlib.suppress(OSError), process:  # closes the pipes and waits
-                pass
-
-    def _start(self) -> subprocess.Popen[bytes]:
-        atexit.register(self.end)
-        return subprocess.Popen(  # noqa: S603 - a command of ours
-            python_module("urdfsync.urdf.meshes.worker"),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            # threads need memory; libraries use deprecated parts of numpy
-            env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1", "PYTHONWARNINGS": "ignore"},
-            process_group=0,  # Ctrl-C reaches only the waiting program, which ends the process
-        )
-
-
-def _ask(
-    process: subprocess.Popen[bytes], request: MeshRequest, contents: Sequence[bytes]
-) -> tuple[MeshAnswer, list[bytes]]:
-    """Send a mesh to the process, and return its answer. Raises OSError or ValueError for a missing or wrong answer."""
-    stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
-    stdin.write(msgspec.json.encode(request) + b"\n")
-    for content in contents:
-        stdin.write(content)
-    stdin.flush()
-    answer = msgspec.json.decode(stdout.readline(_MAX_LINE), type=MeshAnswer)
-    files = [stdout.read(min(size, _MAX_FILE)) for size in answer.sizes]
-    if tuple(map(len, files)) != answer.sizes:
-        raise ValueError("the answer ends early, or is too large")
-    return answer, files

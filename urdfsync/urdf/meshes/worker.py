@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-import os
 import sys
-from collections.abc import Mapping
 from pathlib import Path
+from typing import IO
 
 import msgspec
 
-from urdfsync.processes import limits, reserve_stdout
+from urdfsync.processes import limits
+from urdfsync.processes.limited import Answer, answer_requests
 from urdfsync.urdf.meshes.lookup import COLORLESS, COLORS, TEXTURED
-from urdfsync.urdf.meshes.process import COARSER, FOR_PICTURE, MEMORY, MeshAnswer, MeshError, MeshRequest, is_binary_stl
+from urdfsync.urdf.meshes.process import COARSER, FOR_PICTURE, MEMORY, MeshError, MeshRequest, is_binary_stl
 
 if sys.platform != "win32":
     import resource
@@ -26,19 +26,13 @@ _GROWN = 200_000_000
 def main() -> None:
     """Answer requests until stdin is closed."""
     sys.modules.update(dict.fromkeys(_UNUSED))  # type: ignore[arg-type] # None lets an import fail
-    requests, answers = sys.stdin.buffer, reserve_stdout()
-    while line := requests.readline():
-        request = msgspec.json.decode(line, type=MeshRequest)
-        content = requests.read(request.size)
-        answer, files = _answer(request, content, {name: requests.read(size) for name, size in request.others.items()})
-        answers.write(msgspec.json.encode(answer) + b"\n")
-        for file in files:
-            answers.write(file)
-        answers.flush()
-    os._exit(0)  # unloading libraries takes a tenth of a second
+    answer_requests(_answer)
 
 
-def _answer(request: MeshRequest, content: bytes, others: Mapping[str, bytes]) -> tuple[MeshAnswer, list[bytes]]:
+def _answer(line: bytes, contents: IO[bytes]) -> tuple[Answer, list[bytes]]:
+    request = msgspec.json.decode(line, type=MeshRequest)
+    content = contents.read(request.size)
+    others = {name: contents.read(size) for name, size in request.others.items()}
     # these imports come after `main` has blocked unused packages, and before limits are set
     from urdfsync.urdf.meshes import geometry, simplify
 
@@ -72,12 +66,12 @@ def _answer(request: MeshRequest, content: bytes, others: Mapping[str, bytes]) -
                 is_textured = any(other and not name.lower().endswith(".mtl") for name, other in others.items())
                 all_facts[0] |= {request.colors: [*parts], TEXTURED: is_textured, COLORLESS: missing}
     except MeshError as error:
-        return MeshAnswer(problem=str(error), hint=error.hint), []
+        return Answer(problem=str(error), hint=error.hint), []
     except MemoryError:
         size = MEMORY * (FOR_PICTURE if request.most else 1) // 1_000_000
         problem = f"reading the file takes more than {size} MB of memory"
-        return MeshAnswer(problem=problem, hint=COARSER, is_last=True), []
-    return MeshAnswer(tuple(map(len, files)), tuple(all_facts), is_last=_allocated() > _GROWN), files
+        return Answer(problem=problem, hint=COARSER, is_last=True), []
+    return Answer(facts=tuple(all_facts), is_last=_allocated() > _GROWN), files
 
 
 def _allocated() -> int:
