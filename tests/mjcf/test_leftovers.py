@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import mujoco
 import pytest
-from support.mjcfs import SOURCE, body, document, left_out, noted, read, urdf, world
+from support.mjcfs import SOURCE, body, document, left_out, noted, read, reading, urdf, world
 
 from urdfsync.mjcf.urdf import translated
 from urdfsync.urdf.parse.source import read_robot
@@ -70,6 +70,15 @@ def test_gravity_has_its_line() -> None:
 def test_margins_are_noted() -> None:
     assert noted(body('<joint range="-1 1" margin="0.2"/>')) == "not modelled: 1 <margin>"
     assert noted(body('<joint/><geom size="0.1" margin="0.2"/>')) == ""
+
+
+def test_a_speed_at_home_is_noted_at_its_line() -> None:
+    key = '\n<keyframe>\n<key name="home" qvel="1"/></keyframe></mujoco>'
+    text = body("<joint/>").replace("</mujoco>", key)
+    (found,) = reading(text).unmodelled
+    written, places = translated(document(text))
+    assert written.split("\n")[found.line - 1].strip() == '<qvel name="home"/>'
+    assert [line for number, _, line in places if number <= found.line][-1] == 4
 
 
 def test_a_pose_at_home_that_is_no_number_of_a_joint_is_noted() -> None:

@@ -17,7 +17,7 @@ import pytest
 from support.mjcf_schema import Bench, benches, fates, find, real_path, schema
 
 NEVER: Mapping[str, str] = {
-    r"/model|.*/(name|class|childclass|prefix|content_type|user)": "names elements, or holds a user's numbers",
+    r"/model|.*/(name|class|childclass|prefix|sep|content_type|user)": "names elements, or holds a user's numbers",
     r"(visual|custom|statistic)(/.*)?": "draws, or holds numbers of a user and of viewers",
     r"(default|asset)/(material|texture|skin)/.*|asset/hfield/.*|deformable/skin/.*": "draws; hills count as a plane",
     r".*/(group|rgba|material|castshadow|width|texcoord|smoothnormal|normal)": "draws",
@@ -32,19 +32,16 @@ NEVER: Mapping[str, str] = {
     r"option/flag/(autoreset|energy|fwdinv|invdiscrete|island|(mid|multi|native)\w+|refsafe|warmstart)": "likewise",
     r"option/flag/(ipc|speculative|sleep)|body/sleep": "likewise, in contacts and at rest",
     r"option/flag/filterparent": "contacts of the robot with itself are in no model",
-    r"option/(wind|magnetic|o_.*)": "acts in a fluid, on a magnetometer, with the flag override: these are told",
     r"body/(fuse|simple|mocap)|body/freejoint/align|.*/align": "a form of the same motion",
     r"(body|default)/geom/(priority|solmix|condim|fluidcoef|fluidshape|fitscale|hfield|mesh|fromto|type|size)": (
         "acts beside others; default/geom stands for body/geom"
     ),
-    r"(body|default)/joint/(actuatorfrclimited|actuatorgravcomp|solreffriction|springyield)": "likewise",
     r"asset/mesh/(builtin|params|face|vertex|maxhullvert|file)|default/mesh/.*": "the shape alone, if masses are given",
     r"body/attach/.*|asset/model/.*": "resolved by MuJoCo: its elements are walked",
     r"(actuator|default)/\w+/(lengthrange|actdim|(crank|slider|ref)site|cranklength)": "of muscles, cranks and sites",
     r"(actuator|default)/\w+/(\w+limited|interp|nsample|gaintype|ctrlrange|delay|ffrange)": "follows from the range",
     r"sensor/.*/(noise|interp|nsample|interval|delay|cutoff)": "says how a sensor is used; its delay and cut are told",
     r"keyframe/key/(time|mpos|mquat|plastic)": "the clock, bodies outside of the robot, springs that yield (told)",
-    r"equality/weld/relpose|default/equality/.*": "the pose as written counts",
     r"(extension/plugin|(.*/)?plugin)(/.*)?": "MuJoCo refuses a plugin that is not loaded",
     r"(default/)?(asset/)?material/layer/.*": "draws",
     r"equality/(flex|flexstrain)/.*": "of flexible bodies, which are told",
@@ -54,9 +51,10 @@ NEVER: Mapping[str, str] = {
 """Attributes that change no motion, with the reason."""
 
 ACCURACY: Mapping[str, str] = {
-    r"option/(timestep|integrator|solver|iterations|tolerance|noslip_iterations)": "how exactly MuJoCo solves",
+    r"option/(timestep|integrator|solver|(ls_|noslip_)?iterations|tolerance)": "how exactly MuJoCo solves",
     r"option/flag/(diagexact|eulerdamp)": "likewise",
     r"(actuator|default)/\w+/(gainprm|biasprm)": "the command of Run is the joint's, not ctrl",
+    r"keyframe/key/ctrl": "the commands of Run are those of its user",
     r"body/geom/pos|body/(pos|quat|euler|axisangle|xyaxes|zaxis)": "a floating robot stands on the ground",
 }
 """Attributes that may change a motion, though nothing tells them, with the reason."""

@@ -53,8 +53,8 @@ _CHAIN = f"""
   <body name="c" pos=".1 0 1"><joint name="d" axis="1 0 0" damping="1" frictionloss="20"/>
     <geom name="gd" size=".1 .2 .3" type="box" group="2" {_OFF}/><site name="s2" pos=".1 .2 .3"/><site name="s0"/>
     <geom type="box" mesh="m" fitscale="1.1" pos=".1 .2 0" {_OFF}/>
-    <frame name="fr" pos="0 0 1"><geom size=".1" {_OFF}/></frame>
-    <replicate count="2" offset="0 0 1"><geom size=".1" {_OFF}/></replicate>
+    <frame name="fr" pos="0 0 1"><geom type="box" size=".1 .2 .3" pos=".1 0 0" {_OFF}/></frame>
+    <replicate count="2" offset="0 0 1"><geom size=".1" pos=".1 0 0" {_OFF}/></replicate>
     <body name="e" pos="0 .2 1"><joint name="x" axis="0 1 1" type="slide" stiffness="90"/>
       <inertial pos="0 .1 0" mass="2" diaginertia=".3 .2 .4"/><site name="s" pos=".2 0 .3"/>
       <geom name="gf" size=".4" {_OFF}/><camera name="eye" pos="0 0 1" resolution="2 2"/><light name="lamp"/>

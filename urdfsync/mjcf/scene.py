@@ -83,6 +83,9 @@ class MujocoScene:
 
     def line(self, kind: str, number: int) -> int:
         """Return the line of an element in the document's text; 0 if MuJoCo made the element."""
+        if kind == "key":  # MuJoCo does not say it
+            lines = [n for n, line in enumerate(self.document.text.split("\n"), 1) if line.startswith("<key ")]
+            return lines[number] if number < len(lines) else 0
         return _line_in(getattr(self._elements[kind].get(number), "info", ""))
 
     def element(self, kind: str, number: int) -> Any:
