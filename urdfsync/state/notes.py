@@ -43,10 +43,8 @@ class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     its hash differs."""
     versions: Mapping[str, str] = {}
     """Hashes of the other saved versions of conflicts, as urdfsync wrote them, by path."""
-    model: str = ""
-    """Hash of the last recorded model."""
-    edited: Mapping[str, str] = {}
-    """Hashes of the edited files at the last build, by key."""
+    edits: Mapping[str, str] = {}
+    """The id of the file that each edited text belongs to, by the text's hash: all edits that builds here have seen."""
     uses: Mapping[str, Use] = {}
     """Names that mean other parts now, by absolute path of a user's file."""
 

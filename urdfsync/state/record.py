@@ -92,9 +92,11 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     before a rename may come later, by a merge of git."""
     confirmed: frozenset[str] = frozenset()
     """Hashes of the user's texts for which he has confirmed the file."""
-    edited: frozenset[str] = frozenset()
-    """Hashes of the user's texts after the build that changed this record: they belong to its model. A later edit alone
-    does not change the record."""
+    edits: Mapping[str, str] = {}
+    """The id of the file that each edited text belongs to, by the text's hash. An edit alone does not change the
+    record: the next build that does adds it."""
+    former_ids: Mapping[str, tuple[str, ...]] = {}
+    """The ids of the parts that had a name and have it no more, by owner."""
     imports: Mapping[str, tuple[Import, ...]] = {}
     """The imports of the last complete build by key. A file has several if git has united two states."""
     files: Mapping[str, str] = {}

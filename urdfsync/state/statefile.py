@@ -43,7 +43,8 @@ _FACTS: Mapping[str, Any] = {
     "former": tuple[str, str],
     "id": tuple[str, str],
     "confirmed": str,
-    "edited": str,
+    "edit": tuple[str, str],
+    "former-id": tuple[str, str],
     "seen": tuple[str, str | None, Any],
     "seen-import": tuple[str, Import],
     "renamed": tuple[str, str, str],
@@ -83,7 +84,8 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     yield from (("former", names) for names in record.former.items())
     yield from (("id", item) for item in record.ids.items())
     yield from (("confirmed", sha256) for sha256 in record.confirmed)
-    yield from (("edited", sha256) for sha256 in record.edited)
+    yield from (("edit", item) for item in record.edits.items())
+    yield from (("former-id", (owner, part)) for owner, ids in record.former_ids.items() for part in ids)
     yield from (("import", (key, entry)) for key, entries in record.imports.items() for entry in entries)
     if record.open:
         seen = record.open.imports
@@ -167,6 +169,9 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
     is_placed = all(len(values[word]) == 1 for word in _PLACE)
     # with two different folders, the files' paths are unknown
     files = {f"{folder}/{path}": sha256 for path, sha256 in sorted(values["file"] if is_placed else ())}
+    former_ids = dict[str, list[str]]()
+    for owner, part in values["former-id"]:
+        former_ids.setdefault(owner, []).append(part)
     open_ = None
     if values["seen"]:
         renamed = {(kind, old): new for kind, old, new in values["renamed"]}
@@ -184,7 +189,8 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         renamed=dict(values["declared"]),
         former=_unique(values["former"]),  # two branches may have renamed one element: then its new name is unknown
         confirmed=frozenset(values["confirmed"]),
-        edited=frozenset(values["edited"]),
+        edits=_unique(values["edit"]),
+        former_ids={owner: tuple(ids) for owner, ids in former_ids.items()},
         imports=_imports(values["import"]),
         files=files,
         ids=_unique(values["id"]),

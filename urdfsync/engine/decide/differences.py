@@ -11,7 +11,7 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, displaced
-from urdfsync.engine.decide.parts import file_ids, find_part_ids
+from urdfsync.engine.decide.parts import file_ids, find_former_ids, find_part_ids
 from urdfsync.engine.decide.renames import match_with_last
 from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, with_unshown
 from urdfsync.engine.declared import pending
@@ -38,6 +38,8 @@ class Differences(msgspec.Struct, frozen=True):
     """The lasting id of each generated file, by path."""
     parts: Mapping[str, str]
     """The lasting ids of the parts that had other names, by owner."""
+    former_ids: Mapping[str, tuple[str, ...]]
+    """The ids of all parts that had a name before, by owner."""
     moves: Mapping[str, str]
     """The old key of each text file that moves with its element or with the package, by its new key."""
     identifiers: Mapping[str, str]
@@ -80,12 +82,13 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
     is_structural = news is None or news.change_class.rank >= ChangeClass.STRUCTURAL.rank
+    former_ids = find_former_ids(inputs, generation, parts) if is_structural else last.record.former_ids
     identifiers, former = dict[str, str](), last.record.former
     if is_structural:
         identifiers = _find_identifiers(inputs, now, renames, moves) if news is not None else {}
         former = {old: identifiers.get(new, new) for old, new in former.items()} | identifiers
     names = identifiers, former, others, has_exchanges
-    return Differences(matching, news, is_structural, ids, parts, moves, *names, undeclared, unused)
+    return Differences(matching, news, is_structural, ids, parts, former_ids, moves, *names, undeclared, unused)
 
 
 def _find_matching(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
@@ -200,11 +203,12 @@ def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
     targets = {file_id: inputs.folder.key(path) for path, file_id in ids.items()}
     for folder in dict.fromkeys((last.folder, inputs.folder)):
         for key, stamp in files.stamps(folder).items():
-            target = targets.get(stamp.id)
+            file_id = last.edits.get(files.hash(key, Role.MODEL) or "", stamp.id)
+            target = targets.get(file_id)
             if target is None or as_file(target) == as_file(key):
                 continue
             there = files.stamp(target)
-            if there and there.id == stamp.id:
+            if there and there.id == file_id:
                 is_edited = there.base != files.hash(target, Role.MODEL)
                 if is_edited or not _is_in_place(last.base(stamp.base), last.target, folder.path(key)):
                     continue  # the file is the user's copy

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
-from urdfsync.domain import Artifact, Role, displaced
+from urdfsync.domain import Artifact, ElementKey, Role, displaced
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.files import digest
-from urdfsync.matching import Matching
+from urdfsync.matching import Doubt, Matching
 from urdfsync.modelica.stamp import Stamp
+
+if TYPE_CHECKING:
+    from urdfsync.engine.decide.differences import Differences
 
 _DIGITS = 8
 """The number of digits of a part's id, which begins the id of each of its files."""
@@ -46,6 +50,40 @@ def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) ->
                 ids[owner] = first_id(ids[owner])
             taken.add(ids[owner])
     return {owner: part for owner, part in ids.items() if part != first_id(owner)}
+
+
+def find_former_ids(inputs: Inputs, generation: Generation, parts: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
+    """Return the ids of all parts that had each name and have it no more, by owner; `parts` are present ids."""
+    last = inputs.last
+    if not last.elements:
+        return dict(last.record.former_ids)
+    present = inputs.domain.features(generation.now.snapshot)
+    found = {owner: dict.fromkeys(ids) for owner, ids in last.record.former_ids.items()}
+    for kind, name in last.elements:
+        owner = f"{kind} {name}"
+        part = last.record.ids.get(owner, first_id(owner))
+        if (kind, name) not in present or parts.get(owner, first_id(owner)) != part:
+            found.setdefault(owner, {})[part] = None
+    return {owner: tuple(ids) for owner, ids in found.items()}
+
+
+def other_meanings(inputs: Inputs, generation: Generation, differences: Differences) -> dict[ElementKey, Doubt]:
+    """Return a doubt for each element whose name had meant another part when the last complete build was made.
+
+    The edits of files from before that build have another base, which tells the meaning of their names.
+    """
+    doubts, former_ids = dict[ElementKey, Doubt](), inputs.last.record.former_ids
+    if not former_ids:
+        return doubts
+    present = inputs.domain.features(generation.now.snapshot)
+    ids = {key: differences.parts.get(" ".join(key), first_id(" ".join(key))) for key in present}
+    for key, part in ids.items():
+        if others := set(former_ids.get(" ".join(key), ())) - {part}:
+            moved_to = next((name for (kind, name), other in ids.items() if kind == key[0] and other in others), "")
+            formers = (owner for owner, former in former_ids.items() if part in former)
+            former = next(formers, "").partition(" ")[2]
+            doubts[key] = Doubt(" ".join(key), former, (), moved_to, is_certain=True)
+    return doubts
 
 
 def _stated_ids(inputs: Inputs, generation: Generation) -> dict[str, str]:

@@ -12,7 +12,7 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import DISPUTED, Action, Reason
 from urdfsync.engine.decide.conflicts import find_conflict
 from urdfsync.engine.decide.differences import Differences
-from urdfsync.engine.decide.edit_origins import find_doubts
+from urdfsync.engine.decide.doubts import find_doubts
 from urdfsync.engine.decide.package_names import renamed_names
 from urdfsync.engine.decide.parts import is_of_part
 from urdfsync.engine.decide.renumbered import NOT_RENUMBERED, Renumbered, find_renumbered

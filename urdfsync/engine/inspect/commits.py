@@ -12,12 +12,10 @@ import msgspec
 
 from urdfsync import git
 from urdfsync.dependencies import reads
-from urdfsync.diagnostics import SourceError, StateError
+from urdfsync.diagnostics import SourceError
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.git.revisions import Revision, open_repository
-from urdfsync.state import bases, statefile
-from urdfsync.state.record import Record
-from urdfsync.state.store import Store
+from urdfsync.modelica.stamp import Stamp, split
 
 if TYPE_CHECKING:
     import pygit2
@@ -32,50 +30,25 @@ _BACK = 10
 """The greatest number of commits, counted back from HEAD, whose parents are searched, too."""
 
 
-class CommittedBuild(msgspec.Struct, frozen=True):
-    """A robot's package and record in a commit. What the clone lacks, or what can't be read, counts as missing."""
+class Commit(msgspec.Struct, frozen=True):
+    """A commit that an edit may come from. What the clone lacks, or what can't be read, counts as missing."""
 
     _revision: Revision
     _files: PackageFiles
-    _store: Store
-    _name: str
-    """The robot's name in the last build."""
 
-    def texts(self, keys: Iterable[str]) -> dict[str, str]:
-        """Return the texts of files of the package, by key."""
+    def texts(self, keys: Iterable[str]) -> dict[str, tuple[str, Stamp | None]]:
+        """Return the bare texts and the stamps of files of the package, by key."""
         paths = {key: self._files.path(key) for key in keys}
-        contents = self._contents(*paths.values())
-        return {key: contents[path].decode(errors="replace") for key, path in paths.items() if path in contents}
-
-    def record(self) -> Record | None:
-        """Return the robot's record."""
-        place = self._store.path(self._name)
-        content = self._contents(place).get(place)
         try:
-            label = self._revision.label(place)
-            return None if content is None else statefile.loads(plain(content.decode(errors="replace")), label)[0]
-        except StateError:
-            return None
-
-    def base(self, sha256: str) -> str | None:
-        """Return the generated text with this hash."""
-        file = self._store.base_file(self._name, sha256[0])
-        return bases.loads(self._contents(file).get(file, b"")).get(sha256)
-
-    def _contents(self, *paths: Path) -> dict[Path, bytes]:
-        try:
-            return dict(self._revision.contents(list(paths)))
+            contents = dict(self._revision.contents([*paths.values()]))
         except SourceError:
             return {}
+        found = {key: contents[path] for key, path in paths.items() if path in contents}
+        return {key: split(plain(content.decode(errors="replace"))) for key, content in found.items()}
 
 
-def read_commits(
-    root: Path, files: PackageFiles, store: Store, name: str, *, has_built: bool
-) -> Iterator[CommittedBuild]:
-    """Yield the commits that an edit may come from: recent ones of HEAD, and others if this machine `has_built` here.
-
-    `name` is the robot's name in the last build.
-    """
+def read_commits(root: Path, files: PackageFiles, *, has_built: bool) -> Iterator[Commit]:
+    """Yield the commits that an edit may come from: of HEAD, and others if this machine `has_built` here."""
     if (top := git.find_top(root)) is None:
         return
     reads.depend_on_commits(top)
@@ -96,7 +69,7 @@ def read_commits(
         commits += [commit for other in others if (commit := _commit_id(repository, other)) not in history]
     for commit in dict.fromkeys(filter(None, commits)):  # several branches may have one commit
         try:
-            yield CommittedBuild(Revision(root, commit), files, store, name)
+            yield Commit(Revision(root, commit), files)
         except SourceError:  # there is no such commit
             continue
 

@@ -18,7 +18,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncErro
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
-from urdfsync.engine.inspect.commits import CommittedBuild, read_commits
+from urdfsync.engine.inspect.commits import Commit, read_commits
 from urdfsync.engine.inspect.last_build import LastBuild, option_values
 from urdfsync.engine.inspect.package_files import Folder, PackageFiles, key_of
 from urdfsync.engine.inspect.parents import Parents
@@ -118,10 +118,9 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return frozenset(map(self.folder.key, inside))
 
     @cached_property
-    def commits(self) -> tuple[CommittedBuild, ...]:
+    def commits(self) -> tuple[Commit, ...]:
         """The commits that an edit of unknown origin may come from."""
-        has_built = bool(self.last.notes.model)
-        return (*read_commits(self.config.root, self.files, self.store, self.last.name, has_built=has_built),)
+        return (*read_commits(self.config.root, self.files, has_built=bool(self.last.notes.written)),)
 
     @cached_property
     def users_files(self) -> UsersFiles:

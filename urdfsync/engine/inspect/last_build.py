@@ -86,6 +86,11 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         stamp = self._files.stamp(key) or (self._files.stamp(folder) if key.endswith(".mo") else None)
         return stamp.base if stamp else self.files.get(key)
 
+    @cached_property
+    def edits(self) -> Mapping[str, str]:
+        """The id of the file that each edited text belongs to, by the text's hash, for all edits that builds saw."""
+        return {**self.record.edits, **self.notes.edits}
+
     def has_written(self, sha256: str) -> bool:
         """Whether a build once wrote the text with this hash, or a choice restores it as generated."""
         return sha256 in self.texts or self._store.has_written(self.name, sha256)

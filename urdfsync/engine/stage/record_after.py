@@ -7,10 +7,11 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from urdfsync.domain import ChangeClass, ElementKey
-from urdfsync.engine.actions import Reason
+from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
-from urdfsync.engine.decide.edit_origins import EDITED
+from urdfsync.engine.decide.doubts import EDITED
+from urdfsync.engine.decide.parts import other_meanings
 from urdfsync.engine.decide.rules import file_records_after
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
@@ -28,18 +29,18 @@ def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> 
     old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
     merged = {key: text_hash(text) for key, text in decision.texts.items() if key.endswith(".mo")}
-    # a merge may wait: then the edit stays on disk
-    edits = (action for action in decision.actions if action.reason in EDITED or action.path in merged)
-    judged = frozenset((*merged.values(), *(str(action.mine) for action in edits if action.mine)))
+    edits = {**old.edits, **seen_edits(inputs, decision), **seen_merges(inputs, decision)}
     # the merge of a confirmed text with an export stays confirmed
     merges = (action for action in decision.actions if action.path in merged and action.mine in old.confirmed)
     confirmed = frozenset(merged[action.path] for action in merges)
     if not decision.is_complete:
-        return _open_record(inputs, generation, decision, judged, confirmed)
+        return _open_record(inputs, generation, decision, edits, confirmed)
     files = file_records_after(decision.actions, inputs.last.files, is_complete=True)
     users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
     edited = (one for one in decision.actions if one.reason in users and one.mine)
     is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
+    # who keeps an edit says what the name means: later edits are not asked about
+    answered = {one.owner for one in inputs.settled.actions.values() if one.choice is Choice.KEEP}
     new = Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,
@@ -49,14 +50,19 @@ def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> 
         renamed=_brought(inputs, differences.renames),
         former=_former(inputs, generation, differences),
         confirmed=confirmed.union(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
-        edited=judged,
+        edits=edits,
+        former_ids={owner: ids for owner, ids in differences.former_ids.items() if owner not in answered},
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
         ids=differences.parts,
     )
-    # an edit is not worth a commit of the record
-    silent = msgspec.structs.replace(new, edited=old.edited)
+    # an edit is not worth a commit of the record, unless a clone would ask which part it belongs to
+    asked = {" ".join(element) for element in other_meanings(inputs, generation, differences)}
+    told = {str(one.mine) for one in decision.actions if one.owner in asked}
+    silent = msgspec.structs.replace(
+        new, edits={**old.edits, **{sha256: edits[sha256] for sha256 in edits.keys() & told}}
+    )
     if news is not None and all(change.change_class.rank <= ChangeClass.UNMODELLED.rank for change in news.changes):
         # nor is a change without effect on the package, such as an unmodelled part of the source
         silent = msgspec.structs.replace(silent, snapshot=old.snapshot, options=old.options, generator=old.generator)
@@ -64,11 +70,11 @@ def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> 
 
 
 def _open_record(
-    inputs: Inputs, generation: Generation, decision: Decision, judged: frozenset[str], confirmed: frozenset[str]
+    inputs: Inputs, generation: Generation, decision: Decision, edits: Mapping[str, str], confirmed: frozenset[str]
 ) -> Record:
     """Return the record after an incomplete build: it keeps the model of the last complete build.
 
-    `judged` has the hashes of the user's texts, `confirmed` those of confirmed texts after their merges.
+    `edits` has the files of the user's texts, `confirmed` the hashes of confirmed texts after their merges.
     """
     old, imports, inside = inputs.last.record, generation.imported.imports, inputs.folder.key("")
     # record renewed files, but none in a former folder
@@ -91,7 +97,20 @@ def _open_record(
         open=Open(as_recorded(generation.now.snapshot), renames, asked, renewed),
         confirmed=confirmed.union(bare_hash(text) for text in inputs.settled.contents.values() if text is not None),
     )
-    return old if new == old else msgspec.structs.replace(new, edited=judged)
+    return old if new == old else msgspec.structs.replace(new, edits=edits)
+
+
+def seen_edits(inputs: Inputs, decision: Decision) -> dict[str, str]:
+    """Return the ids of the files of all edits that stay where they are, by the hashes of their texts."""
+    ids, path = decision.differences.ids, inputs.folder.path
+    edited = (one for one in decision.actions if one.reason in EDITED and one.mine)
+    return {str(one.mine): ids[path(one.path)] for one in edited if path(one.path) in ids}
+
+
+def seen_merges(inputs: Inputs, decision: Decision) -> dict[str, str]:
+    """Return the ids of the files that get merged texts, by the hashes of these texts."""
+    ids, path = decision.differences.ids, inputs.folder.path
+    return {text_hash(text): ids[path(key)] for key, text in decision.texts.items() if path(key) in ids}
 
 
 def _former(inputs: Inputs, generation: Generation, differences: Differences) -> Mapping[str, str]:
@@ -114,10 +133,10 @@ def _brought(inputs: Inputs, renames: Mapping[ElementKey, str]) -> Mapping[str, 
 def notes_after(
     inputs: Inputs,
     generation: Generation,
+    decision: Decision,
     record: Record,
     saved: Iterable[Aside],
     conflicts: SavedConflicts,
-    edited: Mapping[str, str],
     uses: Mapping[str, Use],
 ) -> Notes:
     """Return this machine's notes with the results of this build; `record` is the new record.
@@ -129,8 +148,7 @@ def notes_after(
     recorded |= {bare_hash(encode(model)) for aside in saved for model in aside.beside.values()}  # for `--undo`
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
-    model, is_dry = hash_of(record.snapshot), inputs.options.dry
-    is_written = not is_dry or model == old.model
+    is_dry = inputs.options.dry
     return Notes(
         program=inputs.program,
         texts=texts,
@@ -139,7 +157,6 @@ def notes_after(
         written=frozenset(made | (set(old.written) & recorded)),
         proposals=old.proposals if is_dry else conflicts.noted,
         versions=old.versions if is_dry else conflicts.written,
-        model=model if is_written else old.model,
-        edited=edited if is_written else old.edited,
+        edits={**old.edits, **seen_edits(inputs, decision), **({} if is_dry else seen_merges(inputs, decision))},
         uses=uses,
     )

@@ -14,7 +14,6 @@ from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions
 from urdfsync.engine.decide.decision import Decision
-from urdfsync.engine.decide.edit_origins import EDITED
 from urdfsync.engine.decide.package_after import PackageAfter
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs, Settled
@@ -96,8 +95,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
     notes, after = None, None
     if record is not None:
         after = foresee_actions(inputs, decision, record)
-        edited = {one.path: one.mine for one in after or decision.actions if one.reason in EDITED and one.mine}
-        notes = notes_after(inputs, generation, record, index.values(), conflicts, edited, uses)
+        notes = notes_after(inputs, generation, decision, record, index.values(), conflicts, uses)
         if notes == inputs.last.notes and not (inputs.former_name or options.choices):
             notes = None
     if writes:

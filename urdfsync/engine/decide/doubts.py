@@ -1,0 +1,159 @@
+"""Finds edited files that may belong to other elements now.
+
+Git may bring an edit that was made before an export exchanged names: by a branch, a stash or a patch. Its text stands
+in the file of the old name, and looks right. If a build has seen the edit, the state knows the file that it belongs to.
+If no build has, and the name has meant two parts, the user is asked.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Mapping
+
+from urdfsync.domain import ElementKey, Role, Snapshot
+from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.decide.differences import Differences
+from urdfsync.engine.decide.package_names import elements_by_identifier, identifier_of
+from urdfsync.engine.decide.parts import is_of_part, other_meanings
+from urdfsync.engine.decide.renumbered import Renumbered
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inspect.commits import Commit
+from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.package.generate import Package
+from urdfsync.matching import Doubt
+from urdfsync.modelica.files import code_of, text_of
+
+EDITED = (Reason.KEEP, Reason.CONFLICT)
+"""Reasons of files that the user edited and that stay where they are."""
+
+
+def find_doubts(
+    inputs: Inputs,
+    generation: Generation,
+    differences: Differences,
+    renumbered: Renumbered,
+    actions: Iterable[Action],
+) -> dict[str, Doubt]:
+    """Return the doubts whether edited files belong to the same elements as before, by key."""
+    edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
+    edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
+    record = inputs.last.record
+    unconfirmed = [one for one in edited if one.mine not in record.confirmed]
+    # the user's decision about an export holds until the next export
+    is_told = inputs.last.seen == generation.now.snapshot
+    doubts = dict[str, Doubt | None]()
+    for action in unconfirmed if is_told else edited:
+        doubts[action.path] = _doubt(inputs, generation, differences, renumbered, action)
+    open_doubts = _open_doubts(inputs, generation, unconfirmed)
+    doubts |= open_doubts
+    unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
+    others = other_meanings(inputs, generation, differences) if unknown else {}
+    for action in unknown:
+        if not (others or inputs.commits):
+            break
+        lines, read = _added_lines(inputs, package := generation.package, action), (inputs, package, differences.ids)
+        for found in (others, *(_meanings_in(*read, commit, action, lines) for commit in inputs.commits)):
+            if (element := _element(action)) is None:
+                doubt = _named(inputs, lines, found, renumbered, generation.now.snapshot) if found else None
+            else:
+                doubt = found.get(element)
+            doubts[action.path] = doubts.get(action.path) or doubt
+    return {path: doubt for path, doubt in doubts.items() if doubt}
+
+
+def _meanings_in(
+    inputs: Inputs, package: Package, ids: Mapping[str, str], commit: Commit, action: Action, lines: Counter[str]
+) -> dict[ElementKey, Doubt]:
+    """Return a doubt for each element of which a commit with lines of this edit has another part.
+
+    An edit that is in the file of its part already is no doubt. `ids` are the present ids of files, by path.
+    """
+    text, _ = commit.texts([action.path]).get(action.path, ("", None))
+    if not (shared := lines & _lines(text)):
+        return {}
+    doubts, targets, key_of = dict[ElementKey, Doubt](), {ids[path]: path for path in ids}, inputs.folder.key
+    owners = {key_of(path): owner for path, owner in package.owners.items() if owner == action.owner or " " in owner}
+    keys = [key for key, owner in owners.items() if owner == action.owner or not _element(action)]
+    for key, (_, stamp) in commit.texts(keys).items():
+        kind, _, name = owners[key].partition(" ")
+        if not name or stamp is None or is_of_part(stamp, ids[inputs.folder.path(key)]):
+            continue
+        target = targets.get(stamp.id)
+        if _element(action) and target and not shared - _lines(inputs.files.any_text(key_of(target))):
+            continue
+        moved_to = package.owners[target].partition(" ")[2] if target else ""
+        doubts[kind, name] = Doubt(owners[key], "", (), moved_to, is_certain=True)
+    return doubts
+
+
+def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Action]) -> dict[str, Doubt]:
+    """Return the doubts of recorded questions about these edits, by key, unless an export was undone."""
+    last, now = inputs.last, generation.now.snapshot
+    is_undone = last.seen != now and last.version is not None and last.version.snapshot == now
+    asked = {} if is_undone or last.record.open is None else last.record.open.asked
+    edits = (action for action in actions if action.path in asked and asked[action.path].mine == (action.mine or ""))
+    return {action.path: asked[action.path].doubt for action in edits}
+
+
+def _doubt(
+    inputs: Inputs, generation: Generation, differences: Differences, renumbered: Renumbered, action: Action
+) -> Doubt | None:
+    """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
+    found, last = differences.matching.doubts, inputs.last
+    if not (element := _element(action)):
+        lines = _added_lines(inputs, generation.package, action) if found or renumbered else ()
+        return _named(inputs, lines, found, renumbered, generation.now.snapshot)
+    if element in found:
+        return found[element]
+    if moved_to := differences.renames.get(element):  # the file can't move to the new name
+        return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
+    # if only numbers changed, no element is new, and most builds need no features
+    is_new_element = last.version is not None and differences.is_structural and element not in last.elements
+    is_orphan = is_new_element and action.path in last.files
+    is_new = last.record.open is not None and action.path not in last.record.open.asked  # a later build wrote the file
+    if is_orphan and not (is_new or last.record.is_united or _is_back(inputs, generation, action)):
+        return Doubt(" ".join(element), is_certain=True)  # the user edited the file for an element that is gone
+    return None
+
+
+def _is_back(inputs: Inputs, generation: Generation, action: Action) -> bool:
+    """Whether earlier builds have written all texts of a file's element, with the same numbers."""
+    package = generation.package
+    own = (path for path, owner in package.owners.items() if owner == action.owner)
+    return all(inputs.last.has_written(package.hash(path)) for path in own)
+
+
+def _added_lines(inputs: Inputs, package: Package, action: Action) -> Counter[str]:
+    """Return the lines that the user added to a generated text, without their indents."""
+    base = inputs.last.base(inputs.last.base_of(action.path, action.role)) or ""
+    generated = package.content(inputs.folder.path(action.path)).decode()
+    return _lines(inputs.files.text(action.path) or "") - (_lines(generated) | _lines(base))
+
+
+def _lines(text: str) -> Counter[str]:
+    return Counter(line.strip() for line in text.splitlines() if line.strip())
+
+
+def _element(action: Action) -> ElementKey | None:
+    """Return the element that a file belongs to; None for a common file."""
+    kind, _, name = action.owner.partition(" ")
+    return (kind, name) if name else None
+
+
+def _named(
+    inputs: Inputs,
+    lines: Iterable[str],
+    doubts: Mapping[ElementKey, Doubt],
+    renumbered: Renumbered,
+    snapshot: Snapshot,
+) -> Doubt | None:
+    """Return the doubt about the first doubtful element or part in these lines of a common file; None without one."""
+    if not (doubts or renumbered):
+        return None
+    elements = elements_by_identifier(inputs.domain, snapshot, inputs.last.target)
+    code = text_of(code_of("\n".join(lines).encode()))
+    words = dict.fromkeys(re.findall(r"\w+", code))
+    found = list(filter(None, (elements.get(identifier_of(word, elements)) for word in words)))
+    of_elements = (doubts[key] for key in found if key in doubts)
+    return next(of_elements, None) or renumbered.doubt(words, [" ".join(key) for key in found])
