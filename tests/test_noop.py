@@ -566,7 +566,7 @@ def test_a_changed_number_of_a_package_that_nobody_edited_imports_no_parser(
     names, said = imported("-c", FULL, *BUILD)
     assert "1 file written" in said
     assert not {name for name in names if name.startswith("urdfsync.merge")} | names & {"jinja2.ext", "subprocess"}
-    ours = {f"urdfsync.modelica.{name}" for name in ("files", "literals", "markers", "names", "stamp")}
+    ours = {f"urdfsync.modelica.{name}" for name in ("files", "identifiers", "literals", "markers", "names", "stamp")}
     assert {name for name in names if name.startswith("urdfsync.modelica.")} == ours
 
 

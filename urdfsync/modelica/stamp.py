@@ -47,6 +47,8 @@ class Stamp(NamedTuple):
 
 def with_stamp(content: bytes, stamp: Stamp | None) -> bytes:
     """Return the content of a file with this stamp in place of its own; None for no stamp."""
+    if stamp is None and _WORD.encode() not in content:
+        return content
     bare, _ = split(content.decode(errors="surrogateescape"))
     return (stamped(bare, stamp) if stamp else bare).encode(errors="surrogateescape")
 

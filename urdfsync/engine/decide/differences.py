@@ -208,10 +208,9 @@ def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
             if target is None or as_file(target) == as_file(key):
                 continue
             there = files.stamp(target)
-            if there and there.id == file_id:
-                is_edited = there.base != files.hash(target, Role.MODEL)
-                if is_edited or not _is_in_place(last.base(stamp.base), last.target, folder.path(key)):
-                    continue  # the file is the user's copy
+            is_edited = there and there.id == file_id and there.base != files.hash(target, Role.MODEL)
+            if is_edited or not _is_in_place(last.base(stamp.base), last.target, folder.path(key)):
+                continue  # the class is the user's own: a copy, or with another name
             place = as_file(key)  # if the class is a folder, the file that it was
             moves.setdefault(target, place if place in last.record.files else key)
     return moves
@@ -219,6 +218,6 @@ def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
 
 def _is_in_place(base: str | None, target: Target, path: str) -> bool:
     """Return whether the file at this path is where its base was generated: a copy has another name or folder."""
-    *folders, name = class_parts(as_file(path))
-    within = re.escape(".".join((target.package, *folders)))
-    return re.match(rf"within {within};\n.*?^(?:\w+ )+{name}\b", base or "", re.DOTALL | re.MULTILINE) is not None
+    *folders, name = (*target.package.split("."), *class_parts(path))
+    within = f"within {re.escape('.'.join(folders))};\n" if folders else ""
+    return re.match(rf"{within}.*?^(?:\w+ )+{name}\b", base or "", re.DOTALL | re.MULTILINE) is not None

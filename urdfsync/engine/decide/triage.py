@@ -58,6 +58,7 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
 def _find_files(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, File]:
     """Return every recorded or generated file as it is before the build, by key."""
     last, files, moved = inputs.last, dict[str, File](), frozenset(differences.moves.values())
+    present = frozenset(differences.ids.values())
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         base, file_id = last.base_of(key, role), differences.ids.get(inputs.folder.path(key))
@@ -70,8 +71,11 @@ def _find_files(inputs: Inputs, generation: Generation, differences: Differences
     for name, entry in generation.imported.imports.items():
         add(inputs.folder.key(entry.target), Role.IMPORT, name, entry.target_hash)
     for key in last.files.keys() - files.keys():
-        if key not in last.record.files and (as_file(key) in files or as_file(key) in last.record.files):
-            continue  # the user turned the class into a folder
+        stamp, recorded = inputs.files.stamp(key), last.record.files
+        is_folder = as_file(key) in files or as_file(key) in recorded
+        is_copy = stamp is not None and stamp.id in present and key not in moved
+        if key not in recorded and (is_folder or is_copy):
+            continue  # the user turned the class into a folder, copied it, or gave it another name
         path = last.folder.path(key)
         # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
         old = last.package.artifacts.get(path) if last.package else None

@@ -142,8 +142,9 @@ def _replaced(
         former = Replaced(text, known_base(last.base(base)))
         if is_moving:
             former = _follow(inputs, former, key, decision.names)
-        if former.text != contents[key]:
-            yield key, former if action.role is Role.IMPORT else _given_back(inputs, package, action, former)
+        new, is_import = contents[key], action.role is Role.IMPORT
+        if former.text != new and (new is None or is_import or bare_hash(former.text) != bare_hash(new)):
+            yield key, former if is_import else _given_back(inputs, package, action, former)
 
 
 def _given_back(inputs: Inputs, package: Package, action: Action, former: Replaced) -> Replaced:

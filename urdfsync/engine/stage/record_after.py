@@ -158,5 +158,5 @@ def notes_after(
         proposals=old.proposals if is_dry else conflicts.noted,
         versions=old.versions if is_dry else conflicts.written,
         edits={**old.edits, **seen_edits(inputs, decision), **({} if is_dry else seen_merges(inputs, decision))},
-        uses=uses,
+        uses=old.uses if is_dry else uses,
     )
