@@ -12,13 +12,11 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from urdfsync.domain import ElementKey, Role, Snapshot, Version
+from urdfsync.domain import ElementKey, Role, Snapshot
 from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.decide.conflicts import find_conflict
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.decide.renames import find_matching
-from urdfsync.engine.decide.renumbered import Names, Renumbered, find_numbers
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.commits import CommittedBuild
 from urdfsync.engine.inspect.inputs import Inputs
@@ -35,11 +33,7 @@ EDITED = (Reason.KEEP, Reason.CONFLICT)
 
 
 def find_doubts(
-    inputs: Inputs,
-    generation: Generation,
-    differences: Differences,
-    renumbered: Renumbered,
-    actions: Iterable[Action],
+    inputs: Inputs, generation: Generation, differences: Differences, actions: Iterable[Action]
 ) -> dict[str, Doubt]:
     """Return the doubts whether edited files belong to the same elements as before, by key."""
     edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
@@ -50,7 +44,7 @@ def find_doubts(
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
-        doubts[action.path] = _doubt(inputs, generation, differences, renumbered, action)
+        doubts[action.path] = _doubt(inputs, generation, differences, action)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
     doubts |= open_doubts
     unconfirmed = [one for one in unconfirmed if one.path not in open_doubts]
@@ -77,14 +71,12 @@ def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Actio
     return {action.path: asked[action.path].doubt for action in edits}
 
 
-def _doubt(
-    inputs: Inputs, generation: Generation, differences: Differences, renumbered: Renumbered, action: Action
-) -> Doubt | None:
+def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:
     """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
     found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
-        lines = _edit_of(inputs, generation.package, action).added if found or renumbered else ()
-        return _named(inputs, lines, found, renumbered, generation.now.snapshot)
+        lines = _edit_of(inputs, generation.package, action).added if found else ()
+        return _named(inputs, lines, found, generation.now.snapshot)
     if element in found:
         return found[element]
     if moved_to := differences.renames.get(element):  # the file can't move to the new name
@@ -149,9 +141,7 @@ def _look(
             return {}
         snapshot = as_read(record.snapshot, inputs.domain.model)
         matching = find_matching(inputs.domain, snapshot, generation.now.snapshot, {})
-        imports = {name: entries[0] for name, entries in record.imports.items()}
-        numbers = find_numbers(inputs, Version(snapshot, imports), generation.now, matching.renames)
-        if not (matching.renames or matching.doubts or numbers):
+        if not (matching.renames or matching.doubts):
             return {}
         known = inputs.domain.features(snapshot)
     except NO_MODEL:
@@ -170,42 +160,15 @@ def _look(
         text, stamp = split(texts[action.path])
         if recorded is None or text_hash(text) == (stamp.base if stamp else recorded):
             continue  # the file is unedited in this commit
-        if part := _moved_part(inputs, generation, commit, action, text, stamp.base if stamp else recorded, numbers):
-            doubts[action.path] = Doubt(action.owner, part=part)
-        elif element := _element(action):
+        if element := _element(action):
             if (doubt := moved.get(element)) is None:
                 continue
             path = generation.package.find_like(inputs.folder.path(action.path), f"{element[0]} {doubt.moved_to}")
             if path is None or not edits[action].has_moved(lines, inputs.files.text(inputs.folder.key(path)) or ""):
                 doubts[action.path] = doubt
-        elif doubt := _named(inputs, lines, existing, Renumbered(numbers), snapshot):
+        elif doubt := _named(inputs, lines, existing, snapshot):
             doubts[action.path] = doubt
     return doubts
-
-
-def _moved_part(
-    inputs: Inputs,
-    generation: Generation,
-    commit: CommittedBuild,
-    action: Action,
-    edited: str,
-    base_hash: str,
-    numbers: Names,
-) -> str:
-    """Return a numbered part that an edit of a commit names, if its text has not followed to the new number yet."""
-    renumbered = Renumbered(numbers)
-    if not renumbered.components(action):
-        return ""
-    from urdfsync.modelica.lexer import words_in  # imports the parser
-
-    if (base := commit.base(base_hash)) is None:  # the edit is unknown
-        return next(iter(renumbered.components(action)))
-    generated = generation.package.content(inputs.folder.path(action.path)).decode()
-    mine, names = inputs.files.text(action.path) or "", renumbered.names(action, words_in(base))
-    moved, unmoved = (find_conflict(action, base, edited, generated, each).merged(None) for each in (names, {}))
-    is_same = moved == unmoved
-    has_moved = moved is not None and find_conflict(action, generated, moved, mine).merged(None) == mine
-    return "" if is_same or has_moved else next(iter(names))
 
 
 def _element(action: Action) -> ElementKey | None:
@@ -215,18 +178,13 @@ def _element(action: Action) -> ElementKey | None:
 
 
 def _named(
-    inputs: Inputs,
-    lines: Iterable[str],
-    doubts: Mapping[ElementKey, Doubt],
-    renumbered: Renumbered,
-    snapshot: Snapshot,
+    inputs: Inputs, lines: Iterable[str], doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
 ) -> Doubt | None:
-    """Return the doubt about the first doubtful element or part in these lines of a common file; None without one."""
-    if not (doubts or renumbered):
+    """Return the doubt about the first doubtful element in these lines of a common file; None without one."""
+    if not doubts:
         return None
     elements = elements_by_identifier(inputs.domain, snapshot, inputs.last.target)
     code = text_of(code_of("\n".join(lines).encode()))
     words = dict.fromkeys(re.findall(r"\w+", code))
-    found = list(filter(None, (elements.get(identifier_of(word, elements)) for word in words)))
-    of_elements = (doubts[key] for key in found if key in doubts)
-    return next(of_elements, None) or renumbered.doubt(words, [" ".join(key) for key in found])
+    found = filter(None, (elements.get(identifier_of(word, elements)) for word in words))
+    return next((doubts[key] for key in found if key in doubts), None)

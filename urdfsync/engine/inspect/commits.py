@@ -15,7 +15,7 @@ from urdfsync.dependencies import reads
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.git.revisions import Revision, open_repository
-from urdfsync.state import bases, statefile
+from urdfsync.state import statefile
 from urdfsync.state.record import Record
 from urdfsync.state.store import Store
 
@@ -56,11 +56,6 @@ class CommittedBuild(msgspec.Struct, frozen=True):
             return None if content is None else statefile.loads(plain(content.decode(errors="replace")), label)[0]
         except StateError:
             return None
-
-    def base(self, sha256: str) -> str | None:
-        """Return the generated text with this hash."""
-        file = self._store.base_file(self._name, sha256[0])
-        return bases.loads(self._contents(file).get(file, b"")).get(sha256)
 
     def _contents(self, *paths: Path) -> dict[Path, bytes]:
         try:
