@@ -49,8 +49,6 @@ class Doubt(msgspec.Struct, frozen=True):
     """The likely new name of the old element with this name; empty if unknown."""
     is_certain: bool = False
     """Whether the old element with this name is gone."""
-    part: str = ""
-    """The numbered part of the element, such as `visual2`, that the doubt is about; empty for the element itself."""
     is_named_alike: bool = False
     """Whether nothing but the name is that of the old element."""
 

@@ -8,7 +8,7 @@ plans and writes these files.
 from __future__ import annotations
 
 import importlib
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Protocol
@@ -23,7 +23,6 @@ from urdfsync.domain.model import (
     Features,
     Import,
     Lookup,
-    Numbered,
     Order,
     Reading,
     Snapshot,
@@ -141,6 +140,11 @@ class Domain(Protocol):
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
 
-    def numbered(self, old: Version, new: Version) -> tuple[Numbered, Numbered]:
-        """Return the numbered parts of the elements of two versions, for an edit to follow its part."""
-        return {}, {}
+    def numbered(
+        self, new: Version, formers: Sequence[Version], find_renames: Callable[[Version], Mapping[ElementKey, str]]
+    ) -> Snapshot:
+        """Return a model whose numbered parts have the numbers of former models; the first one counts first.
+
+        `find_renames` returns the renames of elements since a former version.
+        """
+        return new.snapshot

@@ -33,14 +33,6 @@ class Features(msgspec.Struct, frozen=True):
     """Files of the element. Files are not in `contents`, since exporters name files after elements."""
 
 
-Numbered: TypeAlias = Mapping[ElementKey, Mapping[str, tuple[ElementKey, Features]]]
-"""Numbered parts by element and by component, such as `visual2`; each with its kind and name, and its features.
-
-A part without a name of its own has its number as name. In files of an element, names of components begin with this
-component: `visual2Place`. In other files, they begin with the element's identifier and this component: `armVisual2`.
-"""
-
-
 class Role(enum.StrEnum):
     """Role of a generated file; the decision about the file depends on it."""
 

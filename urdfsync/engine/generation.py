@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Lookup, Reading, Role, Version
-from urdfsync.engine.declared import check_declared
+from urdfsync.domain import Domain, ElementKey, Lookup, Reading, Role, Version
+from urdfsync.engine.decide.renames import find_matching
+from urdfsync.engine.declared import check_declared, pending
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import with_line_ends
 from urdfsync.engine.package import imports
@@ -66,12 +67,21 @@ def generate_robot(inputs: Inputs) -> Generation:
         findings += imported.diagnostics
         for key, finding in domain.imports.findings(imported.imports, snapshot) if domain.imports else ():
             findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
-        version = Version(snapshot, imported.imports)
+        version = with_numbers(domain, Version(snapshot, imported.imports), last.formers, pending(inputs))
         noted = last.notes.texts if last.notes.program == inputs.program and not options.full else {}
         package = generate(domain, version, robot.target, robot.options, inputs.templates, noted, last.base)
     for path in package.artifacts:
         package.hash(path)  # renders the text, if it is new: a fault of a template is told here
     return Generation(version, reading, tuple(map(inputs.source.locate, findings)), imported, package)
+
+
+def with_numbers(domain: Domain, new: Version, formers: Sequence[Version], declared: Mapping[str, str] = {}) -> Version:
+    """Return a version whose numbered parts have the numbers of former versions; `declared` has renames of elements."""
+
+    def find_renames(old: Version) -> Mapping[ElementKey, str]:
+        return find_matching(domain, old.snapshot, new.snapshot, declared).renames
+
+    return msgspec.structs.replace(new, snapshot=domain.numbered(new, formers, find_renames))
 
 
 def generated_texts(
@@ -82,7 +92,7 @@ def generated_texts(
     if amended is not None:
         text, options = amended
         snapshot, _ = source.read(inputs.domain, options, text)
-        version = Version(snapshot, generation.imported.imports)
+        version = with_numbers(inputs.domain, Version(snapshot, generation.imported.imports), [generation.now])
         package = generate(inputs.domain, version, inputs.robot.target, options, inputs.templates)
     orders = {path: "".join(f"{name}\n" for name in names).encode() for path, names in package.orders.items()}
     return {path: package.content(path) for path in package.artifacts} | orders

@@ -13,7 +13,7 @@ from urdfsync import registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.domain import Role, Version
-from urdfsync.engine.generation import Generation
+from urdfsync.engine.generation import Generation, with_numbers
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package.generate import generate
@@ -115,7 +115,7 @@ def look(reader: SourceReader, inputs: Inputs, generation: Generation, contents:
         robot, text = reader.read(contents)
         snapshot, reading = source.read(inputs.domain, robot.options, text)
         source.check_options(inputs.config, robot, reading)
-        version = Version(snapshot, generation.imported.imports)
+        version = with_numbers(inputs.domain, Version(snapshot, generation.imported.imports), [generation.now])
         package = generate(inputs.domain, version, robot.target, robot.options, inputs.templates)
     values = {
         (path, value.path): value.text if (number := literals(value.text)) is None else number

@@ -85,6 +85,8 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     snapshot: Mapping[str, Any] | None = None
     """The model of the last complete build (see `as_recorded`); None without a model, or if git has doubled an
     element."""
+    variants: tuple[Mapping[str, Any], ...] = ()
+    """If git has doubled an element: the model with its first value, and with its last value."""
     renamed: Mapping[str, str] = {}
     """The declared renames that the last complete build has applied: they are not applied again."""
     former: Mapping[str, str] = {}

@@ -172,10 +172,11 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
     former_ids = dict[str, list[str]]()
     for owner, part in values["former-id"]:
         former_ids.setdefault(owner, []).append(part)
-    open_ = None
+    models, open_ = values["model"], None
+    is_doubled = _is_doubled(models)
     if values["seen"]:
         renamed = {(kind, old): new for kind, old, new in values["renamed"]}
-        seen = _snapshot(values["seen"])
+        seen = None if _is_doubled(values["seen"]) else _model(values["seen"])
         is_known = seen is not None and len(renamed) == len(values["renamed"])
         asked, imports = dict(values["asked"]), _imports(values["seen-import"])
         open_ = Open(seen, renamed, asked, imports) if seen is not None and is_known else Open(imports=imports)
@@ -185,7 +186,8 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         folder=folder,
         generator=Generator(domain, max(values["release"], key=_numbers), templates),
         options=dict(values["option"]),
-        snapshot=_snapshot(values["model"]),
+        snapshot=None if is_doubled else _model(models),
+        variants=tuple(_model(facts) or {} for facts in (models, models[::-1])) if is_doubled else (),
         renamed=dict(values["declared"]),
         former=_unique(values["former"]),  # two branches may have renamed one element: then its new name is unknown
         confirmed=frozenset(values["confirmed"]),
@@ -212,10 +214,15 @@ def _imports(facts: Iterable[tuple[str, Import]]) -> Mapping[str, tuple[Import, 
     return imports
 
 
-def _snapshot(facts: list[tuple[str, str | None, Any]]) -> Mapping[str, Any] | None:
-    """Return the model with these elements; None without elements, or if an element occurs twice."""
+def _is_doubled(facts: Iterable[tuple[str, str | None, Any]]) -> bool:
+    """Return whether an element occurs twice."""
+    return any(count > 1 for count in Counter((part, name) for part, name, _ in facts).values())
+
+
+def _model(facts: Iterable[tuple[str, str | None, Any]]) -> Mapping[str, Any] | None:
+    """Return the model with these elements, the last ones of each name; None without elements."""
     elements = {(part, name): element for part, name, element in facts}
-    if not facts or len(elements) < len(facts):
+    if not elements:
         return None
     model = {part: element for (part, name), element in elements.items() if name is None}
     for (part, name), element in elements.items():

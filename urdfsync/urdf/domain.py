@@ -25,7 +25,8 @@ from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.diff.meanings import describe
-from urdfsync.urdf.diff.renames import find_features, find_shapes
+from urdfsync.urdf.diff.renames import find_features
+from urdfsync.urdf.diff.shapes import keep_numbers
 from urdfsync.urdf.kinematics.loops import find_loop_findings
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
@@ -133,7 +134,7 @@ class UrdfDomain(Domain):
 
         return convert(dependency, file, content, others)
 
-    features, numbered = staticmethod(find_features), staticmethod(find_shapes)
+    features, numbered = staticmethod(find_features), staticmethod(keep_numbers)
 
     def drawing(
         self,

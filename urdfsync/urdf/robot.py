@@ -10,8 +10,8 @@ would take a third of the daemon's time for a changed mass.
 
 # no `from __future__ import annotations`: msgspec would compile each annotation, which takes 5 of 250 ms of a build
 import operator
-from collections.abc import Mapping
-from typing import Annotated, Literal, NamedTuple, TypeAlias, get_args
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal, NamedTuple, TypeAlias, TypeVar, get_args
 
 import msgspec
 from msgspec.structs import replace
@@ -198,6 +198,8 @@ class Visual(msgspec.Struct, frozen=True, gc=False):
     origin: Origin = Origin()
     name: str = ""
     material: Material | None = None
+    number: Annotated[int, msgspec.Meta(ge=1)] | None = None
+    """The lasting number in the names of its components; None for its place among the link's visuals."""
 
 
 class Collision(msgspec.Struct, frozen=True, gc=False):
@@ -206,6 +208,21 @@ class Collision(msgspec.Struct, frozen=True, gc=False):
     geometry: Geometry
     origin: Origin = Origin()
     name: str = ""
+    number: Annotated[int, msgspec.Meta(ge=1)] | None = None
+    """The lasting number in the names of its components; None for its place among the link's collisions."""
+
+
+_Shape = TypeVar("_Shape", Visual, Collision)
+
+
+def shape_numbers(shapes: Sequence[Visual | Collision]) -> list[int]:
+    """Return the number of each of the visuals, or of the collisions, of a link."""
+    return [shape.number or place for place, shape in enumerate(shapes, 1)]
+
+
+def by_number(shapes: Sequence[_Shape]) -> dict[int, _Shape]:
+    """Return the visuals or collisions of a link by their numbers, in the order of the numbers."""
+    return dict(sorted(zip(shape_numbers(shapes), shapes, strict=True), key=operator.itemgetter(0)))
 
 
 class Inertia(msgspec.Struct, frozen=True, gc=False):

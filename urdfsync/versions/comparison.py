@@ -316,6 +316,7 @@ def _with_version(
         effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
         news = differences if differences.changes else None
         return Comparison(result, name, against, changes=news, effects=effects, is_pair=True)
+    new = msgspec.structs.replace(new, snapshot=domain.numbered(new, [old], lambda _: matching.renames))
     findings = [*judge(domain, new, reading, current.text.name, old, differences)]
     findings += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
     findings = [current.text.locate(finding) for finding in findings if finding.is_new]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -166,6 +166,24 @@ def test_each_of_two_changes_of_one_shape_has_its_own_class() -> None:
 
     found = {str(change).rpartition(" / ")[2]: change.change_class for change in changes(edit)}
     assert found == {"size[0]": PARAMETER, "name": UNMODELLED}
+
+
+@pytest.mark.parametrize(
+    ("numbers", "expected"),
+    [
+        ((2, 1), {"link base / collision 2 / origin / xyz[0]": PARAMETER}),
+        ((2,), {"link base / collision 2 / origin / xyz[0]": PARAMETER, "link base / collision 1": STRUCTURAL}),
+        ((3, 1), {"link base / collision 3": STRUCTURAL, "link base / collision 2": STRUCTURAL}),
+    ],
+    ids=["exchanged", "removed", "replaced"],
+)
+def test_shapes_are_told_by_their_lasting_numbers(numbers: Sequence[int], expected: Mapping[str, ChangeClass]) -> None:
+    def edit(data: Data) -> None:
+        first, second = data["links"]["base"]["collisions"]
+        shapes = {1: first, 2: second | {"origin": {"xyz": [1, 0, 0]}}, 3: first | {"name": "new"}}
+        data["links"]["base"]["collisions"] = [shapes[number] | {"number": number} for number in numbers]
+
+    assert {" / ".join(change.path): change.change_class for change in changes(edit)} == expected
 
 
 def test_a_value_that_only_one_version_models_is_modelled() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -257,6 +257,17 @@ def as_read(sound: Package, wrong: Callable[[Robot], Robot], **options: Any) -> 
     mesh = sound.robot
     package = generate_robot(wrong(mesh), BOT, base="floating", approach=("package", "record"), **options)
     return dataclasses.replace(package, facts=sound.facts)
+
+
+def test_shapes_are_compared_by_their_lasting_numbers(sound: Package) -> None:
+    shapes = {"visuals": lambda own: renumbered(own.visuals), "collisions": lambda own: renumbered(own.collisions)}
+    package = as_read(dataclasses.replace(sound, facts={}), of("links", "arm", **shapes))
+    assert any(" visual7(" in text for text in package.texts.values())
+    assert not of_package(package, URDF.encode(), package.texts).differences
+
+
+def renumbered(shapes: Sequence[Any]) -> tuple[Any, ...]:
+    return tuple(replace(shape, number=7 - place) for place, shape in enumerate(shapes))
 
 
 @pytest.mark.parametrize("fault", READER)

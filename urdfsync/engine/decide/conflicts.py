@@ -39,7 +39,7 @@ class Conflict(msgspec.Struct, frozen=True):
     names: Mapping[str, str] = {}
     """New names by old names, with which `merge` was made."""
     renamed: str = ""
-    """The new names and numbers of the parts in the file, as a clause; empty if all have their names and numbers."""
+    """The new names of the elements in the file, as a clause; empty if all have their names."""
     refused: Mapping[Choice, str] = {}
     """The choices of `PREFERENCES` that would bring an unknown name into the file, each with the reason as a clause."""
     is_of_branches: bool = False

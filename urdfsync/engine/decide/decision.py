@@ -53,8 +53,6 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
     """Unknown names and syntax errors in the user's files."""
     names: Mapping[str, str] = {}
     """New names by old names, from before the choices (see `Triage.names`)."""
-    outdated: frozenset[str] = frozenset()
-    """Hashes of confirmed texts that use numbers of parts from before this export."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -80,14 +78,13 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     _refuse_markers(files, actions, (key for key, text in orders.texts.items() if find_markers(text)))
     value_only_keys: Collection[str] = ()
     # if names were exchanged, each build would move edits again
-    if any(action.is_conflict for action in actions) and not (differences.has_exchanges or triaged.renumbered):
+    if any(action.is_conflict for action in actions) and not differences.has_exchanges:
         after = PackageAfter(inputs, package, actions, followed.texts)
         value_only_keys = _find_value_only(after, differences.changes, followed.conflicts)
     both = (*actions, *orders.actions)
     all_actions = Actions(put_off(both, value_only_keys, triaged.origins, has_moved=inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     texts = {**orders.texts, **followed.texts}
-    of_parts = [action for action in all_actions if action.is_conflict and triaged.renumbered.components(action)]
     new_conflicts = followed.conflicts.keys() - merged.conflicts.keys()
     misfits = look_for_misfits(PackageAfter(inputs, package, all_actions, texts))
     return Decision(
@@ -99,7 +96,6 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
         shared=tuple(file for file in orders.shared if files.key(file.path) not in waiting),
         misfits=tuple(one for one in misfits if one.key not in new_conflicts or one.use is None),
         names=inputs.settled.names or triaged.names,
-        outdated=frozenset(str(one.mine) for one in of_parts if not inputs.last.has_written(str(one.mine))),
     )
 
 

@@ -16,7 +16,6 @@ from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.decide.parts import is_of_part, other_meanings
-from urdfsync.engine.decide.renumbered import Renumbered
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.commits import Commit
 from urdfsync.engine.inspect.inputs import Inputs
@@ -32,7 +31,6 @@ def find_doubts(
     inputs: Inputs,
     generation: Generation,
     differences: Differences,
-    renumbered: Renumbered,
     actions: Iterable[Action],
 ) -> dict[str, Doubt]:
     """Return the doubts whether edited files belong to the same elements as before, by key."""
@@ -44,7 +42,7 @@ def find_doubts(
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
-        doubts[action.path] = _doubt(inputs, generation, differences, renumbered, action)
+        doubts[action.path] = _doubt(inputs, generation, differences, action)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
     doubts |= open_doubts
     unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
@@ -55,7 +53,7 @@ def find_doubts(
         lines, read = _added_lines(inputs, package := generation.package, action), (inputs, package, differences.ids)
         for found in (others, *(_meanings_in(*read, commit, action, lines) for commit in inputs.commits)):
             if (element := _element(action)) is None:
-                doubt = _named(inputs, lines, found, renumbered, generation.now.snapshot) if found else None
+                doubt = _named(inputs, lines, found, generation.now.snapshot)
             else:
                 doubt = found.get(element)
             doubts[action.path] = doubts.get(action.path) or doubt
@@ -96,14 +94,12 @@ def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Actio
     return {action.path: asked[action.path].doubt for action in edits}
 
 
-def _doubt(
-    inputs: Inputs, generation: Generation, differences: Differences, renumbered: Renumbered, action: Action
-) -> Doubt | None:
+def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:
     """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
     found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
-        lines = _added_lines(inputs, generation.package, action) if found or renumbered else ()
-        return _named(inputs, lines, found, renumbered, generation.now.snapshot)
+        lines = _added_lines(inputs, generation.package, action) if found else ()
+        return _named(inputs, lines, found, generation.now.snapshot)
     if element in found:
         return found[element]
     if moved_to := differences.renames.get(element):  # the file can't move to the new name
@@ -145,15 +141,13 @@ def _named(
     inputs: Inputs,
     lines: Iterable[str],
     doubts: Mapping[ElementKey, Doubt],
-    renumbered: Renumbered,
     snapshot: Snapshot,
 ) -> Doubt | None:
-    """Return the doubt about the first doubtful element or part in these lines of a common file; None without one."""
-    if not (doubts or renumbered):
+    """Return the doubt about the first doubtful element in these lines of a common file; None without one."""
+    if not doubts:
         return None
     elements = elements_by_identifier(inputs.domain, snapshot, inputs.last.target)
     code = text_of(code_of("\n".join(lines).encode()))
     words = dict.fromkeys(re.findall(r"\w+", code))
-    found = list(filter(None, (elements.get(identifier_of(word, elements)) for word in words)))
-    of_elements = (doubts[key] for key in found if key in doubts)
-    return next(of_elements, None) or renumbered.doubt(words, [" ".join(key) for key in found])
+    found = filter(None, (elements.get(identifier_of(word, elements)) for word in words))
+    return next((doubts[key] for key in found if key in doubts), None)

@@ -10,7 +10,7 @@ import msgspec
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Choice, Reason
 from urdfsync.engine.decide.conflicts import PREFERENCES, Conflict, Verdicts, find_conflict, only_names_changed, resolve
-from urdfsync.engine.decide.differences import GONE, Differences
+from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.misfits import look_for_misfits
 from urdfsync.engine.decide.package_after import PackageAfter, keep_needed
 from urdfsync.engine.decide.package_names import known_names, names_of
@@ -43,7 +43,7 @@ def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differe
 
 def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: Triage) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder, *mine* is its `package.mo`."""
-    doubt, names, renumbered = triaged.doubts.get(action.path), triaged.names, triaged.renumbered
+    doubt, names = triaged.doubts.get(action.path), triaged.names
     key, files, last = action.origin or action.path, inputs.files, inputs.last
     path = inputs.folder.path(action.path)
     mine, generated = files.text(key), generation.package.content(path).decode()
@@ -66,15 +66,7 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: T
     words = words_in(base or "")
     if not names and words and last.record.former:
         names = _names_since_undo(inputs, generation, action, frozenset(words))
-    numbers = renumbered.names(action, words)
-    conflict = find_conflict(action, base, mine, generated, {**names, **numbers})
-    proposal = conflict.merge.proposal if conflict.merge else ""
-    for name, new in numbers.items():
-        if GONE in new and new in proposal:  # no answer may write this name
-            rejected = f"`{name}` is another part now, and the export has no part like the one that you edited"
-            without = conflict.merge and conflict.merge.rejected
-            return msgspec.structs.replace(conflict, merge=without, rejected=rejected)
-    return msgspec.structs.replace(conflict, renamed=renumbered.describe(action, numbers)) if numbers else conflict
+    return find_conflict(action, base, mine, generated, names)
 
 
 def _names_since_undo(

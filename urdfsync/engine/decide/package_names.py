@@ -107,8 +107,7 @@ def describe_renames(
         used = conflict.names.keys() & {*words_in(conflict.base or ""), *words_in(conflict.mine)}
         pairs = [(old, elements.get(identifiers.get(old, ""))) for old in {identifier_of(n, identifiers) for n in used}]
         told = sorted(f"{element[0]} {old} renamed to {element[1]}" for old, element in pairs if element)
-        clause = "; ".join(filter(None, [", ".join(told), conflict.renamed]))
-        described[key] = msgspec.structs.replace(conflict, renamed=clause)
+        described[key] = msgspec.structs.replace(conflict, renamed=", ".join(told))
     return described
 
 

@@ -128,8 +128,6 @@ def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
     subject = f"it uses `{name}`, which" if is_used else f"`{name}`"
     if doubt.is_named_alike:
         return f"{subject} may be another part now: only its name is as before"
-    if doubt.part:
-        return f"`{doubt.part}` of `{name}` may be another part now: the export counts anew"
     if doubt.is_certain:
         return f"{subject} is another part now{f', the former `{doubt.former}`' if doubt.former else ''}"
     if doubt.former and not aspects:

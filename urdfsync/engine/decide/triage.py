@@ -10,12 +10,10 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DISPUTED, Action, Reason
-from urdfsync.engine.decide.conflicts import find_conflict
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.doubts import find_doubts
 from urdfsync.engine.decide.package_names import renamed_names
 from urdfsync.engine.decide.parts import is_of_part
-from urdfsync.engine.decide.renumbered import NOT_RENUMBERED, Renumbered, find_renumbered
 from urdfsync.engine.decide.rules import File, decide
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
@@ -33,7 +31,6 @@ class Triage(NamedTuple):
     origins: frozenset[str]
     """The former keys of files whose elements have other names."""
     doubts: Mapping[str, Doubt]
-    renumbered: Renumbered
     names: Mapping[str, str]
     """New names by old names; empty if no edit, no text in `aside` and no use of an exchanged name needs them."""
 
@@ -42,17 +39,15 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
     """Decide on every file by hashes; ask about edits that may belong to other parts."""
     package, origins = generation.package, frozenset(differences.moves.values())
     decided = decide(_find_files(inputs, generation, differences), differences.moves)
-    edits = [one for one in decided if one.reason in DISPUTED | {Reason.KEEP} and one.role is not Role.IMPORT]
-    renumbered = find_renumbered(inputs, generation, differences, edits) if edits else NOT_RENUMBERED
-    doubts = {**renumbered.doubts(edits), **find_doubts(inputs, generation, differences, renumbered, decided)}
+    doubts = find_doubts(inputs, generation, differences, decided)
     actions = tuple(_adjust(inputs, package, action, doubts, differences.ids) for action in decided)
     names: Mapping[str, str] = {}
     is_disputed = any(one.reason in DISPUTED and one.role is not Role.IMPORT for one in actions)
     if differences.other_elements or inputs.last.aside or is_disputed:
         names = renamed_names(inputs, generation, differences)
-    if differences.other_elements or renumbered:
-        actions = tuple(_with_other_names(inputs, package, actions, names, renumbered))
-    return Triage(actions, origins, doubts, renumbered, names)
+    if differences.other_elements:
+        actions = tuple(_with_other_names(inputs, package, actions, names))
+    return Triage(actions, origins, doubts, names)
 
 
 def _find_files(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, File]:
@@ -114,7 +109,7 @@ def _adjust(
 
 
 def _with_other_names(
-    inputs: Inputs, package: Package, actions: Iterable[Action], names: Mapping[str, str], renumbered: Renumbered
+    inputs: Inputs, package: Package, actions: Iterable[Action], names: Mapping[str, str]
 ) -> Iterator[Action]:
     """Yield the actions. An edit that uses an outdated name is merged, even if the generated text did not change."""
     for action in actions:
@@ -128,9 +123,6 @@ def _with_other_names(
             words, is_settled = words_in(generated), action.mine in inputs.last.record.confirmed
             mine = Counter(words_in(text))
             mine.subtract(words)
-            is_outdated = not is_settled and any(count > 0 and word in names for word, count in mine.items())
-            if not is_outdated and (numbers := renumbered.names(action, words)):
-                is_outdated = find_conflict(action, generated, text, generated, numbers).merged(None) != text
-            if is_outdated:
+            if not is_settled and any(count > 0 and word in names for word, count in mine.items()):
                 action = msgspec.structs.replace(action, reason=Reason.CONFLICT)
         yield action

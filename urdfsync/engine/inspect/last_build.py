@@ -133,6 +133,16 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return None if snapshot is None else Version(snapshot, imports, self.options)
 
     @cached_property
+    def formers(self) -> tuple[Version, ...]:
+        """The versions with the numbers of parts: of the last, incomplete build, then of the complete one.
+
+        If git has doubled an element, this is a version with each of its values.
+        """
+        models = map(self.read, self.record.variants) if self.version is None else (self.version.snapshot,)
+        imports = {key: file.entry for key, file in self.imports.items()}
+        return tuple(Version(model, imports) for model in (self.seen, *models) if model is not None)
+
+    @cached_property
     def elements(self) -> Mapping[ElementKey, Features]:
         """The elements of the model; empty without a model."""
         return {} if self.version is None else self._domain.features(self.version.snapshot)

@@ -88,8 +88,7 @@ def _open_record(
     questions = (action for action in decision.actions if action.reason is Reason.ASKED)
     asked = {one.path: Question(one.mine or "", decision.doubts[one.path]) for one in questions}
     # a decision about an earlier export does not answer a question, not in the next build either
-    outdated = decision.outdated.union(question.mine for question in asked.values())
-    confirmed |= old.confirmed.difference(outdated)
+    confirmed |= old.confirmed.difference(question.mine for question in asked.values())
     renames = decision.differences.undeclared
     new = msgspec.structs.replace(
         old,

@@ -24,7 +24,19 @@ from urdfsync.urdf.model.joint import joint_model
 from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.catalogue import NUMBERS
-from urdfsync.urdf.robot import MOTION_KINDS, Collision, Joint, Link, Mesh, UnitName, Visual, effective, structure
+from urdfsync.urdf.robot import (
+    MOTION_KINDS,
+    Collision,
+    Joint,
+    Link,
+    Mesh,
+    UnitName,
+    Visual,
+    by_number,
+    effective,
+    shape_numbers,
+    structure,
+)
 
 _Fields: TypeAlias = Sequence[str | int]
 
@@ -86,8 +98,8 @@ def _describe(difference: Difference, old: _RobotVersion, new: _RobotVersion, op
             return difference.change((f"{part[:-1]} {name}",), ChangeClass.STRUCTURAL)
         case ("links", str(name), *fields):
             words = [f"link {name}", *fields]
-            if fields[0] in _SHAPES and len(fields) > 1:  # visuals[0] is `visual 1`
-                words[1:3] = [f"{str(fields[0])[:-1]} {int(fields[1]) + 1}"]
+            if fields[0] in _SHAPES and len(fields) > 1:
+                words[1:3] = [f"{str(fields[0])[:-1]} {fields[1]}"]
             return difference.change(
                 _path(words), _reach(old.links[name], new.links[name], difference, old, new, options), _unit(fields)
             )
@@ -214,6 +226,15 @@ def _exchanged(value: Any, other: Any, fields: _Fields) -> Any:
     if not fields or type(value) is not type(other):
         return other
     field, *inside = fields
+    if field in _SHAPES and inside:
+        number, *parts = inside
+        shapes, others = getattr(value, field), by_number(getattr(other, field))
+        if number in others and number in shape_numbers(shapes):
+            other_shape = msgspec.structs.replace(others[number], number=number)
+            numbered = zip(shape_numbers(shapes), shapes, strict=True)
+            new = tuple(_exchanged(shape, other_shape, parts) if n == number else shape for n, shape in numbered)
+            return msgspec.structs.replace(value, **{field: new})
+        inside = []
     if isinstance(field, str):
         part = _exchanged(getattr(value, field), getattr(other, field), inside)
         return msgspec.structs.replace(value, **{field: part})

@@ -1,4 +1,4 @@
-"""Finds the features that identify renamed links, joints, loops and shapes, and renames elements of a robot."""
+"""Finds the features that identify renamed links, joints and loops, and renames elements of a robot."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import Any, TypeAlias
 from msgspec import to_builtins
 from msgspec.structs import replace
 
-from urdfsync.domain import ElementKey, Features, Numbered, Version, displaced, plain
+from urdfsync.domain import ElementKey, Features, displaced, plain
 from urdfsync.urdf.drives import can_be_driven, passive_joints
-from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.robot import SENSOR_KINDS, STATED_ELSEWHERE, Collision, Link, Mesh, Robot, Visual
+from urdfsync.urdf.robot import SENSOR_KINDS, STATED_ELSEWHERE, Collision, Link, Mesh, Robot, Visual, by_number
 
 _Said: TypeAlias = tuple[Any, Mapping[str, str]]
 """An element and further facts about the element."""
 _KINDS = ("links", "joints", "sensors", "loops")
 _NAMES = frozenset({"name", "parent", "child"})
+_NAMING = frozenset({"name", "joint", "filename", "number"})
 _ENDS = {"parent": "link", "child": "link", "joint": "joint"}
 """Fields that name another element, with the kind of this element."""
 _MENTIONING = ("mimic", "transmission")
@@ -36,7 +36,7 @@ def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
     for link in snapshot.links:
         shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
         contents = {"mass": to_builtins(link.inertial), "contact": to_builtins(link.contact)}
-        contents["shape"] = [_without_names(to_builtins(shape)) for shape in shapes]
+        contents["shape"] = [without_names(to_builtins(shape)) for shape in shapes]
         contents = {aspect: content for aspect, content in contents.items() if content}
         files = tuple(shape.geometry.filename for shape in shapes if isinstance(shape.geometry, Mesh))
         neighbours = {"joint": ("joint", leading[link.name])} if link.name in leading else {}
@@ -45,7 +45,7 @@ def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
         for element in elements:
             data = {key: value for key, value in to_builtins(element).items() if value is not None}
             contents = {"position": {key: value for key, value in data.items() if key in _PLACE}}
-            more = {key: _without_names(data[key]) for key in data.keys() - _PLACE - _NAMES - STATED_ELSEWHERE}
+            more = {key: without_names(data[key]) for key in data.keys() - _PLACE - _NAMES - STATED_ELSEWHERE}
             contents |= {"limits": more} if more else {}
             ends: dict[str, ElementKey] = {"child": ("link", element.child), "parent": ("link", element.parent)}
             existing = {relation: end for relation, end in ends.items() if end in features}
@@ -53,40 +53,10 @@ def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
     return features
 
 
-def find_shapes(old: Version, new: Version) -> tuple[Numbered, Numbered]:
-    """Return the shapes of the links of two versions.
-
-    A mesh of both versions is known by its contents, since exporters number files, too. Other meshes have their names.
-    """
-    hashes = [{name: file.source_hash for name, file in (version.imports or {}).items()} for version in (old, new)]
-    shared = set(hashes[0].values()) & set(hashes[1].values())
-    found = list[Numbered]()
-    for version, files in zip((old, new), hashes, strict=True):
-        known = {name: sha256 for name, sha256 in files.items() if sha256 in shared}
-        found.append({("link", link.name): dict(_shapes(link, known)) for link in version.snapshot.links})
-    return found[0], found[1]
-
-
-def _shapes(link: Link, meshes: Mapping[str, str]) -> Iterator[tuple[str, tuple[ElementKey, Features]]]:
-    """Yield the shapes of a link; a contact with the ground goes with its collision. `meshes` has hashes of files."""
-    kinds: Mapping[str, Sequence[Visual | Collision]] = {
-        "visual": link.visuals,
-        "collision": link.collisions,
-        "contact": link.collisions,
-    }
-    for kind, shapes in kinds.items():
-        names = Counter(shape.name for shape in shapes)
-        for number, shape in enumerate(shapes, 1):
-            contents = _without_names(to_builtins(shape))
-            if isinstance(shape.geometry, Mesh):
-                contents["file"] = meshes.get(lookup.key(shape.geometry), shape.geometry.filename)
-            name = shape.name if names[shape.name] == 1 and shape.name else f"#{number}"
-            yield f"{kind}{number}", ((kind, name), Features(contents, {}))
-
-
-def _without_names(value: Any) -> Any:
+def without_names(value: Any) -> Any:
+    """Return plain data without names, and without the numbers of shapes."""
     if isinstance(value, dict):
-        return {key: _without_names(item) for key, item in value.items() if key not in ("name", "joint", "filename")}
+        return {key: without_names(item) for key, item in value.items() if key not in _NAMING}
     return value
 
 
@@ -155,6 +125,9 @@ def _differing(elements: Mapping[tuple[str, str], Any], others: Mapping[tuple[st
     for key, value in elements.items():
         if others.get(key) != value:
             data = {word: item for word, item in (plain(value[0]) or {}).items() if word not in _LEFT_OUT}
+            for kind in ("visuals", "collisions") if isinstance(value[0], Link) else ():
+                shapes = by_number(getattr(value[0], kind))
+                data[kind] = {number: plain(replace(shape, number=None)) for number, shape in shapes.items()}
             parts[key[0]][key[1]] = data | value[1]
     return parts
 

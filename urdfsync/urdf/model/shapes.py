@@ -27,6 +27,7 @@ from urdfsync.urdf.robot import (
     Primitive,
     Sphere,
     Visual,
+    by_number,
 )
 
 _Body: TypeAlias = Primitive | Sequence[Sequence[float]]
@@ -41,17 +42,17 @@ def link_shapes(
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """Return a link's visuals and collisions, each with all data for models and records.
 
-    A shape whose mesh is not imported is left out. Shapes are numbered as in the URDF: if a mesh is found later, other
-    shapes keep their names. If the base is floating, each collision can touch the ground, except a mesh without
+    A shape whose mesh is not imported is left out; it has a number, so other shapes keep their names if the mesh is
+    found later. If the base is floating, each collision can touch the ground, except a mesh without
     outermost points.
     """
     visuals: list[dict[str, Any]] = []
-    for number, visual in enumerate(link.visuals, 1):
+    for number, visual in by_number(link.visuals).items():
         for part in _visual(number, visual, imports, package):
             part["y"] = _ROW * (len(visuals) + 1)
             visuals.append(part)
     collisions: list[dict[str, Any]] = []
-    for number, collision in enumerate(link.collisions if options.collisions else (), 1):
+    for number, collision in by_number(link.collisions if options.collisions else ()).items():
         if shape := _shape("collision", number, collision, imports, package):
             shape.update(y=-_ROW * (len(collisions) + 1), is_collision=True, color=PINK, opacity=0.5)
             if options.base == "floating":
