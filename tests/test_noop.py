@@ -134,10 +134,13 @@ def test_what_has_to_run(folder: Path, command: list[str], capsys: Capture) -> N
     assert saved(*command) is None
 
 
-def test_after_a_build_that_wrote_nothing_has_to_run(folder: Path) -> None:
+@pytest.mark.parametrize("command", [BUILD, CHECK, STATUS])
+def test_after_a_build_that_wrote_one_more_command_has_to_run(folder: Path, command: list[str]) -> None:
     save(*BUILD)
     Path(LEG).unlink()
-    assert cli.main(BUILD) == 0
+    for _ in range(2):
+        assert saved(*BUILD) is None
+        assert cli.main(BUILD if Path(LEG).exists() is False else command) == 0
     lines = saved(*BUILD)
     assert lines is not None
     assert [f"{robot}: {words}" for robot, words, *_ in lines] == IN_STEP.splitlines()

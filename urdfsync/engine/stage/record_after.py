@@ -114,10 +114,10 @@ def _brought(inputs: Inputs, renames: Mapping[ElementKey, str]) -> Mapping[str, 
 def notes_after(
     inputs: Inputs,
     generation: Generation,
+    decision: Decision,
     record: Record,
     saved: Iterable[Aside],
     conflicts: SavedConflicts,
-    edited: Mapping[str, str],
     uses: Mapping[str, Use],
 ) -> Notes:
     """Return this machine's notes with the results of this build; `record` is the new record.
@@ -129,6 +129,7 @@ def notes_after(
     recorded |= {bare_hash(encode(model)) for aside in saved for model in aside.beside.values()}  # for `--undo`
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
+    edited = {one.path: one.mine for one in decision.actions if one.reason in EDITED and one.mine}
     model, is_dry = hash_of(record.snapshot), inputs.options.dry
     is_written = not is_dry or model == old.model
     return Notes(
