@@ -64,9 +64,10 @@ class FactList:
                 yield entry
 
     def aged(self) -> FactList:
-        """Return the list without contents, if all its files are old now."""
-        now, entries = time.time_ns(), zip(self.entries, self._hashes, strict=True)
-        if any(is_young(look(*entry), now) for entry, sha256 in entries if sha256 != _OLD):
+        """Return the list without contents once all its files are old; else the same list."""
+        now = time.time_ns()
+        young = [entry for entry, sha256 in zip(self.entries, self._hashes, strict=True) if sha256 != _OLD]
+        if not young or any(is_young(look(*entry), now) for entry in young):
             return self
         return FactList(self.entries, self._facts, [_OLD] * len(self.entries))
 
@@ -78,11 +79,6 @@ class FactList:
         """Return a list with the entries of both."""
         pairs = ((self.entries, other.entries), (self._facts, other._facts), (self._hashes, other._hashes))
         return FactList(*([*own, *others] for own, others in pairs))
-
-    @property
-    def is_old(self) -> bool:
-        """Whether stat values alone tell each change."""
-        return set(self._hashes) <= {_OLD}
 
     def can_be_saved(self) -> bool:
         """Whether the contents of all young files are known, and a text can hold all paths."""
@@ -159,13 +155,16 @@ def _text(content: bytes) -> str:
     return content.decode("utf-8", "surrogateescape")
 
 
-def find_change(folder: str, name: str, record: DependencyRecord, seen: dict[Entry, Facts]) -> Entry | None:
-    """Return the first entry of a record that has changed; None if all is as it was. `seen`: see `FactList.look`."""
+def recall(folder: str, name: str, key: str, seen: dict[Entry, Facts]) -> DependencyRecord | None:
+    """Return the record of this name if it has this key, and nothing has changed since; `seen`: see `FactList.look`."""
+    found = load(folder, name)
     # the source, which changes most, is among the first entries: further ones are not looked at
-    change = next(record.facts.changes(record.facts.look(seen)), None)
-    if change is None and not record.facts.is_old and (aged := record.facts.aged()).is_old:
-        DependencyRecord(record.key, aged, record.words, record.result).save(folder, name)
-    return change
+    if found is None or found.key != key or any(found.facts.changes(found.facts.look(seen))):
+        return None
+    if (aged := found.facts.aged()) is not found.facts:
+        found.facts = aged
+        found.save(folder, name)
+    return found
 
 
 _folders_with_times: dict[str, bool] = {}

@@ -70,8 +70,8 @@ def recall(config: Config, robot: RobotConfig, key: str, seen: dict[Entry, Facts
     `seen` has facts that were looked at just now, and gets the others.
     """
     folder, name = str(config.root / STATE_FOLDER), f"{robot.name}{noop.ROBOT}"
-    found = record.load(folder, name) if key else None
-    if found is None or found.key != key or record.find_change(folder, name, found, seen):
+    found = record.recall(folder, name, key, seen) if key else None
+    if found is None:
         return None
     try:
         stored = msgspec.msgpack.decode(found.result, type=_Stored)
