@@ -297,7 +297,7 @@ def test_once_its_files_are_old_stat_values_tell(folder: Path, monkeypatch: pyte
             assert cli.main(BUILD) == 0
         assert remembered_robot("leg")
         with monkeypatch.context() as counted:
-            counted.setattr(record, "hash_file", compared := mock.Mock(side_effect=record.hash_file))
+            counted.setattr(record, "hash_file", compared := mock.Mock(side_effect=facts.hash_file))
             assert remembered_robot("leg")
             assert compared.called
     time.sleep(0.1)
