@@ -113,20 +113,14 @@ def is_in_step(config_file: str) -> bool:
 
 def robot_keys(config_file: str, seen: dict[Entry, Facts]) -> dict[str, str] | None:
     """Return what `remember` got: the key of each robot's record by name; None if the configuration has to be read."""
-    folder, name = _state_folder(config_file), _name(config_file)
-    known = record.load(folder, name)
-    if known is None or known.key != record.surroundings() or record.find_change(folder, name, known, seen):
-        return None
-    return dict(zip(known.words[::2], known.words[1::2], strict=True))
+    known = record.recall(_state_folder(config_file), _name(config_file), record.surroundings(), seen)
+    return dict(zip(known.words[::2], known.words[1::2], strict=True)) if known else None
 
 
 def _words(folder: str, robot: str, key: str, command: str, seen: dict[Entry, Facts]) -> Sequence[str] | None:
     """Return the words of a robot's record, if it holds and has all that a command would say; else None."""
-    name = f"{robot}{ROBOT}"
-    known = record.load(folder, name)
-    if known is None or known.key != key or len(known.words) < 3 or command not in known.words[1].split():
-        return None
-    return None if record.find_change(folder, name, known, seen) else known.words
+    known = record.recall(folder, f"{robot}{ROBOT}", key, seen)
+    return known.words if known and len(known.words) >= 3 and command in known.words[1].split() else None
 
 
 def _state_folder(config_file: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import subprocess
 from pathlib import Path
 
@@ -87,28 +86,6 @@ def test_a_build_lists_what_it_wrote_as_it_is_then(project: Path) -> None:
     assert list(facts.changes(facts.look())) == []
     (project / RECORD).write_text("changed")
     assert list(facts.changes(facts.look())) == [(PATH, str(project / RECORD))]
-
-
-@pytest.mark.parametrize("first_build", ["before the plan", "during it", "after it"])
-def test_the_build_of_another_robot_may_make_the_folder_around_both(tmp_path: Path, first_build: str) -> None:
-    around, own = tmp_path / "modelica", tmp_path / "modelica" / "Own"
-    with reads.Reads() as found:
-        if first_build == "before the plan":
-            around.mkdir()
-        reads.is_folder(around)
-        if first_build == "during it":
-            around.mkdir()
-        for folder in (tmp_path, around, own):
-            with contextlib.suppress(FileNotFoundError):
-                reads.scan_modelica(folder)
-        reads.is_folder(own)
-    own.mkdir(parents=True)
-    (own / "package.mo").write_text("package Own end Own;")
-    found = found.renewed({str(own / "package.mo"): "hash"}, str(own))
-    assert found.complete
-    (tmp_path / "Theirs").mkdir()
-    found = found.renewed({str(own / "package.mo"): "hash"}, str(own))
-    assert not found.complete
 
 
 # Links

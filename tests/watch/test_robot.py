@@ -82,9 +82,7 @@ def test_what_a_build_wrote_has_not(robot: WatchedRobot, folder: Path) -> None:
     reads = read(folder)
     for name in ("New.mo", "Arm.mo"):
         Path(name).write_text("written")
-    reads = reads.renewed(
-        {str(folder / name): hash_content(b"written") for name in ("New.mo", "Arm.mo")}, str(folder / "Arm")
-    )
+    reads.renew({str(folder / name): hash_content(b"written") for name in ("New.mo", "Arm.mo")})
     robot.take(FactList.of(reads), FactList())
     robot.look()
     assert not robot.has_changed

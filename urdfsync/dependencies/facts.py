@@ -41,8 +41,8 @@ UNMERGED = "unmerged"
 """The fact of git's index: its unmerged files. Other changes of the index change no result."""
 Entry = tuple[str, str]
 """A kind of fact, and the path or the variable's name."""
-NOTHING, FOLDER = (0,), (stat.S_IFDIR,)
-"""The facts of a path without a file, and of one with a folder."""
+NOTHING = (0,)
+"""The facts of a path without a file."""
 
 
 def facts_of(kind: str, path: str | os.PathLike[str]) -> Facts:
@@ -54,7 +54,8 @@ def facts_of(kind: str, path: str | os.PathLike[str]) -> Facts:
         return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
     if kind == UNMERGED:
         return checksum(unmerged_paths(path))
-    return checksum(list_names(kind, path))
+    with os.scandir(place(path)) as scanned:
+        return checksum(counting_entries(kind, scanned))
 
 
 def look(kind: str, path: str | os.PathLike[str]) -> Facts:
@@ -115,12 +116,6 @@ def failed(error: OSError) -> Facts:
 def stat_of(status: os.stat_result) -> Stat:
     """Return the stat values that differ after a change."""
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
-
-
-def list_names(kind: str, folder: str | os.PathLike[str]) -> set[str]:
-    """Return the names in a folder that count for a kind of listing. Raises OSError."""
-    with os.scandir(place(folder)) as scanned:
-        return counting_entries(kind, scanned)
 
 
 def counting_entries(kind: str, scanned: Iterable[os.DirEntry[str]]) -> set[str]:

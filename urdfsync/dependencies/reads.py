@@ -15,23 +15,19 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextvars import ContextVar, Token
 
 from urdfsync.dependencies.facts import (
-    FOLDER,
     MODELICA,
     NAMES,
-    NOTHING,
     PATH,
     UNMERGED,
     VARIABLE,
     Entry,
     Facts,
     checksum,
-    counting,
     counting_entries,
     facts_of,
     failed,
     hash_content,
     is_young,
-    list_names,
     look,
     read_unrecorded,
     unmerged_paths,
@@ -83,69 +79,22 @@ class Reads:
         """Return the paths of the files that were read, or looked for in vain."""
         return [path for kind, path in self.entries if kind == PATH]
 
-    def renewed(self, written: Mapping[str, str | None], package: str) -> Reads:
-        """Return the list with new facts of written files and of folders around them, and with new folders.
+    def renew(self, written: Mapping[str, str | None]) -> None:
+        """Take the present facts of files that the build has written, and of the folders around them.
 
-        `written` has the hash of each file by path, None for a deleted file. The new list is incomplete if anybody
-        else has changed one of these files or folders since the plan looked at it, or if it lacks a new folder.
+        `written` has the hash of each file by path, None for a deleted file.
         """
-        after = Reads()
-        after.entries, after.hashes, after.complete = dict(self.entries), dict(self.hashes), self.complete
-        after._renew(written, package)
-        return after
-
-    def _renew(self, written: Mapping[str, str | None], package: str) -> None:
-        before, inside = dict(self.entries), _names_by_folder(written)
-        for path, sha256 in written.items():
-            self.entries[PATH, path] = look(PATH, path)
-            self.hashes.pop((PATH, path), None)
-            if sha256 is not None:
-                self.hashes[PATH, path] = sha256
-            elif self.entries[PATH, path] != NOTHING:
-                self.complete = False
-        for folder in inside:
-            if f"{folder}/".startswith(f"{package}/") and before.get((PATH, folder)) == NOTHING:
-                before.setdefault((MODELICA, folder), NOTHING)
-        for (kind, path), facts in before.items():
-            if path in inside and kind == PATH:
-                now = self.entries[kind, path] = look(kind, path)
-                self.complete &= now == facts or {now, facts} == {NOTHING, FOLDER}
-            elif path in inside:
-                places = {name: os.path.join(path, name) for name in inside[path]}
-                self._renew_listing(kind, path, {name: place in inside for name, place in places.items()}, before)
-
-    def _renew_listing(
-        self, kind: str, folder: str, written: Mapping[str, bool], before: Mapping[Entry, Facts]
-    ) -> None:
-        """Renew the list of a folder's names; `written` has the names that may have changed, and which are folders."""
-        facts, is_folder = before[kind, folder], written.__getitem__
-        try:
-            present = list_names(kind, folder)
-            self.entries[kind, folder] = checksum(present)
-        except OSError as error:
-            present, self.entries[kind, folder] = set(), failed(error)
-        new = {name for name in written if before.get((PATH, os.path.join(folder, name)), NOTHING) == NOTHING}
-        former = present - written.keys() | counting(kind, written.keys() - new, is_folder)
-        folders = counting(kind, filter(is_folder, new), is_folder)
-        # the build of another robot may have made folders around both between two reads of the plan
-        self.complete &= facts in map(checksum, (former, former | folders)) or (facts[0] <= 0 and not former)
-        if folders:
-            listed = {(kind.partition("/")[0], path) for kind, path in before}
-            self.complete &= all((kind.partition("/")[0], os.path.join(folder, name)) in listed for name in folders)
+        around = set[str]()
+        for folder in written:
+            while (folder := os.path.dirname(folder)) not in around:
+                around.add(folder)
+        for kind, path in [*((PATH, path) for path in written), *self.entries]:
+            if path in written or path in around:
+                self.entries[kind, path] = look(kind, path)
+        self.hashes |= {(PATH, path): sha256 or "" for path, sha256 in written.items()}
 
 
 _current: ContextVar[Reads | None] = ContextVar("reads", default=None)
-
-
-def _names_by_folder(paths: Iterable[str]) -> dict[str, set[str]]:
-    """Return the names of files, and of all folders around them, by the folder that they are in."""
-    inside = dict[str, set[str]]()
-    for path in paths:
-        folder, name = os.path.split(path)
-        while name and name not in inside.setdefault(folder, set()):
-            inside[folder].add(name)
-            folder, name = os.path.split(folder)
-    return inside
 
 
 @contextlib.contextmanager

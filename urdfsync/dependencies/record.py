@@ -41,49 +41,33 @@ class FactList:
         places = [(kind, path if kind == VARIABLE else os.path.join(here, path)) for kind, path in entries]
         return cls(places, list(map(hash, entries.values())), [reads.hashes.get(entry, _OLD) for entry in entries])
 
-    def look(self) -> list[Facts]:
-        """Return the present facts of all entries."""
-        return [look(kind, path) for kind, path in self.entries]
+    def look(self, seen: dict[Entry, Facts] | None = None) -> Iterator[Facts]:
+        """Yield the present facts; `seen` has listings that were looked at just now, and gets the others.
 
-    def first_change(self, seen: dict[Entry, Facts]) -> Entry | None:
-        """Return the first changed entry; `seen` has listings that were looked at just now, and gets the others.
-
-        Robots of one package read the same folders: a fleet of 1,000 would list 1,000 names 1,000 times. Most changes
-        are of the source, which is among the first entries: in the daemon, looking at all takes a tenth of an event.
+        Robots of one package read the same folders: a fleet of 1,000 would list 1,000 names 1,000 times.
         """
-        for entry, known in zip(self.entries, self._facts, strict=True):
+        seen = {} if seen is None else seen
+        for entry in self.entries:
             kind, path = entry
             if kind == PATH:
-                facts = look(kind, path)
-            elif entry in seen:
-                facts = seen[entry]
+                yield look(kind, path)
             else:
-                facts = seen[entry] = look(kind, path)
-            if hash(facts) != known:
-                return entry
-        if self.is_old:
-            return None
-        return next((entry for number, entry in enumerate(self.entries) if not self._has_content(number)), None)
+                if entry not in seen:
+                    seen[entry] = look(kind, path)
+                yield seen[entry]
 
-    def changes(self, seen: Sequence[Facts]) -> Iterator[Entry]:
-        """Yield the entries whose facts differ from `seen`, their present facts; young files also by content."""
-        for number, (entry, facts) in enumerate(zip(self.entries, seen, strict=True)):
+    def changes(self, present: Iterable[Facts]) -> Iterator[Entry]:
+        """Yield the entries whose facts differ from the present ones, or whose files were young and have others."""
+        for entry, known, sha256, facts in zip(self.entries, self._facts, self._hashes, present, strict=True):
             # Python gives tuples of integers the same hash in each process
-            if hash(facts) != self._facts[number] or not self._has_content(number):
+            if hash(facts) != known or (sha256 != _OLD and not _has_content(entry[1], sha256)):
                 yield entry
 
-    def _has_content(self, number: int) -> bool:
-        """Return whether a file that was young still has its content; True for an old one, and for an unknown one."""
-        sha256 = self._hashes[number]
-        try:
-            return sha256 in (_OLD, "") or hash_file(self.entries[number][1]) == sha256
-        except OSError:
-            return False
-
     def aged(self) -> FactList:
-        """Return the list without contents, if all its files are old now."""
-        now, entries = time.time_ns(), zip(self.entries, self._hashes, strict=True)
-        if any(is_young(look(*entry), now) for entry, sha256 in entries if sha256 != _OLD):
+        """Return the list without contents once all its files are old; else the same list."""
+        now = time.time_ns()
+        young = [entry for entry, sha256 in zip(self.entries, self._hashes, strict=True) if sha256 != _OLD]
+        if not young or any(is_young(look(*entry), now) for entry in young):
             return self
         return FactList(self.entries, self._facts, [_OLD] * len(self.entries))
 
@@ -95,11 +79,6 @@ class FactList:
         """Return a list with the entries of both."""
         pairs = ((self.entries, other.entries), (self._facts, other._facts), (self._hashes, other._hashes))
         return FactList(*([*own, *others] for own, others in pairs))
-
-    @property
-    def is_old(self) -> bool:
-        """Whether stat values alone tell each change."""
-        return set(self._hashes) <= {_OLD}
 
     def can_be_saved(self) -> bool:
         """Whether the contents of all young files are known, and a text can hold all paths."""
@@ -121,6 +100,14 @@ class FactList:
             raise ValueError
         kinds, paths, facts, hashes = (words[start : start + size] for start in range(0, 4 * size, size))
         return cls(list(zip(kinds, paths, strict=True)), list(map(int, facts)), hashes)
+
+
+def _has_content(path: str, sha256: str) -> bool:
+    """Return whether a file still has the content with this hash; True if the hash is unknown."""
+    try:
+        return not sha256 or hash_file(path) == sha256
+    except OSError:
+        return False
 
 
 class DependencyRecord:
@@ -168,12 +155,16 @@ def _text(content: bytes) -> str:
     return content.decode("utf-8", "surrogateescape")
 
 
-def find_change(folder: str, name: str, record: DependencyRecord, seen: dict[Entry, Facts]) -> Entry | None:
-    """Return the first entry of a record that has changed; None if all is as it was. See `FactList.first_change`."""
-    change = record.facts.first_change(seen)
-    if change is None and not record.facts.is_old and (aged := record.facts.aged()).is_old:
-        DependencyRecord(record.key, aged, record.words, record.result).save(folder, name)
-    return change
+def recall(folder: str, name: str, key: str, seen: dict[Entry, Facts]) -> DependencyRecord | None:
+    """Return the record of this name if it has this key, and nothing has changed since; `seen`: see `FactList.look`."""
+    found = load(folder, name)
+    # the source, which changes most, is among the first entries: further ones are not looked at
+    if found is None or found.key != key or any(found.facts.changes(found.facts.look(seen))):
+        return None
+    if (aged := found.facts.aged()) is not found.facts:
+        found.facts = aged
+        found.save(folder, name)
+    return found
 
 
 _folders_with_times: dict[str, bool] = {}

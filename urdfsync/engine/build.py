@@ -179,17 +179,17 @@ class _Builder:
         raise OutputError.of("restless", message, shown(saved), hint=hint)
 
     def _finish(self, robot: RobotConfig, plan: Plan, written: Mapping[str, str | None]) -> _Built:
-        """Save this machine's notes; remember the outlook of the next plan. Returns the plan's outlook and its reads.
+        """Save this machine's notes; remember a plan without writes. Returns the plan's outlook and its reads.
 
         `written` has the hashes of the written files by path.
         """
         if plan.notes:
             written = {**written, **notes.save(self._state_folder, robot.name, plan.notes)}
-        # most plans write nothing, and have read hundreds of files
-        reads = self._reads.renewed(written, str(robot.folder)) if written else self._reads
-        facts = FactList.of(reads)
-        if plan.next_outlook and reads.complete:
-            result = Result.of(self._config, robot, plan.next_outlook, dry=self._options.dry, reads=facts)
+        self._reads.renew(written)
+        facts = FactList.of(self._reads)
+        # without `renews`, a plan writes less than the next one may
+        if self._reads.complete and self._options.renews and not (plan.writes or plan.outlook.writes):
+            result = Result.of(self._config, robot, plan.outlook, dry=self._options.dry, reads=facts)
             remembered.remember(self._config, robot, self._keys.key(robot), result)
         return _Built(plan.outlook, facts)
 

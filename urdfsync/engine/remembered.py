@@ -6,8 +6,7 @@ Builds, dry runs, `status`, `diff`, the hooks and the daemon ask `recall` before
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import msgspec
 
@@ -57,23 +56,11 @@ class RecordKeys:
         """Return the robot's key; empty if the options ask for a new plan. Raises ConfigError for a broken domain."""
         if not self._is_plain:
             return ""
-        own = _plain(msgspec.structs.replace(robot, lines={}))
+        own = msgspec.structs.replace(robot, lines={}, ignore=frozenset(), refuse=frozenset())
+        codes = sorted(robot.ignore), sorted(robot.refuse)  # sets have another order in each process
         code = "" if registry.is_own(robot.domain) else registry.program(robot.domain)
-        return digest(f"{own}{self._shared}{code}".encode(errors="surrogateescape"))
-
-
-def _plain(value: Any) -> str:
-    """Return a text of a value of the configuration, the same in each process; names of files may not be UTF-8."""
-    match value:
-        case msgspec.Struct():
-            return repr([_plain(getattr(value, name)) for name in value.__struct_fields__])
-        case Mapping():
-            return repr([(key, _plain(item)) for key, item in value.items()])
-        case frozenset():
-            return repr(sorted(map(_plain, value)))
-        case list() | tuple():
-            return repr(list(map(_plain, value)))
-    return repr(value)
+        # paths become bytes: names of files may not be UTF-8
+        return digest(msgspec.json.encode((own, codes, self._shared, code), enc_hook=os.fsencode))
 
 
 def recall(config: Config, robot: RobotConfig, key: str, seen: dict[Entry, Facts]) -> tuple[Outlook, FactList] | None:
@@ -83,8 +70,8 @@ def recall(config: Config, robot: RobotConfig, key: str, seen: dict[Entry, Facts
     `seen` has facts that were looked at just now, and gets the others.
     """
     folder, name = str(config.root / STATE_FOLDER), f"{robot.name}{noop.ROBOT}"
-    found = record.load(folder, name) if key else None
-    if found is None or found.key != key or record.find_change(folder, name, found, seen):
+    found = record.recall(folder, name, key, seen) if key else None
+    if found is None:
         return None
     try:
         stored = msgspec.msgpack.decode(found.result, type=_Stored)

@@ -71,7 +71,7 @@ class WatchedRobot(msgspec.Struct):
 
     def look(self) -> bool:
         """Look at all entries; return whether one of them changed since the last look."""
-        before, self.seen = self.seen, self.facts.look()
+        before, self.seen = self.seen, list(self.facts.look())
         self.changes = list(self.facts.changes(self.seen))
         if not self.changes:
             self.facts = self.facts.aged()

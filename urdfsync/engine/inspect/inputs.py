@@ -13,7 +13,7 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.dependencies.places import real
-from urdfsync.dependencies.reads import is_file, read_file, unrecorded
+from urdfsync.dependencies.reads import is_file, read_file
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
@@ -164,8 +164,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     if record and record.folder in others:  # another robot has this folder now: its files must not be deleted
         record = None
     if record is None:  # the folder may have the package of a robot that is no longer configured
-        with unrecorded():  # this build gives the robot a record, and the next one does not look
-            name = next((name for name, place in read_orphaned_robots(store, config) if place == folder), name)
+        name = next((name for name, place in read_orphaned_robots(store, config) if place == folder), name)
         record = store.load(name)[0] if name != robot.name else None
     damage, notes = damage or store.find_damaged_base(name), store.notes(name)
     if options.adopts and record and (record.snapshot is not None or record.is_united):

@@ -57,41 +57,36 @@ _MAYBE = "?"
 """Stands for the new name of a part if the old name may still mean this part."""
 
 
-def find_lasting(inputs: Inputs, generation: Generation, decision: Decision, reads: Reads) -> list[Diagnostic]:
-    """Return the findings that a build repeats if nobody changes a file, except those of `tell_uses`."""
-    findings = [*inputs.parents.diagnostics]
-    changes, file = decision.differences.changes, shown(inputs.robot.source)
-    last = inputs.last.version if changes and changes.changes else None
-    findings += judge(inputs.domain, generation.now, generation.reading, file, last, changes)
+def find_findings(
+    inputs: Inputs, generation: Generation, decision: Decision, uses: Mapping[str, Use], reads: Reads
+) -> list[Diagnostic]:
+    """Return the findings of a build; `uses` are those of `find_uses`, `reads` lists all that the build has read."""
+    differences, last, file = decision.differences, inputs.last.version, shown(inputs.robot.source)
+    changes, findings = differences.changes, [*inputs.parents.diagnostics]
+    version = last if changes and changes.changes else None
+    findings += judge(inputs.domain, generation.now, generation.reading, file, version, changes)
     if decision.misfits:
-        findings += _diagnose(inputs, generation.now.snapshot, decision, decision.differences.former)
+        findings += _diagnose(inputs, generation.now.snapshot, decision, differences.former)
+    place = shown(inputs.config.file)
     if inputs.users_files.is_too_wide:
         message = "your models were not checked: there are too many folders to search"
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
-        place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
-        findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
+        line = inputs.robot.lines.get("users", 0)
+        findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, place, line, hint=hint))
     findings += _unmerged(inputs, reads)
     findings += () if inputs.has_moved else _twin(inputs)
     findings += _unlisted(inputs, decision)
-    findings += tell_unused(decision.differences.unused, (), file, generation.reading)
-    return [*generation.diagnostics, *map(inputs.source.locate, findings)]
-
-
-def find_news(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
-    """Return the findings about changes since the last complete build."""
-    findings = [*_look_left_behind(inputs, decision.actions), *([inputs.damage] if inputs.damage else [])]
+    findings += tell_unused(differences.unused, changes.unshown if changes else (), file, generation.reading)
+    findings += [*_look_left_behind(inputs, decision.actions), *([inputs.damage] if inputs.damage else [])]
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
-        place = shown(inputs.config.file), inputs.robot.lines[""]
-        findings.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} continues under the new name", *place))
-    changes, last, file = decision.differences.changes, inputs.last.version, shown(inputs.robot.source)
-    if last is not None and changes is not None and changes.changes:
-        findings += find_jumps(inputs.domain, generation.now, generation.reading, file, last, changes.renames)
-    unshown = changes.unshown if changes else ()
-    findings += tell_unused((), unshown, file, generation.reading)
+        line, message = inputs.robot.lines[""], f"{message} continues under the new name"
+        findings.append(Diagnostic(Severity.NOTE, "renamed-robot", message, place, line))
+    if changes and version is not None:
+        findings += find_jumps(inputs.domain, generation.now, generation.reading, file, version, changes.renames)
     if decision.is_complete:
         findings += _changed_connectors(inputs, generation, changes)
-    return list(map(inputs.source.locate, findings))
+    return [*generation.diagnostics, *map(inputs.source.locate, findings), *_tell_uses(inputs, uses)]
 
 
 def _diagnose(
@@ -272,7 +267,7 @@ def _other_names(inputs: Inputs, generation: Generation, decision: Decision) -> 
     return {**doubtful, **{name: new for name, new in renamed.items() if name in now}}
 
 
-def tell_uses(inputs: Inputs, uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
+def _tell_uses(inputs: Inputs, uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
     """Yield a warning for the first use of each name in a file."""
     for path, use in uses.items():
         lines = _lines(inputs, Path(path), use.names)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
 from urdfsync.changes import Changes
 from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import Diagnostic, OutputError
+from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions
 from urdfsync.engine.decide.decision import Decision
@@ -22,8 +21,7 @@ from urdfsync.engine.inspect.parents import SharedFile, merge_order
 from urdfsync.engine.package.generate import Package
 from urdfsync.engine.result import Outlook
 from urdfsync.engine.stage.aside import put_aside, tell_aside
-from urdfsync.engine.stage.findings import UNMERGED, find_lasting, find_news, find_uses, tell_uses
-from urdfsync.engine.stage.foresight import foresee_actions
+from urdfsync.engine.stage.findings import UNMERGED, find_findings, find_uses
 from urdfsync.engine.stage.record_after import notes_after, record_after
 from urdfsync.engine.stage.saved_conflicts import save_conflicts
 from urdfsync.files import digest, shown
@@ -50,8 +48,6 @@ class Plan(msgspec.Struct, frozen=True):
     """The folders that become empty, innermost first."""
     notes: Notes | None = None
     """This machine's notes after the build, if they change."""
-    next_outlook: Outlook | None = None
-    """The outlook of the next plan, if nobody changes a file after this build; None if it is not certain."""
 
 
 def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Reads) -> Plan:
@@ -76,34 +72,28 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
         needed, state = _state_changes(inputs, generation, decision, record, index.values(), is_writing=is_writing)
     writes = Writes(before=(*needed, *copies), files=tuple(files.values()), record=tuple(state))
     uses = find_uses(inputs, generation, decision)
-    lasting = [*find_lasting(inputs, generation, decision, reads), *tell_uses(inputs, uses)]
-    news = [*find_news(inputs, generation, decision), *tell_aside(inputs, actions, index, texts)]
+    findings = [*find_findings(inputs, generation, decision, uses, reads), *tell_aside(inputs, actions, index, texts)]
+    findings += conflicts.diagnostics
     outlook = Outlook(
         actions,
-        _sorted((*lasting, *news, *conflicts.diagnostics)),
+        tuple(sorted(findings, key=lambda found: (not found.is_new, found.file, found.line))),
         writes=is_writing,
         renews=bool(needed or state),
         stale=inputs.source.stale,
         is_broken=any(misfit.is_broken for misfit in decision.misfits),
-        is_unmerged=any(finding.code == UNMERGED for finding in (*lasting, *news)),
+        is_unmerged=any(finding.code == UNMERGED for finding in findings),
         drawing=None if picture is None else drawing,
         changes=_told_changes(decision, is_writing=is_writing),
         conflict_texts=decision.conflicts,
         saved=conflicts.versions,
         settled=frozenset(inputs.settled.keys),
     )
-    notes, after = None, None
+    notes = None
     if record is not None:
-        after = foresee_actions(inputs, decision, record)
         notes = notes_after(inputs, generation, decision, record, index.values(), conflicts, uses)
         if notes == inputs.last.notes and not (inputs.former_name or options.choices):
             notes = None
-    if writes:
-        next_outlook = None if after is None or options.dry else _next_outlook(outlook, after, lasting)
-    else:  # without `renews`, a plan writes less than the next one may
-        next_outlook = outlook if options.renews and not outlook.writes else None
-    emptied = _emptied(inputs, writes.in_order())
-    return Plan(outlook, store.hashes(), decision.shared, writes, emptied, notes, next_outlook)
+    return Plan(outlook, store.hashes(), decision.shared, writes, _emptied(inputs, writes.in_order()), notes)
 
 
 def _told_changes(decision: Decision, *, is_writing: bool) -> Changes | None:
@@ -113,17 +103,6 @@ def _told_changes(decision: Decision, *, is_writing: bool) -> Changes | None:
         # else the next plan would report them again: the record keeps the old generator and options
         news = msgspec.structs.replace(news, generator=False, options=())
     return news if news and (news.changes or news.generator) else None
-
-
-def _next_outlook(outlook: Outlook, actions: Actions, lasting: Iterable[Diagnostic]) -> Outlook:
-    """Return the outlook of the next plan with these actions, if nobody changes a file."""
-    silent: dict[str, Any] = {"writes": False, "renews": False, "changes": None}
-    known = [msgspec.structs.replace(finding, is_new=False) for finding in lasting]
-    return msgspec.structs.replace(outlook, actions=actions, diagnostics=_sorted(known), **silent)
-
-
-def _sorted(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    return tuple(sorted(findings, key=lambda found: (not found.is_new, found.file, found.line)))
 
 
 def draw_model(inputs: Inputs, generation: Generation, decision: Decision) -> str | None:
