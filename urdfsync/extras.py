@@ -9,7 +9,6 @@ PACKAGES = {
     "log": "pyarrow rosbags",
     "physics": "pin",
     "plot": "matplotlib",
-    "remote": "fsspec",
     "table": "openpyxl pint",
     "xacro": "xacro",
 }

@@ -131,7 +131,7 @@ def test_the_shares_together_check_all_robots_once(checker: Checker, project: Pa
 
 
 BAD = """--jobs 0; --timeout 0; --timeout soon; --memory inf; --memory nan; --tool dymola; --shard 0/2; --shard 3/2;\
- --shard 2; --shard a/b; --shard 1/2/3; --shard ²/3; --shard 1/2 --report a.html; --remote-write"""
+ --shard 2; --shard a/b; --shard 1/2/3; --shard ²/3; --shard 1/2 --report a.html"""
 
 
 @pytest.mark.parametrize("arguments", [words.split() for words in BAD.split(";")], ids=" ".join)

@@ -10,7 +10,6 @@ from pathlib import Path
 import msgspec
 import psutil
 
-from urdfsync.checks import remote
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.contents import Hashes
 from urdfsync.checks.results import CheckOptions, CheckResult
@@ -62,7 +61,6 @@ def check_in_workers(
     else:
         each = max(1, machine.cores() // jobs)
         share = msgspec.structs.replace(options, compilers=each, memory=budget / count)
-    told = set[Diagnostic]()  # warnings about the remote cache concern all robots: each is shown once
     # clean up here, since processes of checks may be killed
     with (
         tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder,
@@ -78,9 +76,6 @@ def check_in_workers(
                 futures[robot.name] = pool.submit(check_robot, config, robot, whole, place)
                 result = _result(robot, futures, pool, progress)
             cache.trim()
-            general = {each for each in result.diagnostics if each.code == remote.CODE}
-            result.diagnostics = tuple(each for each in result.diagnostics if each not in general & told)
-            told |= general
             yield result
 
 

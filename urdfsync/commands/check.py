@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 
 from urdfsync.checks import compilers
@@ -16,8 +15,6 @@ from urdfsync.commands.report import prepare_page
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.output.console import Console, line
 from urdfsync.output.terminal import text
-
-REMOTE_CACHE = "URDFSYNC_REMOTE_CACHE"
 
 
 def add(commands: arguments.Commands) -> None:
@@ -49,12 +46,6 @@ def add(commands: arguments.Commands) -> None:
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
 
-    # never from the configuration: a stranger's repository would choose the results
-    words = f"also read results from a folder or bucket (default: the variable {REMOTE_CACHE})"
-    default = os.environ.get(REMOTE_CACHE, "")
-    option("--remote-cache", metavar="ADDRESS", default=default, help=words)
-    option("--remote-write", action="store_true", help="also write results to the remote cache")
-
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the robots, and show each result at once; at the end show the findings about all robots."""
@@ -64,8 +55,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, "`--column`, `--topic` and `--motor-side` need `--log`")
     if args.log and (args.shard or args.executor):
         raise arguments.UsageError(args.parser, "`--log` takes one robot, on this machine")
-    if args.remote_write and not args.remote_cache:
-        raise arguments.UsageError(args.parser, "`--remote-write` needs `--remote-cache`")
     write_report = prepare_page(args, console, args.report) if args.report else None
     judgement, fault = _judge(args, console) if args.log else (None, None)
     configured, results = arguments.load_robots(args, console), list[CheckResult]()
