@@ -29,6 +29,7 @@ from urdfsync.modelica.files import has_word, text_of
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
+from urdfsync.modelica.stamp import with_stamp
 from urdfsync.modelica.syntax import Class
 
 
@@ -72,7 +73,7 @@ class RobotPackage(msgspec.Struct):
     errors: tuple[Diagnostic, ...]
     """Errors that a build would report, except those in Modelica files."""
     on_disk: Mapping[str, bytes]
-    """The Modelica files of the package on disk, by their path below the package; none without a package."""
+    """The bare Modelica files of the package on disk, by their path below the package; none without a package."""
     in_step: bool
     conflicting: bool
     """Whether the package is out of step because of a conflict."""
@@ -106,7 +107,8 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     generation = generate_robot(inputs)
     snapshot = generation.now.snapshot
     errors = [finding for finding in built.diagnostics if finding.severity is Severity.ERROR]
-    on_disk, generated = package_texts(robot.folder), generated_texts(inputs, generation)
+    on_disk = {path: with_stamp(text, None) for path, text in package_texts(robot.folder).items()}
+    generated = generated_texts(inputs, generation)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
     checks = inputs.domain.checks
     models = (
