@@ -2,7 +2,6 @@
 
 PACKAGES = {
     "check": "rumoca scipy",
-    "cluster": "distributed",
     "epanet": "wntr",
     "fmu": "fmpy",
     "mjcf": "mujoco",

@@ -56,8 +56,6 @@ class CheckOptions(RunOptions, frozen=True):
     """The greatest number of robots that are checked at the same time; None allows as many as cores and memory do."""
     compilers: int = 1
     """The greatest number of compilers that run at the same time for one robot."""
-    executor: str = ""
-    """Address of a Dask scheduler whose workers check robots; empty for processes of this machine."""
     fresh: bool = False
     """Check remembered packages again."""
     curves: bool = False

@@ -22,7 +22,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "check",
-        "robots --wait --trust --executor --timeout --memory --shard --column --topic --motor-side",
+        "robots --wait --trust --timeout --memory --column --topic --motor-side",
         formats=True,
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
@@ -49,12 +49,8 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the robots, and show each result at once; at the end show the findings about all robots."""
-    if args.report and args.shard:
-        raise arguments.UsageError(args.parser, "`--report` takes one robot, `--shard` a share of all")
     if (args.columns or args.topic or args.motor_side) and not args.log:
         raise arguments.UsageError(args.parser, "`--column`, `--topic` and `--motor-side` need `--log`")
-    if args.log and (args.shard or args.executor):
-        raise arguments.UsageError(args.parser, "`--log` takes one robot, on this machine")
     write_report = prepare_page(args, console, args.report) if args.report else None
     judgement, fault = _judge(args, console) if args.log else (None, None)
     configured, results = arguments.load_robots(args, console), list[CheckResult]()

@@ -94,7 +94,7 @@ class MeshProcess:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
-        self._lock = threading.Lock()  # the workers of a Dask cluster are threads
+        self._lock = threading.Lock()  # a script may build in several threads
 
     def read(
         self, request: MeshRequest, content: bytes, others: Mapping[str, bytes] | None = None
