@@ -114,7 +114,7 @@ def tell_all(document: Any, *sections: str, absent: Collection[str] = ()) -> boo
     return True
 
 
-DOCUMENT = {"version", "command", "exit", "results", "diagnostics", "shard"}
+DOCUMENT = {"version", "command", "exit", "results", "diagnostics"}
 OF_DOUBTS = {"former", "aspects", "moved_to", "is_named_alike"}
 FINDING = {"severity", "code", "message", "file", "line", "column", "hint", "details", "element", "is_new"}
 

@@ -2,14 +2,12 @@
 
 PACKAGES = {
     "check": "rumoca scipy",
-    "cluster": "distributed",
     "epanet": "wntr",
     "fmu": "fmpy",
     "mjcf": "mujoco",
     "log": "pyarrow rosbags",
     "physics": "pin",
     "plot": "matplotlib",
-    "remote": "fsspec",
     "table": "openpyxl pint",
     "xacro": "xacro",
 }

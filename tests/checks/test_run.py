@@ -12,7 +12,6 @@ from typing import Any
 import psutil
 import pytest
 from support import checks
-from support.checks import thread_workers
 
 from urdfsync import config
 from urdfsync.checks import run
@@ -122,10 +121,3 @@ def test_an_interruption_ends_all_processes(robots: Config, tmp_path: Path) -> N
         time.sleep(0.01)
     time.sleep(0.5)  # until its process has started
     results.close()  # type: ignore[attr-defined]
-
-
-def test_robots_are_checked_by_the_workers_of_a_cluster(robots: Config, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Threads of this process stand in for workers; tests/engine/test_pool.py talks to a real scheduler."""
-    monkeypatch.setattr(run, "workers", lambda count, address: thread_workers(2, address))
-    found = check(robots, ["early", "late"], CheckOptions(executor="tcp://here:1"))
-    assert [codes(one) for one in found] == [[], []]

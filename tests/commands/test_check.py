@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -119,19 +118,7 @@ def test_an_interruption_leaves_what_was_found(
     assert "[interrupted]" in streams.err
 
 
-def test_the_shares_together_check_all_robots_once(checker: Checker, project: Path, capsys: Capture) -> None:
-    with (project / "urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
-    assert [cli.main(["check", "--shard", f"{number}/3"]) for number in (1, 2, 3)] == [0, 0, 0]
-    assert sorted(checker.robots) == ["ladder", "other"]
-    assert capsys.readouterr().out.splitlines()[-1] == "shard 3/3: no robot of 2"
-    assert cli.main(["check", "--shard=3/3", "--format=json"]) == 0
-    document = json.loads(capsys.readouterr().out)
-    assert (document["shard"], document["results"]) == ("3/3", [])
-
-
-BAD = """--jobs 0; --timeout 0; --timeout soon; --memory inf; --memory nan; --tool dymola; --shard 0/2; --shard 3/2;\
- --shard 2; --shard a/b; --shard 1/2/3; --shard ²/3; --shard 1/2 --report a.html; --remote-write"""
+BAD = "--jobs 0; --timeout 0; --timeout soon; --memory inf; --memory nan; --tool dymola"
 
 
 @pytest.mark.parametrize("arguments", [words.split() for words in BAD.split(";")], ids=" ".join)

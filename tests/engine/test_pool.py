@@ -11,6 +11,7 @@ import signal
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from contextlib import AbstractContextManager
+from multiprocessing import SimpleQueue
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -23,7 +24,7 @@ from urdfsync import config
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.facts import PATH
 from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import ConfigError, UrdfsyncError
+from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine import pool, remembered
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -51,9 +52,9 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """How many processes were asked for, each time that workers started."""
     found: list[int] = []
 
-    def start(count: int, address: str = "") -> AbstractContextManager[Workers]:
+    def start(count: int) -> AbstractContextManager[Workers]:
         found.append(count)
-        return workers(count, address)
+        return workers(count)
 
     monkeypatch.setattr(pool, "workers", start)
     return found
@@ -119,7 +120,7 @@ def test_progress_is_told_in_robots_that_have_been_read(robots: Path, monkeypatc
             told.append((done, total))
             executor.work()
 
-    monkeypatch.setattr(pool, "workers", lambda *_: contextlib.nullcontext(Workers(executor, None, 1)))
+    monkeypatch.setattr(pool, "workers", lambda _: contextlib.nullcontext(Workers(executor, SimpleQueue())))
     run_all(jobs=2, progress=progress)
     assert told == [(number, COUNT) for number in range(COUNT)]
 
@@ -138,31 +139,6 @@ def _die_of_one(config: Config, robot: RobotConfig, options: BuildOptions) -> ob
     if robot.name == "n5":
         os.kill(os.getpid(), signal.SIGKILL)
     return plan_in_worker(config, robot, options)
-
-
-@pytest.mark.slow
-def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
-    from distributed import LocalCluster
-
-    scratch = tmp_path_factory.mktemp("dask")
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=str(scratch)
-    ) as cluster:
-        together = run_all(executor=cluster.scheduler_address)
-    assert [one.failed for one in together] == [number == 2 for number in range(COUNT)]
-    assert together[2].diagnostics == run_all(jobs=1)[2].diagnostics
-    result = contents(robots / "modelica")
-    for name in ("modelica", ".urdfsync"):
-        shutil.rmtree(robots / name)
-    run_all(jobs=1)
-    assert contents(robots / "modelica") == result
-
-
-@pytest.mark.slow
-def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.processes.workers.PATIENCE", 1)
-    with pytest.raises(ConfigError, match="no Dask scheduler answers"):
-        run_all(executor="tcp://127.0.0.1:9")
 
 
 @pytest.mark.slow

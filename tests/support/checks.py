@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from multiprocessing import SimpleQueue
 from pathlib import Path
 
 import msgspec
@@ -150,7 +151,7 @@ class Compiling:
 
 
 @contextlib.contextmanager
-def thread_workers(count: int, address: str = "") -> Iterator[Workers]:
+def thread_workers(count: int) -> Iterator[Workers]:
     """Replace `workers` by threads of this process, which see the stand-ins of a test."""
     with ThreadPoolExecutor(count) as executor:
-        yield Workers(executor, None, 1)
+        yield Workers(executor, SimpleQueue())

@@ -73,7 +73,7 @@ class RobotPackage(msgspec.Struct):
     errors: tuple[Diagnostic, ...]
     """Errors that a build would report, except those in Modelica files."""
     on_disk: Mapping[str, bytes]
-    """The Modelica files of the package on disk without stamps, by their path below the package."""
+    """The bare Modelica files of the package on disk, by their path below the package; none without a package."""
     in_step: bool
     conflicting: bool
     """Whether the package is out of step because of a conflict."""
@@ -107,7 +107,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     generation = generate_robot(inputs)
     snapshot = generation.now.snapshot
     errors = [finding for finding in built.diagnostics if finding.severity is Severity.ERROR]
-    on_disk = {path: with_stamp(content, None) for path, content in package_texts(robot.folder).items()}
+    on_disk = {path: with_stamp(text, None) for path, text in package_texts(robot.folder).items()}
     generated = generated_texts(inputs, generation)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
     checks = inputs.domain.checks

@@ -56,12 +56,6 @@ class CheckOptions(RunOptions, frozen=True):
     """The greatest number of robots that are checked at the same time; None allows as many as cores and memory do."""
     compilers: int = 1
     """The greatest number of compilers that run at the same time for one robot."""
-    executor: str = ""
-    """Address of a Dask scheduler whose workers check robots; empty for processes of this machine."""
-    remote_cache: str = ""
-    """Address of results that several machines share; empty for none. No configuration can name it."""
-    remote_write: bool = False
-    """Also write results to the remote cache."""
     fresh: bool = False
     """Check remembered packages again."""
     curves: bool = False

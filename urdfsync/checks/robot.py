@@ -20,7 +20,6 @@ from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
 from urdfsync.checks.package import RobotPackage, read_package, users_models
 from urdfsync.checks.process import Limits, limits_of
-from urdfsync.checks.remote import RemoteCache
 from urdfsync.checks.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.reads import read_file
@@ -108,14 +107,11 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
     A package in step and without faults is not checked again until its fingerprint changes.
     """
     begin, cache = time.monotonic(), UserCache.default()
-    remote = RemoteCache(options.remote_cache, writes=options.remote_write)
     result = CheckResult(robot.name, robot.target.package, strict=options.strict)
     limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
     try:
         tell(f"{robot.name}: reading the source and the package")
         key, package, earlier = _look_up(config, robot, options)
-        if earlier is None and key and package.in_step and not options.fresh and (earlier := remote.load(key)):
-            cache.save(key, earlier)
         if earlier and not _has_curves(earlier, options):
             earlier = None
         if earlier is None:
@@ -124,14 +120,10 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
             result.megabytes = limits.peak / 1e6
             is_same = key == fingerprint(config, robot, options)  # if not, a file was saved meanwhile
             if key and package.in_step and is_same:
-                is_right = not (result.failed or result.differs)
-                cache.save(key, result if is_right else None)
-                if is_right:
-                    remote.save(key, result)
+                cache.save(key, None if result.failed or result.differs else result)
         result = _complete(earlier or result, package, options, begin)
     except Exception as error:  # noqa: BLE001 - only this robot fails
         result.add(findings_of(error))
-    result.add(remote.warnings)
     result.diagnostics = robot.without_ignored(result.diagnostics)
     result.seconds = time.monotonic() - begin
     return result

@@ -1,4 +1,4 @@
-"""Checks many robots: as many at a time as cores and memory allow, or by the workers of a Dask cluster."""
+"""Checks many robots: as many at a time as cores and memory allow."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from pathlib import Path
 import msgspec
 import psutil
 
-from urdfsync.checks import remote
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.contents import Hashes
 from urdfsync.checks.results import CheckOptions, CheckResult
@@ -32,7 +31,7 @@ def check_robots(
     """Check robots; yield the results in the order of the robots, each as soon as all earlier results are known.
 
     A robot whose check is remembered needs no worker. `progress` gets the step of the work, and the number of finished
-    robots. Raises CacheError if there is no place for the cache, ConfigError if no cluster answers.
+    robots. Raises CacheError if there is no place for the cache.
     """
     hashes, known = Hashes(), dict[str, CheckResult]()
     for count, robot in enumerate(robots):
@@ -57,18 +56,14 @@ def check_in_workers(
     budget = options.memory or _SHARE_OF_FREE_MEMORY * psutil.virtual_memory().available / 1e9
     jobs = min(options.jobs or machine.cores(), len(robots))
     count = max(1, min(jobs, int(budget * 1e9 // _EXPECTED_MEMORY)))
-    if options.executor:  # several workers may share a machine
-        count, share = 1, options
-    else:
-        each = max(1, machine.cores() // jobs)
-        share = msgspec.structs.replace(options, compilers=each, memory=budget / count)
-    told = set[Diagnostic]()  # warnings about the remote cache concern all robots: each is shown once
+    each = max(1, machine.cores() // jobs)
+    share = msgspec.structs.replace(options, compilers=each, memory=budget / count)
     # clean up here, since processes of checks may be killed
     with (
         tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder,
-        workers(count, options.executor) as pool,
+        workers(count) as pool,
     ):
-        place = None if options.executor else Path(folder)
+        place = Path(folder)
         futures = {each.name: pool.submit(check_robot, config, each, share, place) for each in robots}
         for robot in robots:
             result = _result(robot, futures, pool, progress)
@@ -78,9 +73,6 @@ def check_in_workers(
                 futures[robot.name] = pool.submit(check_robot, config, robot, whole, place)
                 result = _result(robot, futures, pool, progress)
             cache.trim()
-            general = {each for each in result.diagnostics if each.code == remote.CODE}
-            result.diagnostics = tuple(each for each in result.diagnostics if each not in general & told)
-            told |= general
             yield result
 
 

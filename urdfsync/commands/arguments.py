@@ -18,12 +18,10 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.engine import shares
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.remembered import remember_configuration
-from urdfsync.output.console import PURPOSES, Console, Format, line
+from urdfsync.output.console import PURPOSES, Console, Format
 from urdfsync.overview import CODES
-from urdfsync.spelling import counted
 
 DRIVER_ERROR = 255
 """Exit code of a failed merge driver; git reads lower codes as numbers of conflicts."""
@@ -88,17 +86,6 @@ def amount(text: str) -> float:
     return number
 
 
-def shard(text: str) -> tuple[int, int]:
-    """Return a share of the robots, such as 2/5: its number, and the number of shares."""
-    number, slash, total = text.partition("/")
-    words = number, total
-    if not slash or not all(word.isascii() and word.isdecimal() and len(word) < 7 for word in words):
-        raise argparse.ArgumentTypeError(f"{text!r} is no share; write 2/5 for the second of five")
-    if not 1 <= int(number) <= int(total):
-        raise argparse.ArgumentTypeError(f"{text!r} is no share; the first number is from 1 to the second")
-    return int(number), int(total)
-
-
 _SHARED: Mapping[str, dict[str, Any]] = {
     "robots": {
         "nargs": "*",
@@ -127,11 +114,6 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "help": "processor time for each robot in s (default: 600)",
     },
     "--memory": {"type": amount, "metavar": "GB", "help": "memory for all processes (default: most of what is free)"},
-    "--shard": {
-        "type": shard,
-        "metavar": "K/N",
-        "help": "take share K of N of the robots: each robot is in one share, balanced by the size of its record",
-    },
     "--column": {
         "dest": "columns",
         "action": "append",
@@ -147,12 +129,6 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     "--motor-side": {
         "action": "store_true",
         "help": "the log has positions and efforts of motors: the gears of the source turn them into those of joints",
-    },
-    # never from the configuration: a worker can do anything with the files
-    "--executor": {
-        "default": "",
-        "metavar": "ADDRESS",
-        "help": "let the workers of a Dask scheduler that you trust do the work (tcp://HOST:PORT)",
     },
 }
 """Arguments and options that several commands take."""
@@ -211,11 +187,6 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
 
     robots = configuration.select(args.robots)
     console.warnings(warnings.find_warnings(configuration, robots))
-    if share := getattr(args, "shard", None):
-        count, robots = len(robots), shares.select(configuration, robots, *share)
-        console.shard = "{}/{}".format(*share)
-        mine = counted(len(robots), "robot") if robots else "no robot"
-        console.tell([line((f"shard {console.shard}: {mine} of {count}", "dim"))])
     console.announce(len(robots))
     return robots
 

@@ -26,7 +26,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "build",
-        "robots --wait --trust --jobs --executor --shard",
+        "robots --wait --trust --jobs",
         formats=True,
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
@@ -44,8 +44,6 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots one by one, and show each result at once."""
-    if args.shard and not args.check:
-        raise arguments.UsageError(args.parser, "`--shard` needs `--check`: one process at a time may build")
     configured, results = arguments.load_robots(args, console), list[Result]()
     request = arguments.request(args, console, dry=args.dry_run or args.check, merges=args.merge)
     for result in build_and_check(configured.config, configured.robots, request):

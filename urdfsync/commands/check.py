@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 
 from urdfsync.checks import compilers
@@ -17,15 +16,13 @@ from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.output.console import Console, line
 from urdfsync.output.terminal import text
 
-REMOTE_CACHE = "URDFSYNC_REMOTE_CACHE"
-
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
     parser = arguments.add_command(
         commands,
         "check",
-        "robots --wait --trust --executor --timeout --memory --shard --column --topic --motor-side",
+        "robots --wait --trust --timeout --memory --column --topic --motor-side",
         formats=True,
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
@@ -49,23 +46,11 @@ def add(commands: arguments.Commands) -> None:
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
 
-    # never from the configuration: a stranger's repository would choose the results
-    words = f"also read results from a folder or bucket (default: the variable {REMOTE_CACHE})"
-    default = os.environ.get(REMOTE_CACHE, "")
-    option("--remote-cache", metavar="ADDRESS", default=default, help=words)
-    option("--remote-write", action="store_true", help="also write results to the remote cache")
-
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the robots, and show each result at once; at the end show the findings about all robots."""
-    if args.report and args.shard:
-        raise arguments.UsageError(args.parser, "`--report` takes one robot, `--shard` a share of all")
     if (args.columns or args.topic or args.motor_side) and not args.log:
         raise arguments.UsageError(args.parser, "`--column`, `--topic` and `--motor-side` need `--log`")
-    if args.log and (args.shard or args.executor):
-        raise arguments.UsageError(args.parser, "`--log` takes one robot, on this machine")
-    if args.remote_write and not args.remote_cache:
-        raise arguments.UsageError(args.parser, "`--remote-write` needs `--remote-cache`")
     write_report = prepare_page(args, console, args.report) if args.report else None
     judgement, fault = _judge(args, console) if args.log else (None, None)
     configured, results = arguments.load_robots(args, console), list[CheckResult]()

@@ -25,7 +25,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "simulate",
-        "--wait --trust --set --jobs --executor --timeout --memory",
+        "--wait --trust --set --jobs --timeout --memory",
         help="simulate a robot, and compare its joints with their limits",
         description="Simulate the Test model of a robot, or a model of yours, with the package as it is on disk. Show "
         "for each joint its range, speed and effort beside its limits, and warn of exceeded limits. Only the files "
@@ -71,8 +71,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     files = {kind: file for kind in ("csv", "plot") if (file := getattr(args, kind)) is not None}
     if args.vary:
         return _run_cases(args, console, files)
-    for name in ("cases", "seed", "sampling", "jobs", "executor"):
-        if getattr(args, name) not in (None, ""):
+    for name in ("cases", "seed", "sampling", "jobs"):
+        if getattr(args, name) is not None:
             raise arguments.UsageError(args.parser, f"`--{name}` needs `--vary`")
     if args.variables and not (args.csv or args.plot):
         message = "`--variable` adds a variable to a file, and no file is named"

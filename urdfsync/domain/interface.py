@@ -72,8 +72,7 @@ class Domain(Protocol):
     permissive_options: Any = None
     """The options for sources that no configuration names; None for the defaults."""
     cured: Collection[str] = ()
-    """Codes of errors that an option from `Advice.propose` avoids; for sources that no configuration names, they are
-    warnings."""
+    """Codes of errors that an option avoids; for sources that no configuration names, they are warnings."""
     companions: Sequence[CompanionKind] = ()
     """Kinds of files that a source is read with."""
 

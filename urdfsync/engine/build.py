@@ -59,10 +59,10 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
         builder = _Builder(config, options, lock)
         known = builder.recall(robots)
         changed = [robot for robot in robots if robot.name not in known]
-        if options.executor or (len(changed) >= _LEAST_ROBOTS and (options.jobs or machine.cores()) > 1):
+        if len(changed) >= _LEAST_ROBOTS and (options.jobs or machine.cores()) > 1:
             from urdfsync.engine.pool import start_pool  # multiprocessing takes 15 ms to import
 
-            builder.pool = stack.enter_context(start_pool(config, changed, options)) if changed else None
+            builder.pool = stack.enter_context(start_pool(config, changed, options))
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
             built = known.get(robot.name) or builder.build(robot)

@@ -46,6 +46,4 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """The user's decisions about files, by their keys."""
     jobs: int | None = None
     """Processes that may work at once; None for one process per core."""
-    executor: str = ""
-    """Address of a Dask scheduler whose workers plan robots; empty for processes of this machine."""
     progress: Progress = no_progress

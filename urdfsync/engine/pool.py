@@ -1,4 +1,4 @@
-"""Plans many robots at once, in worker processes of this machine or of a Dask cluster. Workers write nothing."""
+"""Plans many robots at once, in worker processes. Workers write nothing."""
 
 from __future__ import annotations
 
@@ -21,8 +21,6 @@ from urdfsync.processes.workers import Workers, workers
 
 _AHEAD = 3
 """The greatest number of plans per worker, unfinished or not yet used: each plan holds the texts of a robot."""
-_CLUSTER_WORKERS = 16
-"""Assumed number of a cluster's workers, unless `--jobs` gives it."""
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
 _Planned: TypeAlias = tuple[Plan | UrdfsyncError | OSError, Reads]
@@ -31,9 +29,9 @@ _Planned: TypeAlias = tuple[Plan | UrdfsyncError | OSError, Reads]
 
 @contextlib.contextmanager
 def start_pool(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Pool]:
-    """Start workers for the robots of one command. Raises ConfigError if the cluster does not answer."""
-    count = min(options.jobs or (_CLUSTER_WORKERS if options.executor else machine.cores()), len(robots))
-    with workers(count, options.executor) as started:
+    """Start workers for the robots of one command."""
+    count = min(options.jobs or machine.cores(), len(robots))
+    with workers(count) as started:
         yield Pool(config, robots, options, started, _AHEAD * count)
 
 
@@ -51,7 +49,7 @@ class Pool:
         """Plan one robot; `reads` is the list of this process. Raises UrdfsyncError for all faults."""
         if robot not in self._waiting and robot.name not in self._futures:
             return plan_robot(self._config, robot, self._options, reads)
-        options = msgspec.structs.replace(self._options, progress=no_progress, executor="")
+        options = msgspec.structs.replace(self._options, progress=no_progress)
         try:
             try:
                 plan, worker_reads = self._plan_ahead(robot, options)

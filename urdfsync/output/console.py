@@ -155,7 +155,6 @@ class Console:
         self._sections: list[Any] = []
         self._warnings: Sequence[Diagnostic] = ()
         self._begin = time.monotonic()
-        self.shard: str | None = None
         self.counts_robots = False
         """Whether robots with nothing to tell are counted at the end, instead of a line for each."""
         self.uneventful = Counter[str]()
@@ -239,9 +238,7 @@ class Console:
                 self._sections, diagnostics, code
             )
             return document
-        values = Document(
-            command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics, shard=self.shard
-        )
+        values = Document(command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics)
         indent = None if self._command == "watch" else 2  # each line of the daemon's output is one object
         return json.dumps(plain(values), indent=indent) + "\n"
 

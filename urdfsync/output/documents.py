@@ -33,8 +33,6 @@ class Document(msgspec.Struct, Generic[Item], kw_only=True):
     """One result for each finished robot."""
     diagnostics: Sequence[Diagnostic]
     """Diagnostics that belong to no robot."""
-    shard: str | None = None
-    """The share of the robots, such as `2/5`; None for all that were named."""
 
 
 def plain(value: Any) -> Any:

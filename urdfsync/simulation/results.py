@@ -56,8 +56,6 @@ class VaryOptions(SimulateOptions, frozen=True):
     """See `cases.Sampling.kind`."""
     jobs: int | None = None
     """Number of cases at the same time; None for one per core."""
-    executor: str = ""
-    """Address of a Dask scheduler; empty for processes of this machine."""
 
 
 class Range(msgspec.Struct, frozen=True):

@@ -1,8 +1,8 @@
 """Simulates a model in many cases, which differ in the values of parameters.
 
-Cases go in chunks to processes of this machine, or to the workers of a Dask cluster. A chunk is compiled once, if the
-compiler can change the parameters of a compiled model. Each outcome is saved under a hash of all that it follows from.
-So a command that was ended goes on where it stopped, and no outcome depends on the chunks.
+Cases go in chunks to processes. A chunk is compiled once, if the compiler can change the parameters of a compiled
+model. Each outcome is saved under a hash of all that it follows from. So a command that was ended goes on where it
+stopped, and no outcome depends on the chunks.
 """
 
 from __future__ import annotations
@@ -29,11 +29,10 @@ from urdfsync.checks.jobs import Jobs
 from urdfsync.checks.libraries import Libraries
 from urdfsync.checks.process import LimitError, Limits, limits_of
 from urdfsync.config import Config, RobotConfig, find, working_folder
-from urdfsync.diagnostics import ConfigError, UrdfsyncError
+from urdfsync.diagnostics import ConfigError
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.processes import machine
-from urdfsync.processes.workers import workers
 from urdfsync.simulation.cases import Cases, Sampling, read_cases
 from urdfsync.simulation.joints import Layouts
 from urdfsync.simulation.outcomes import JointName, Outcome, Study, outcome_of
@@ -45,7 +44,7 @@ from urdfsync.simulation.values import read_values
 _CHUNK = 25
 """The greatest number of cases of a chunk. Compiling takes less than two cases, so this costs a tenth of the time."""
 _WINDOW = 3
-"""Chunks for each process that wait or run; more would fill the memory of a scheduler."""
+"""Chunks for each process that wait or run; more would fill the memory."""
 _PAUSE = 0.2
 """Seconds between two reports of progress."""
 _CRASHES = 3
@@ -70,8 +69,6 @@ class Setting(msgspec.Struct, frozen=True):
     seconds: float
     """Processor time for each case, and as much for compiling."""
     memory: float | None
-    program: str | None
-    """The hash of programs and libraries; a worker of a cluster must have the same. None if one can't be read."""
 
 
 class _RefusedError(Exception):
@@ -127,7 +124,6 @@ def vary(config: Config, robot: RobotConfig, options: VaryOptions, progress: Pro
         layouts=prepared.bench.layouts,
         seconds=options.timeout,
         memory=options.memory,
-        program=program,
     )
     cache.prepare()
     cache.trim()
@@ -138,8 +134,6 @@ def vary(config: Config, robot: RobotConfig, options: VaryOptions, progress: Pro
     counter = _Progress(robot.name, len(outcomes), len(outcomes) - len(waiting), progress)
 
     def keep(number: int, outcome: Outcome) -> None:
-        if outcomes[number] is not None:
-            return
         if (place := keys[number]) and not outcome.problem:  # a failed case is tried again
             cache.save(place, outcome)
         names = shared.setdefault(outcome.names, outcome.names)
@@ -215,77 +209,52 @@ def _run_all(
     keep: Keep,
     counter: _Progress,
 ) -> None:
-    """Simulate the waiting cases. Raises _RefusedError, and the errors of `simulate_chunk`."""
+    """Simulate the waiting cases. Raises _RefusedError, and the errors of `_simulate_chunk`."""
     with contextlib.ExitStack() as stack:
         # a thread for each process of the compiler: a process that is killed takes no other one with it
         count = max(1, min(options.jobs or machine.cores(), len(waiting)))
-        cluster = stack.enter_context(workers(1, options.executor)) if options.executor else None
         threads = ThreadPoolExecutor(count)
         stack.callback(threads.shutdown, cancel_futures=True)
         ended = threading.Event()
         stack.callback(ended.set)  # comes first: the threads end their processes
-        count = cluster.count if cluster else count
 
-        def submit(numbers: Sequence[int]) -> Future[list[Outcome] | CompileResult]:
+        def submit(numbers: Sequence[int]) -> Future[None]:
             tasks = [task(number) for number in numbers]
-            if cluster:
-                return cluster.submit(simulate_chunk, setting, tasks)
             return threads.submit(
-                simulate_chunk, setting, tasks, lambda place, outcome: keep(numbers[place], outcome), ended
+                _simulate_chunk, setting, tasks, lambda place, outcome: keep(numbers[place], outcome), ended
             )
 
         size = max(1, min(_CHUNK, math.ceil(len(waiting) / count)))
         chunks = (waiting[start : start + size] for start in range(0, len(waiting), size))
-        running: dict[Future[list[Outcome] | CompileResult], Sequence[int]] = {}
+        running = set[Future[None]]()
         while True:
-            for numbers in itertools.islice(chunks, _WINDOW * count - len(running)):
-                running[submit(numbers)] = numbers
+            running |= {submit(numbers) for numbers in itertools.islice(chunks, _WINDOW * count - len(running))}
             if not running:
                 return
-            for future in wait(running, _PAUSE, FIRST_COMPLETED).done:
-                numbers = running.pop(future)
-                for number, outcome in zip(numbers, _outcomes(future, len(numbers)), strict=True):
-                    keep(number, outcome)
+            done, running = wait(running, _PAUSE, FIRST_COMPLETED)
+            for future in done:
+                future.result()
             counter.show()
 
 
-def _outcomes(future: Future[list[Outcome] | CompileResult], count: int) -> list[Outcome]:
-    """Return the outcomes of a chunk. Raises _RefusedError, and UrdfsyncError for a fault that is not of one case."""
-    try:
-        answer = future.result()
-    except UrdfsyncError:
-        raise
-    except Exception as error:  # noqa: BLE001 - the worker of a cluster has died, and other chunks go on
-        return [Outcome(problem=f"the worker ended unexpectedly: {error or type(error).__name__}")] * count
-    if isinstance(answer, CompileResult):
-        raise _RefusedError(answer)
-    return answer
+def _simulate_chunk(setting: Setting, tasks: Sequence[CompileTask], keep: Keep, ended: threading.Event) -> None:
+    """Simulate cases in a process, until `ended` is set; `keep` takes each outcome by the number of its task.
 
-
-def simulate_chunk(
-    setting: Setting, tasks: Sequence[CompileTask], keep: Keep | None = None, ended: threading.Event | None = None
-) -> list[Outcome] | CompileResult:
-    """Simulate cases in a process; return their outcomes, or the result of a model that can't be simulated.
-
-    In a thread of the command, `keep` takes each outcome at once, and `ended` ends the process. Raises ConfigError if
-    this program is not that of the command, and CompilerError without a compiler.
+    Raises _RefusedError for a model that can't be simulated, and CompilerError without a compiler.
     """
-    if ended is None and result_key(setting.robot, [setting.tool], setting.needed) != setting.program:
-        message = "a worker of the cluster has another urdfsync, Python, compiler or Modelica library"
-        raise ConfigError.of("no-cluster", message, hint="give all machines the same, at the same paths")
-    outcomes, crashes = list[Outcome](), 0
+    count, crashes = 0, 0
 
     def add(outcome: Outcome) -> None:
-        outcomes.append(outcome)
-        if keep:
-            keep(len(outcomes) - 1, outcome)
+        nonlocal count
+        keep(count, outcome)
+        count += 1
 
     def look() -> None:
-        if ended and ended.is_set():
+        if ended.is_set():
             raise _StoppedError
 
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
-        while len(outcomes) < len(tasks):
+        while count < len(tasks):
             limits = limits_of("a case", setting.seconds, setting.memory)
 
             def take(result: CompileResult, limits: Limits = limits) -> None:
@@ -294,19 +263,18 @@ def simulate_chunk(
                     add(outcome_of(setting.layouts, result.runs[0]))
 
             jobs = Jobs(setting.robot, setting.tool, setting.needed, setting.around, limits, Path(folder), look, take)
-            before = len(outcomes)
+            before = count
             try:
                 results = jobs.run("cases", setting.texts, tasks[before:], setting.changed)
             except (CompilerError, LimitError) as error:
                 (fault,) = error.diagnostics
                 if fault.code == "no-compiler":
                     raise
-                crashes = crashes + 1 if len(outcomes) == before else 1
-                for _ in range(1 if crashes < _CRASHES else len(tasks) - len(outcomes)):
+                crashes = crashes + 1 if count == before else 1
+                for _ in range(1 if crashes < _CRASHES else len(tasks) - count):
                     add(Outcome(problem=fault.message))
                 continue
             if refused := [result for result in results if not result.runs]:
-                return refused[0]
-            for result in results[len(outcomes) - before :]:  # none, but on a system that can't look at a file's part
+                raise _RefusedError(refused[0])
+            for result in results[count - before :]:  # none, but on a system that can't look at a file's part
                 take(result)
-    return outcomes

@@ -31,12 +31,10 @@ _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 def propose(robot: Robot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
-    """Propose a base, a start for loops at a dead point, and the errors to allow."""
+    """Propose a base, and the errors to allow."""
     codes = {entry.code for entry in diagnostics}
     is_free = "free-root" in codes
     proposals = [Proposal("base", "floating", "its root moves freely", "free-root") if is_free else guess_base(robot)]
-    if "loop-singular" in codes and (start := Assembly(robot, Options()).closed.proposed):
-        proposals.append(Proposal("start", start, "with all joints at zero, loops are at a dead point"))
     if needed := [code for code in get_args(LeftOut) if code in codes]:
         proposals.append(Proposal("allow", needed, "the model leaves this part out, see the warnings"))
     return proposals

@@ -51,7 +51,6 @@ _POSES = 3
 _STEPS = 16
 """Number of steps that check the motion of Test."""
 _PASSIVE = re.compile("passive|unactuated|undriven", re.IGNORECASE)
-_MOTOR = re.compile("motor|actuat|servo|drive(?!n)", re.IGNORECASE)
 _MOST_LOOPS, _MOST_JOINTS = 200, 1000
 _MOST_WORK = 6 * 10**10
 """The limit of multiplications to close all loops: they take ten seconds. 110 four-bars take 10¹⁰."""
@@ -167,18 +166,14 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
     """Close all loops of a robot near its start, or report the reason why they stay open.
 
     The options ask for drives of the `wanted` joints. Source or options name drives of the `named` joints. If no named
-    joint is in a loop, independent wanted joints are driven. Joints with names of motors come first, then joints with a
-    limit of effort.
+    joint is in a loop, independent wanted joints are driven, those with a limit of effort first.
     """
     try:
         with np.errstate(all="ignore"):  # huge numbers overflow, and a loop with NaN counts as open
             try:
                 return _assemble(tree, wanted, named)
             except _UnclosableError as error:
-                faults, proposed = error.faults or (_too_many(tree),), dict[str, float]()
-                if faults[0].code == "loop-singular":
-                    proposed = _find_regular_start(tree, wanted, named)
-                return ClosedLoops(tree=tree, driven=wanted, faults=faults, proposed=proposed)
+                return ClosedLoops(tree=tree, driven=wanted, faults=error.faults or (_too_many(tree),))
     except np.linalg.LinAlgError:
         name = tree.loops[0].name
         fault = Finding("loop-open", f"loop {name}", f"loop {name!r} has numbers that are too large")
@@ -381,7 +376,7 @@ def _closure(loop: Loop, candidates: Rows, rows: Rows, k: int, normal: Vector | 
     return Closure(translations, rotations, normal if is_planar and not rotations else None, weaker)
 
 
-_REASONS = ("by its name", "by its limit of effort", "the first free one")
+_REASONS = ("by its limit of effort", "the first free one")
 """Reasons to drive a joint, the best first."""
 
 
@@ -389,40 +384,12 @@ def _rank(joint: Joint) -> int:
     """Return the number of the reason to drive a joint; a greater number if its name says that it is passive."""
     if _PASSIVE.search(joint.name):
         return len(_REASONS)
-    if _MOTOR.search(joint.name):
-        return 0
-    return 1 if joint.limit is not None and joint.limit.effort else 2
+    return 0 if joint.limit is not None and joint.limit.effort else 1
 
 
 def _reason(ranks: Mapping[int, int], k: int) -> str:
     """Return the reason to drive a joint. If all joints have one reason, this reason does not count."""
     return _REASONS[ranks[k] if ranks[k] < max(ranks.values()) else -1]
-
-
-def _find_regular_start(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> dict[str, float]:
-    """Return positions of joints near the start, such that no loop is singular.
-
-    Only joints of singular loops move. The result is empty if none of the few tried poses will do.
-    """
-    problem, start = _Problem(tree), dict[str, float]()
-    names = [joint.name for joint in problem.independent]
-    for motion in (size * motion for size in _AMPLITUDES[:2] for motion in _motions(len(names))):
-        joints = tuple(replace(joint, start=start.get(joint.name, joint.start)) for joint in tree.joints)
-        try:
-            closed = _assemble(replace(tree, joints=joints), wanted, named).tree
-        except _UnclosableError as error:
-            near = np.clip(np.round(problem.start + motion * problem.units, 3), problem.lower, problem.upper)
-            paths = {fault.path for fault in error.faults}
-            if not paths:  # the assembly takes too long
-                break
-            for part, columns in problem.parts(np.zeros(len(names), bool)):
-                if any(f"loop {loop.name}" in paths for loop in part.loops):
-                    start |= {names[k]: float(near[k]) for k in columns}
-        else:
-            q = np.array([joint.start for joint in closed.joints if joint.name in names])
-            q = np.clip(np.round(q, 6), problem.lower, problem.upper)
-            return {name: value for name, value in zip(names, q.tolist(), strict=True) if name in start}
-    return {}
 
 
 def _motions(count: int, number: int = 4) -> list[Array]:

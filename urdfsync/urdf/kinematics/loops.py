@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Mapping
 
@@ -70,9 +69,7 @@ class ClosedLoops(msgspec.Struct, frozen=True, kw_only=True):
     choices: Mapping[str, str] = {}
     """Driven joints of loops with the reason for each choice, if neither source nor options name such joints."""
     faults: tuple[Finding, ...] = ()
-    """The reasons why loops stay open: then only `tree` (unchanged), `driven` and `proposed` are set."""
-    proposed: Mapping[str, float] = {}
-    """If loops are singular at the start: nearby positions of joints without singular loops. May be empty."""
+    """The reasons why loops stay open: then only `tree` (unchanged) and `driven` are set."""
 
     @property
     def dependent(self) -> frozenset[str]:
@@ -82,9 +79,7 @@ class ClosedLoops(msgspec.Struct, frozen=True, kw_only=True):
 
 def find_loop_findings(closed: ClosedLoops) -> Iterator[Finding]:
     """Yield the faults of loops, or the differences between their models and the source."""
-    start = ", ".join(f"{json.dumps(name)} = {value:g}" for name, value in closed.proposed.items())
-    hint = f"let joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""
-    yield from (fault._replace(hint=fault.hint or hint) for fault in closed.faults)
+    yield from closed.faults
     for name, gap in closed.gaps.items():
         if max(gap.distance, gap.angle) > NOTABLE:
             yield Finding("loop-closed", f"loop {name}", f"loop {name!r} is {gap} open at the start of the source")
