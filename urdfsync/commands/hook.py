@@ -40,6 +40,8 @@ _FEW = 4
 _COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
 """The parts of the recorded state that belong into a commit."""
 _BUILD = "`urdfsync hook build`"
+_MOST_LINKS = 40
+"""The greatest number of links in a path, as on Linux. A longer chain has no end."""
 _OF_ALL = (".gitattributes", ".gitmodules")
 """Files by which git changes the content of other files."""
 
@@ -170,8 +172,7 @@ class _Places:
     def __init__(self, clone: Clone, entries: Iterable[Entry]) -> None:
         self.files, self._listings = set[str](), defaultdict[str, set[str]](set)  # kinds of listings by folder
         for kind, path in entries:
-            places = map(clone.inside, clone.trail(path)) if kind not in (VARIABLE, UNMERGED) else ()
-            inside = [place for place in places if place is not None]
+            inside = list(_trail(clone, path)) if kind not in (VARIABLE, UNMERGED) else ()
             self.files.update(inside)
             for folder in inside if kind.startswith(LISTINGS) else ():
                 self._listings[folder].add(kind)
@@ -193,6 +194,23 @@ class _Places:
         folder, _, name = path.rpartition("/")
         kinds = self._listings.get(folder, ()) if change is not PathChange.CONTENT else ()
         return any(counting(kind, (name,), lambda _: change is PathChange.FOLDER) for kind in kinds)
+
+
+def _trail(clone: Clone, path: str) -> Iterator[str]:
+    """Yield the links on the way of a path, and at last the path without links, as in git, inside of the repository."""
+    for _ in range(_MOST_LINKS):
+        if (inside := clone.inside(path)) is None:
+            return
+        place = Path(clone.folder, inside)
+        link = next((way for way in (*reversed(place.parents), place) if way.is_symlink()), None)
+        if link is None:
+            yield inside
+            return
+        yield link.relative_to(clone.folder).as_posix()
+        target = Path(os.path.normpath(link.parent / link.readlink()))
+        if target.is_relative_to(clone.folder):
+            target = clone.top / target.relative_to(clone.folder)
+        path = str(target / place.relative_to(link))
 
 
 class _OutOfStepRobot:
