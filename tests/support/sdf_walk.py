@@ -259,10 +259,7 @@ def _read(root: Element, robot: str) -> tuple[Robot | None, dict[Diagnostic, str
         problem = error.problem("sdf")
         finding = Diagnostic(Severity.ERROR, problem.code, problem.message)
         return None, {finding: problem.message}
-    findings = {
-        each: "\n".join((each.message, *(detail.text for detail in each.details)))
-        for each in (*found.diagnostics, *found.unmodelled)
-    }
+    findings = {each: "\n".join((each.message, *(detail.text for detail in each.details))) for each in (*found.diagnostics, *found.unmodelled)}
     if found.robot is None:
         return None, findings
     return msgspec.structs.replace(found.robot, extensions={}), findings
