@@ -379,7 +379,7 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
         assert f"  urdfsync resolve {RECORD} --merge --prefer mine" in "\n".join(said(capsys, mode, code=3))
     run(f"urdfsync resolve {RECORD} --keep --quiet")
     (line,) = said(capsys, "check", code=3)
-    assert "robot `ladder`: in step, but not staged: 2 files; " in line
+    assert "robot `ladder`: in step, but not staged: 3 files; " in line
     run(line)
     assert said(capsys, "check", code=0) == []
 

@@ -21,8 +21,6 @@ def clone(folder: Path) -> Clone:
     (root / "clone/only").touch()
     (root / "top/mine").touch()
     (root / "clone/current").symlink_to("v1")
-    (root / "clone/absolute").symlink_to(root / "top/v1")
-    (root / "clone/out").symlink_to("../outside")
     (root / "clone/loop").symlink_to("loop")
     (root / "outside").mkdir()
     (root / "outside/file").write_text("outside")
@@ -35,9 +33,6 @@ def clone(folder: Path) -> Clone:
     [
         ("top/v1/file", "clone"),
         ("top/current/file", "clone"),
-        ("top/absolute/file", "clone"),
-        ("top/out/file", "outside"),
-        ("top/out/back/file", "clone"),
         ("outside/back/file", "clone"),
         ("outside/file", "outside"),
         ("top/v1/../../outside/file", "outside"),
@@ -68,9 +63,9 @@ def test_an_error_names_the_file_of_the_repository(clone: Clone) -> None:
 def test_paths_are_told_as_in_the_repository(clone: Clone) -> None:
     with clone:
         assert real(f"{clone.top}/current/file") == f"{clone.top}/v1/file"
-        assert named(place(f"{clone.top}/current/file")) == f"{clone.top}/v1/file"
-    trail = clone.trail(f"{clone.top}/out/back/file")
-    assert [clone.inside(path) for path in trail] == ["out", None, "v1/file"]
+        assert named(place(f"{clone.top}/current/file")) == f"{clone.top}/current/file"
+    outside = f"{Path(clone.top).parent}/outside"
+    assert [clone.inside(f"{outside}/{name}") for name in ("back/file", "file")] == ["v1/file", None]
 
 
 def test_a_path_with_thousands_of_folders_is_no_fault(clone: Clone) -> None:

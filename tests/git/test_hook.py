@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import sys
 from collections.abc import Callable
@@ -130,6 +131,27 @@ def test_the_index_of_a_partial_commit_is_the_one_that_counts(
     assert cli.main(["hook", "check"]) == 1
     monkeypatch.delenv("GIT_INDEX_FILE")
     assert cli.main(["hook", "check"]) == 0
+
+
+def test_links_mean_the_same_in_the_clone(repository: Repository) -> None:
+    """Git checks them out; those that lead out, or back by an absolute path, get another target."""
+    outside = repository.folder.parent / "outside"
+    outside.mkdir()
+    (outside / "back").symlink_to(repository.folder / "robots")
+    robots = str(clone(repository) / "robots")
+    links = [("inner", "robots", "robots"), ("absolute", str(repository.folder / "robots"), robots)]
+    links += [
+        ("out", "../outside", str(outside)),
+        ("robots/round", "../../outside/back/leg.urdf", f"{robots}/leg.urdf"),
+    ]
+    for name, target, _ in links:
+        Path(name).symlink_to(target)
+    repository.git("add", ".")
+    for _ in range(2):  # the second time, git finds other links than it has checked out
+        assert cli.main(["hook", "check"]) == 0
+        assert [(name, target, os.readlink(clone(repository) / name)) for name, target, _ in links] == links  # noqa: PTH115
+        Path("notes.txt").write_text("other notes\n")
+        repository.git("add", "notes.txt")
 
 
 def test_the_answer_belongs_to_the_folder_and_the_environment(

@@ -40,6 +40,8 @@ _FEW = 4
 _COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
 """The parts of the recorded state that belong into a commit."""
 _BUILD = "`urdfsync hook build`"
+_MOST_LINKS = 40
+"""The greatest number of links in a path, as on Linux. A longer chain has no end."""
 _OF_ALL = (".gitattributes", ".gitmodules")
 """Files by which git changes the content of other files."""
 
@@ -170,8 +172,7 @@ class _Places:
     def __init__(self, clone: Clone, entries: Iterable[Entry]) -> None:
         self.files, self._listings = set[str](), defaultdict[str, set[str]](set)  # kinds of listings by folder
         for kind, path in entries:
-            places = map(clone.inside, clone.trail(path)) if kind not in (VARIABLE, UNMERGED) else ()
-            inside = [place for place in places if place is not None]
+            inside = list(_trail(clone, path)) if kind not in (VARIABLE, UNMERGED) else ()
             self.files.update(inside)
             for folder in inside if kind.startswith(LISTINGS) else ():
                 self._listings[folder].add(kind)
@@ -195,6 +196,23 @@ class _Places:
         return any(counting(kind, (name,), lambda _: change is PathChange.FOLDER) for kind in kinds)
 
 
+def _trail(clone: Clone, path: str) -> Iterator[str]:
+    """Yield the links on the way of a path, and at last the path without links, as in git, inside of the repository."""
+    for _ in range(_MOST_LINKS):
+        if (inside := clone.inside(path)) is None:
+            return
+        place = Path(clone.folder, inside)
+        link = next((way for way in (*reversed(place.parents), place) if way.is_symlink()), None)
+        if link is None:
+            yield inside
+            return
+        yield link.relative_to(clone.folder).as_posix()
+        target = Path(os.path.normpath(link.parent / link.readlink()))
+        if target.is_relative_to(clone.folder):
+            target = clone.top / target.relative_to(clone.folder)
+        path = str(target / place.relative_to(link))
+
+
 class _OutOfStepRobot:
     """A robot that is out of step in the clone."""
 
@@ -212,15 +230,16 @@ class _OutOfStepRobot:
         result = built or (here if is_writing and here and here.failed else self.result)
         if result.failed or result.conflicts or result.is_broken:
             return self._reject("out-of-step", result.summary, "", result)
-        hint = _adding(self._find_missing(built, index := git.Index()), index, self.folders) if built else _BUILD
+        index = git.Index()
+        hint = _adding(self._find_missing(self._own_places(built), index), index, self.folders) if built else _BUILD
         return self._reject("out-of-step", f"out of step: {result.summary}", hint, result)
 
     def _not_staged(self, here: Result, is_writing: bool) -> Rejection:
         """Return the rejection if only the working tree is in step."""
         index, result = git.Index(), here if is_writing else self.result
-        places = _Places(self._commit.clone, here.reads.entries)
-        hidden = places.select(dict.fromkeys(index.hidden, PathChange.FILE), self.folders)
-        missing = self._find_missing(here, index)
+        own = self._own_places(here)
+        hidden = own.select(dict.fromkeys(index.hidden, PathChange.FILE), self.folders)
+        missing = self._find_missing(own, index)
         if hidden:
             message, hint = (
                 f"git ignores changes of {', '.join(sorted(hidden))}",
@@ -234,24 +253,26 @@ class _OutOfStepRobot:
             )
             return self._reject("not-staged", message, hint, result, is_enough=True)
         message, hint = "in step, but a clone is not", "clone the repository, and run `urdfsync build --check` there"
-        if nested := sorted(self._nested(here)):
+        if nested := sorted(self._nested(own)):
             hint = f"commit the changes in {nested[0]}, make it a submodule, and `git add` it"
         return self._reject("out-of-step", f"{message}: {self.result.summary}", hint, result)
 
-    def _find_missing(self, here: Result, index: git.Index) -> set[str]:
+    def _own_places(self, here: Result) -> _Places:
+        """Return all that a build in the working tree has read."""
+        top = self._commit.repository.top
+        return _Places(Clone(top, top), here.reads.entries)
+
+    def _find_missing(self, own: _Places, index: git.Index) -> set[str]:
         """Return the files to add to the commit: those that differ in the index, and that a build depends on."""
         top = Path(self._commit.repository.top)
-        own, cloned = (
-            _Places(Clone(str(top), str(top)), here.reads.entries),
-            _Places(self._commit.clone, self.result.reads.entries),
-        )
+        cloned = _Places(self._commit.clone, self.result.reads.entries)
         unstaged = dict.fromkeys(index.unstaged, PathChange.FILE)
         untracked = dict.fromkeys(index.untracked, PathChange.CONTENT)  # only those that the build reads
         found = {path for places in (own, cloned) for path in places.select(unstaged, self.folders)} | own.select(
             untracked
         )
         # of ignored files, only those that the build reads
-        nested = tuple(f"{path}/" for path in self._nested(here))
+        nested = tuple(f"{path}/" for path in self._nested(own))
         unknown = {path for path in own.files - index.tracked - index.untracked if not path.startswith(nested)}
         found |= {path for path in unknown if (top / path).is_file()}
         return {
@@ -260,12 +281,10 @@ class _OutOfStepRobot:
             if (self._is_for_git(path) and not (top / path / ".git").exists()) or path in index.tracked
         }
 
-    def _nested(self, here: Result) -> set[str]:
+    def _nested(self, own: _Places) -> set[str]:
         """Return the submodules and other repositories that a build in the working tree reads."""
-        top = self._commit.repository.top
-        files = _Places(Clone(top, top), here.reads.entries).files
-        folders = {str(folder) for path in files for folder in PurePosixPath(path).parents[:-1]}
-        return {folder for folder in folders if Path(top, folder, ".git").exists()}
+        folders = {str(folder) for path in own.files for folder in PurePosixPath(path).parents[:-1]}
+        return {folder for folder in folders if Path(self._commit.repository.top, folder, ".git").exists()}
 
     def _is_for_git(self, path: str) -> bool:
         """Return whether a file belongs into a commit: parts of the recorded state and the user's models do not."""

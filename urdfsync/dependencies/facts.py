@@ -69,7 +69,7 @@ def look(kind: str, path: str | os.PathLike[str]) -> Facts:
 def path_facts(path: str | os.PathLike[str]) -> Facts:
     """Return the facts of a path now. Raises OSError if the path can't be accessed."""
     try:
-        status = os.lstat(place(path, follow=False))
+        status = os.lstat(place(path))
         if stat.S_ISREG(status.st_mode):
             return stat_of(status)
         if not stat.S_ISLNK(status.st_mode):

@@ -3,7 +3,8 @@
 The clone is in `urdfsync/` in the folder of the repository, or of its working tree; nobody else uses it. It is a
 repository of its own that borrows the objects of the user's repository. So git itself does what it does in each clone:
 links, modes, filters, line ends. The settings and attributes of the user's own clone do not count there. Git rewrites
-only the files that differ from the last export. The user's index and objects are never written.
+only the files that differ from the last export. Of links, those that lead out of the repository get a target that means
+the same in the clone. The user's index and objects are never written.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from urdfsync.git import GitError, Repository, hook, list_paths, run
 from urdfsync.git.hook import ExportedIndex
 from urdfsync.state.lock import Lock
 
-_FOLDER, _SUBMODULE = "040000", "160000"
+_FOLDER, _LINK, _SUBMODULE = "040000", "120000", "160000"
 _MOST_OBJECTS = 20
 """A clone with more objects in one of 256 folders is made anew: each export adds some, and git never deletes them."""
 
@@ -78,27 +79,22 @@ def _export(repository: Repository, folder: Path) -> Commit:
     tree = _write_tree(clone, index)
     entries = _list(clone, tree)
     modules, names = _find_submodules(clone, tree, entries), [path for path, _, _ in entries]
-    attributes = repr([entry for entry in entries if entry[0].rpartition("/")[2] == ".gitattributes"])
+    attributes = [entry for entry in entries if entry[0].rpartition("/")[2] == ".gitattributes"]
     settings = run("config", "--list", clone=clone)
-    conversions = digest(f"{attributes}{settings}".encode(errors="surrogateescape"))
-    if former and (former.conversions != conversions or set(former.modules) != modules.keys()):
-        former = None  # git would rewrite only files with another content
+    conversions = digest(f"{attributes}{settings}{[*modules]}".encode(errors="surrogateescape"))
+    if former and former.conversions != conversions:  # git would rewrite only files with another content
         for name in _names(clone):
             _remove(f"{clone}/{name if name != '.git' else '.git/index'}")
-    if former is None or former.tree != tree:
-        run("read-tree", "-u", "--reset", tree, clone=clone)
+    run("read-tree", "-u", "--reset", tree, clone=clone)
+    view = Clone(repository.top, clone)
+    _relink(view, [path for path, mode, _ in entries if mode == _LINK])
     parents = [parent for name in ("HEAD", "MERGE_HEAD") for parent in _find_commits(repository, name)]
     _set_head(clone, tree, parents)
-    around = _repositories(repository.folder)
-    are_exported = [
-        _export_submodule(f"{clone}/{path}", commit, [_inside(repository.top, path), *_modules(around, name)])
-        for path, (commit, name) in modules.items()
-    ]
-    identity = hook.identify(content) if all(are_exported) else ""
-    export = ExportedIndex(identity, tree, conversions, *hook.find_configurations(names), tuple(modules))
+    is_complete = _export_submodules(clone, modules, repository.folder, repository.top)
+    export = ExportedIndex(hook.identify(content) if is_complete else "", conversions, *hook.find_configurations(names))
     export.write(record)
     changed = dict(_changes(clone, parents[0], tree)) if parents else None
-    return Commit(repository, Clone(repository.top, clone), export, frozenset(names), changed)
+    return Commit(repository, view, export, frozenset(names), changed)
 
 
 def _write_tree(clone: str, index: Path) -> str:
@@ -185,28 +181,35 @@ def _find_submodules(clone: str, tree: str, entries: Iterable[tuple[str, str, st
     }
 
 
-def _repositories(folder: str) -> list[str]:
-    """Return the folder of a repository; for a working tree of `git worktree` also that of the whole repository."""
-    common = Path(folder, "commondir")
-    return [folder, *([str(Path(folder, common.read_text().strip()))] if common.is_file() else [])]
+def _relink(view: Clone, links: Iterable[str]) -> None:
+    """Let links that lead out of the repository, or back into it by an absolute path, mean the same in the clone."""
+    for path in links:
+        link = Path(view.folder, path)
+        if not link.is_symlink():
+            continue  # a system without links has a file
+        text = link.readlink()
+        target = Path(os.path.normpath(Path(view.top, path).parent / text))
+        if text.is_absolute() or not target.is_relative_to(view.top):
+            link.unlink()
+            link.symlink_to(view.place(str(target)))
 
 
-def _modules(repositories: Iterable[str], name: str) -> list[str]:
-    """Return the folders where git keeps the repository of a submodule."""
-    return [f"{folder}/modules/{name}" for folder in repositories]
+def _export_submodules(clone: str, modules: Mapping[str, tuple[str, str]], folder: str, top: str = "") -> bool:
+    """Export the submodules of a clone from the repository at `folder`, which has a working tree at `top` if any.
 
-
-def _inside(top: str, path: str) -> str:
-    """Return the folder of the repository of a submodule with a working tree."""
-    at = Path(top, path, ".git")
-    try:
-        return str(at.parent / at.read_text(errors="surrogateescape").removeprefix("gitdir:").strip())
-    except OSError:  # it is the folder itself, or it is missing
-        return str(at)
+    Returns whether all were at hand, with those inside of them.
+    """
+    common = Path(folder, "commondir")  # of a working tree of `git worktree`: that of the whole repository
+    homes = [folder, *([str(Path(folder, common.read_text().strip()))] if common.is_file() else [])]
+    are_exported = []  # all of them, even if one is missing
+    for path, (commit, name) in modules.items():
+        places = [*([f"{top}/{path}/.git"] if top else []), *(f"{home}/modules/{name}" for home in homes)]
+        are_exported.append(_export_submodule(f"{clone}/{path}", commit, places))
+    return all(are_exported)
 
 
 def _export_submodule(clone: str, commit: str, folders: Iterable[str]) -> bool:
-    """Export a commit of a submodule from the first of these repositories that has it; return whether one has it.
+    """Export a commit of a submodule from the first of these repositories that has it; return whether all is at hand.
 
     Otherwise the folder is empty, as in a clone without its submodules.
     """
@@ -215,22 +218,19 @@ def _export_submodule(clone: str, commit: str, folders: Iterable[str]) -> bool:
         return True
     _remove(clone)
     Path(clone).mkdir()
-    for folder in filter(os.path.isdir, folders):
+    for place in filter(os.path.exists, folders):
         with contextlib.suppress(GitError):
-            words = "rev-parse", "--git-path", "objects", f"{commit}^{{commit}}"
-            objects = run(*words, clone=clone, GIT_DIR=folder).split("\n")[0]
+            words = "rev-parse", "--absolute-git-dir", "--git-path", "objects", f"{commit}^{{commit}}"
+            folder, objects, _ = run(*words, clone=clone, GIT_DIR=place).splitlines()
             break
     else:
         return False
     _prepare(clone, os.path.realpath(objects))
     run("read-tree", "-u", "--reset", commit, clone=clone)
-    inner, around = _find_submodules(clone, commit, _list(clone, commit)), _repositories(folder)
-    are_exported = [
-        _export_submodule(f"{clone}/{path}", sha, _modules(around, name)) for path, (sha, name) in inner.items()
-    ]
-    if all(are_exported):
+    is_complete = _export_submodules(clone, _find_submodules(clone, commit, _list(clone, commit)), folder)
+    if is_complete:
         head.write_text(f"{commit}\n")  # at last: otherwise the next hook exports it again
-    return all(are_exported)
+    return is_complete
 
 
 def _remove(path: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 from urdfsync import git, noop
+from urdfsync.dependencies import localfile
 from urdfsync.dependencies.places import Clone
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 ms
@@ -13,46 +14,34 @@ if TYPE_CHECKING:
 
 _CHECKSUM = 20
 """The number of bytes at the end of an index that identify it, as a part of its checksum."""
-_END = "end of an export by urdfsync"
 
 
 class ExportedIndex:
     """What the hook's clone was exported from (see `git.clone`)."""
 
-    def __init__(
-        self,
-        index: str,
-        tree: str,
-        conversions: str,
-        configurations: Sequence[str],
-        lost: Sequence[str],
-        modules: Sequence[str],
-    ) -> None:
+    def __init__(self, index: str, conversions: str, configurations: Sequence[str], lost: Sequence[str]) -> None:
         """`index` identifies the index; it is empty if a submodule was not at hand.
 
-        `conversions` is a hash of the settings and attributes by which git converts files. `lost` are the untracked
-        configurations of tracked states. `modules` are the submodules that a clone has. All paths are from the top.
+        `conversions` is a hash of the submodules, and of the settings and attributes by which git converts files.
+        `lost` are the untracked configurations of tracked states. All paths are from the top.
         """
-        self.index, self.tree, self.conversions = index, tree, conversions
-        self.configurations, self.lost, self.modules = configurations, lost, modules
+        self.index, self.conversions = index, conversions
+        self.configurations, self.lost = configurations, lost
 
     @classmethod
-    def read(cls, file: str | os.PathLike[str]) -> ExportedIndex | None:
+    def read(cls, file: str) -> ExportedIndex | None:
         """Return the last export; None if there is none, or if an export is under way or was killed."""
         try:
-            with open(file, encoding="utf-8", errors="surrogateescape", newline="") as opened:
-                *texts, end = opened.read().split("\0\0")
-        except OSError:
+            index, conversions, *lists = os.fsdecode(localfile.read(file) or b"").split("\0\0")
+            configurations, lost = ([path for path in text.split("\0") if path] for text in lists)
+        except ValueError:
             return None
-        lists = ([path for path in text.split("\0") if path] for text in texts[3:])
-        return cls(*texts[:3], *lists) if len(texts) == 6 and end == _END else None
+        return cls(index, conversions, configurations, lost)
 
-    def write(self, file: str | os.PathLike[str]) -> None:
+    def write(self, file: str) -> None:
         """Write the file of the last export."""
-        lists = self.configurations, self.lost, self.modules
-        texts = [self.index, self.tree, self.conversions, *map("\0".join, lists)]
-        with open(file, "w", encoding="utf-8", errors="surrogateescape", newline="") as opened:
-            opened.write("\0\0".join([*texts, _END]))
+        texts = self.index, self.conversions, "\0".join(self.configurations), "\0".join(self.lost)
+        localfile.replace(file, os.fsencode("\0\0".join(texts)))
 
 
 def is_answered(arguments: list[str]) -> bool:

@@ -15,13 +15,13 @@ from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
 from urdfsync.domain.changes import Effect
 from urdfsync.domain.scene import Body, Hinge, LoopConstraint, Scene
 from urdfsync.engine.decide.decision import decide_package
-from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inspect.inputs import Inputs, inspect
 from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package.generate import Package
+from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
 from urdfsync.engine.stage.writes import draw_model
 from urdfsync.files import shown

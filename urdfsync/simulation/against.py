@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -11,10 +12,9 @@ import msgspec
 import numpy as np
 
 from urdfsync.config import Config, RobotConfig, load
-from urdfsync.dependencies.places import real
 from urdfsync.diagnostics import ConfigError, UrdfsyncError
-from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.options import Progress
+from urdfsync.engine.renames import find_matching
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
 from urdfsync.simulation.package import Prepared, prepare
@@ -63,7 +63,7 @@ def _check_out(revision: Revision, scratch: Path, config: Config, robot: RobotCo
     """Return the configuration and the robot of a revision, checked out to a folder. Raises UrdfsyncError."""
     revision.read(config.file)  # tells a revision without the configuration
     revision.export(scratch)
-    former = load(scratch / Path(real(config.file)).relative_to(revision.top))
+    former = load(scratch / Path(os.path.realpath(config.file)).relative_to(revision.top))
     return former, former.select_one([robot.name], "simulate")
 
 

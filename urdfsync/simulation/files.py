@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.places import real
 from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, put, shown
@@ -38,7 +37,7 @@ def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None
 
 def check_distinct(files: Mapping[str, Path]) -> None:
     """Raise OutputError if two outputs have the same name."""
-    if len({Path(real(file)) for file in files.values()}) < len(files):
+    if len({Path(os.path.realpath(file)) for file in files.values()}) < len(files):
         raise not_writable(next(iter(files.values())), "two outputs have this name", "name two files")
 
 
@@ -55,10 +54,10 @@ def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
     """Raise OutputError for a file that can't be written, or is one of `inputs`."""
     if file.exists() and not file.is_file():
         raise not_writable(file, f"{kind_of(file.stat().st_mode)} is in its place", "name a file")
-    if not Path(real(file)).parent.is_dir():
+    if not Path(os.path.realpath(file)).parent.is_dir():
         raise not_writable(file, "there is no such folder", "make it first")
-    target = file if file.exists() else Path(real(file)).parent
-    if not os.access(target, os.W_OK) or not os.access(Path(real(file)).parent, os.W_OK):
+    target = file if file.exists() else Path(os.path.realpath(file)).parent
+    if not os.access(target, os.W_OK) or not os.access(Path(os.path.realpath(file)).parent, os.W_OK):
         raise not_writable(file, "the file can't be written: no permission", "name a file elsewhere")
     for what, other in inputs.items():
         if file.exists() and other.exists() and file.samefile(other):
@@ -77,7 +76,7 @@ def default_file(name: str, is_ours: Callable[[Path], bool]) -> Path:
 def write_file(file: Path, content: bytes) -> None:
     """Write a file. Raises OutputError."""
     try:
-        put(Path(real(file)), content)
+        put(Path(os.path.realpath(file)), content)
     except OSError as error:
         hint = "check that its folder may be written to, and that there is space on the disk"
         raise not_writable(file, f"the file can't be written: {error.strerror}", hint) from None

@@ -23,13 +23,13 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError,
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Lookup, Reading, Target, Version
 from urdfsync.domain.changes import Effect
 from urdfsync.engine.build import build
-from urdfsync.engine.decide.renames import find_matching
 from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.engine.inspect.inputs import inspect
 from urdfsync.engine.judgements import find_jumps, judge
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package import imports
 from urdfsync.engine.package.generate import Package, generate
+from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import Exit, Outlook, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.sources import source as source_files

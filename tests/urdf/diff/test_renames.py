@@ -15,7 +15,7 @@ from support import mutations
 
 from urdfsync.changes import compare
 from urdfsync.domain import ChangeKind, ElementKey, Version
-from urdfsync.engine.decide.renames import find_matching
+from urdfsync.engine.renames import find_matching
 from urdfsync.matching import match
 from urdfsync.state.record import as_read
 from urdfsync.urdf.diff import renames

@@ -46,7 +46,7 @@ def find_doubts(
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
     doubts |= open_doubts
     unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
-    others = other_meanings(inputs, generation, differences) if unknown else {}
+    others = other_meanings(inputs, generation, differences.parts) if unknown else {}
     for action in unknown:
         if not (others or inputs.commits):
             break

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
 
 from urdfsync.domain import Artifact, ElementKey, Role, displaced
 from urdfsync.engine.generation import Generation
@@ -11,9 +10,6 @@ from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.files import digest
 from urdfsync.matching import Doubt, Matching
 from urdfsync.modelica.stamp import Stamp
-
-if TYPE_CHECKING:
-    from urdfsync.engine.decide.differences import Differences
 
 _DIGITS = 8
 """The number of digits of a part's id, which begins the id of each of its files."""
@@ -67,7 +63,7 @@ def find_former_ids(inputs: Inputs, generation: Generation, parts: Mapping[str, 
     return {owner: tuple(ids) for owner, ids in found.items()}
 
 
-def other_meanings(inputs: Inputs, generation: Generation, differences: Differences) -> dict[ElementKey, Doubt]:
+def other_meanings(inputs: Inputs, generation: Generation, parts: Mapping[str, str]) -> dict[ElementKey, Doubt]:
     """Return a doubt for each element whose name had meant another part when the last complete build was made.
 
     The edits of files from before that build have another base, which tells the meaning of their names.
@@ -76,7 +72,7 @@ def other_meanings(inputs: Inputs, generation: Generation, differences: Differen
     if not former_ids:
         return doubts
     present = inputs.domain.features(generation.now.snapshot)
-    ids = {key: differences.parts.get(" ".join(key), first_id(" ".join(key))) for key in present}
+    ids = {key: parts.get(" ".join(key), first_id(" ".join(key))) for key in present}
     for key, part in ids.items():
         if others := set(former_ids.get(" ".join(key), ())) - {part}:
             moved_to = next((name for (kind, name), other in ids.items() if kind == key[0] and other in others), "")

@@ -4,86 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from urdfsync.domain import Domain, ElementKey, Features, Snapshot, displaced
-from urdfsync.domain.changes import Formats
+from urdfsync.domain import ElementKey, Snapshot, displaced
 from urdfsync.engine.inspect.inputs import Inputs
-from urdfsync.matching import Doubt, Elements, Matching, match
-
-
-def find_matching(
-    domain: Domain,
-    old: Snapshot,
-    new: Snapshot,
-    declared: Mapping[str, str],
-    *,
-    is_pending: bool = False,
-    has_other_format: bool = False,
-) -> Matching:
-    """Match the elements of two versions; `declared` maps old names to new names.
-
-    Declared renames of a kind (links, joints) are ignored if the old version has the new names already. That is so if
-    an element with one of the old names is equal in both versions. If `is_pending`, this element must also differ from
-    the element with the new name: elements that look alike prove nothing. If the new version `has_other_format`, the
-    elements without a match match by features that all formats have, and by places alone if they are more than half.
-    """
-    if old == new and not (declared and is_pending):
-        return Matching()
-    parts = domain.parts.pairs(old, new) if domain.parts else {}
-    if domain.parts and parts:  # elements are alike if they differ in names of their parts alone
-        old = domain.parts.renamed(old, {key: name for key, (_, name) in parts.items()})
-    before, after = domain.features(old), domain.features(new)
-    named = {(kind, name): (kind, declared[name]) for kind, name in before if name in declared}
-    named = {key: new for key, new in named.items() if new in after}
-    done = {
-        key[0]
-        for key, new in named.items()
-        if before[key] == after.get(key) and not (is_pending and before[key].contents == after[new].contents)
-    }
-    named = {**parts, **{key: new for key, new in named.items() if key[0] not in done}}
-    matching = match(before, after, named)
-    pairs = _pairs(before, after, matching) if has_other_format else {}
-    count = min(len(before), len(after))
-    if not has_other_format or len(pairs) == count:
-        return matching
-    formats = domain.formats  # loads numpy, which takes as long as a build of a changed mass
-    if formats is None:
-        return matching
-    # if most elements match, a part that matches by its place alone may be a new part at the place of a removed one
-    further = _coarse_renames(formats, old, new, matching, pairs, by_places=2 * len(pairs) < count)
-    return Matching({**further, **matching.renames}, matching.doubts)
-
-
-def _pairs(before: Elements, after: Elements, matching: Matching) -> dict[ElementKey, ElementKey]:
-    gone = displaced(matching.renames)
-    new = {key: (key[0], matching.renames.get(key, key[1])) for key in before if key not in gone}
-    return {key: to for key, to in new.items() if to in after}
-
-
-def _coarse_renames(
-    formats: Formats,
-    old: Snapshot,
-    new: Snapshot,
-    matching: Matching,
-    pairs: Mapping[ElementKey, ElementKey],
-    *,
-    by_places: bool,
-) -> dict[ElementKey, str]:
-    """Return the renames of elements that are not in `pairs`: by features of all formats, then `by_places` alone.
-
-    `pairs` are the matched elements. A pair stays as it is even if its elements have no coarse features.
-    """
-    before, after, renames = formats.coarse_features(old), formats.coarse_features(new), dict[ElementKey, str]()
-    matched, taken = set(pairs), set(pairs.values())
-    for has_contents in (True, False) if by_places else (True,):
-        sides = [before, after]
-        if not has_contents:
-            sides = [{key: Features({}, each.neighbours) for key, each in side.items()} for side in sides]
-        known = _pairs(sides[0], sides[1], Matching({**renames, **matching.renames}))
-        for key, name in match(sides[0], sides[1], known).renames.items():
-            if key not in matched and (key[0], name) not in taken:
-                renames[key] = name
-        matched, taken = {*matched, *renames}, {*taken, *((kind, name) for (kind, _), name in renames.items())}
-    return renames
+from urdfsync.engine.renames import find_matching
+from urdfsync.matching import Doubt, Matching
 
 
 def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:

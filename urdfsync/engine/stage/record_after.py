@@ -58,7 +58,7 @@ def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> 
         ids=differences.parts,
     )
     # an edit is not worth a commit of the record, unless a clone would ask which part it belongs to
-    asked = {" ".join(element) for element in other_meanings(inputs, generation, differences)}
+    asked = {" ".join(element) for element in other_meanings(inputs, generation, differences.parts)}
     told = {str(one.mine) for one in decision.actions if one.owner in asked}
     silent = msgspec.structs.replace(
         new, edits={**old.edits, **{sha256: edits[sha256] for sha256 in edits.keys() & told}}
