@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +59,6 @@ def test_texts_are_compared_whatever_is_recorded(project: Path, monkeypatch: pyt
         return real(self, msgspec.structs.replace(model, elements=elements), *others)
 
     monkeypatch.setattr(domain, "artifacts", artifacts)
-    shutil.rmtree(".urdfsync/deps")
     assert kinds(run(dry=True))["Elements/R1Parameters.mo"] is Reason.UPDATE
 
 

@@ -24,8 +24,9 @@ def values(kind: Any) -> st.SearchStrategy[Any]:
     inside = get_args(kind)
     if get_origin(kind) is Annotated:
         return values(inside[0])
-    if kind in (float, str, bool, None, type(None)):
-        return {float: NUMBERS, str: st.text(max_size=6), bool: st.booleans()}.get(kind, st.none())
+    if kind in (float, int, str, bool, None, type(None)):
+        plain = {float: NUMBERS, int: st.integers(1, 9), str: st.text(max_size=6), bool: st.booleans()}
+        return plain.get(kind, st.none())
     if get_origin(kind) is Literal:
         return st.sampled_from(inside)
     if get_origin(kind) is tuple and inside[1:] == (...,):

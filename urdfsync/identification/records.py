@@ -18,6 +18,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.files import failure, put, shown
 from urdfsync.identification.results import FittedNumber
 from urdfsync.modelica.parser import parse
+from urdfsync.modelica.stamp import with_stamp
 from urdfsync.modelica.values import Value, literals, read_values
 
 _COMMENTED = re.compile(r'((?:"(?:[^"\\]|\\.)*+"|(?!/[*/])[^"])*+)(?:/\*(?:(?!\*/).)*+\*/|//[^\n]*+|\s)*+', re.DOTALL)
@@ -111,10 +112,10 @@ class Records:
             for copy in self.values[element][path]:
                 text = f"{{{', '.join(map(_short, words))}}}" if copy.text.startswith("{") else _short(words[0])
                 changes.setdefault(copy.path, []).append((copy, text))
-        folder, contents = self.package.robot.folder, dict[Path, bytes]()
+        folder, contents, former = self.package.robot.folder, dict[Path, bytes](), dict[Path, bytes]()
         for path, of_file in changes.items():
-            before = read_unrecorded(folder / path)
-            if before != self.package.on_disk[path]:
+            before = former[folder / path] = read_unrecorded(folder / path)
+            if with_stamp(before, None) != self.package.on_disk[path]:
                 raise ConfigError.of("identify", "the file was saved meanwhile", shown(folder / path), hint="try again")
             text = _text(before)
             for copy, new in sorted(of_file, key=lambda each: -each[0].start):
@@ -126,7 +127,7 @@ class Records:
                 put(file, content)
             except OSError as error:
                 for done in written:  # half of a fit is none
-                    put(done, self.package.on_disk[done.relative_to(folder).as_posix()])
+                    put(done, former[done])
                 raise failure(error, file) from None
             written.append(file)
         return tuple(file.relative_to(self.config.root).as_posix() for file in contents)

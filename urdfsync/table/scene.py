@@ -8,7 +8,7 @@ from __future__ import annotations
 import colorsys
 import math
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.domain import Import, Target
@@ -55,6 +55,18 @@ def scene(
     rest = len(table.elements) - len(places)
     missing = (f"{rest:,} further elements",) if rest else ()
     return Scene((Body(root, target.name, (), tuple(lines)), *bodies), tuple(hinges), missing, noun="table"), {}
+
+
+def with_numbers(
+    table: Table, numbers: Mapping[tuple[str, str], Sequence[float]]
+) -> tuple[Table, Collection[tuple[str, str]]]:
+    """Return the table as it is: its picture shows no numbers."""
+    return table, numbers.keys()
+
+
+def stated_triangles(content: bytes) -> int | None:  # noqa: ARG001 - see `Pictures`
+    """Return None: no mesh is shown."""
+    return None
 
 
 def named_poses(source: Path, table: Table) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:  # noqa: ARG001 - see `Pictures`

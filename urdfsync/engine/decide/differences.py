@@ -208,8 +208,9 @@ def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
             if target is None or as_file(target) == as_file(key):
                 continue
             there = files.stamp(target)
-            is_edited = there and there.id == file_id and there.base != files.hash(target, Role.MODEL)
-            if is_edited or not _is_in_place(last.base(stamp.base), last.target, folder.path(key)):
+            is_there = there is not None and there.id == file_id and there.base != files.hash(target, Role.MODEL)
+            is_edited = files.hash(key, Role.MODEL) != stamp.base
+            if is_there or (is_edited and not _is_in_place(last.base(stamp.base), last.target, folder.path(key))):
                 continue  # the class is the user's own: a copy, or with another name
             place = as_file(key)  # if the class is a folder, the file that it was
             moves.setdefault(target, place if place in last.record.files else key)
