@@ -21,6 +21,7 @@ from support.replay import Project
 from support.tree_changes import CHANGES, changed
 
 from urdfsync.modelica.lexer import lex
+from urdfsync.modelica.stamp import split
 from urdfsync.modelica.tree import comments
 
 GOLDEN = Path(__file__).parent / "golden"
@@ -132,8 +133,9 @@ def differences(content: bytes, work: Path, random: Random, tally: collections.C
         if result.failed or result.conflicts:
             yield f"{kind}: {result.diagnostics} {[one.action.path for one in result.conflicts]}"
             continue
-        merged = texts(project)
-        for path, text in fresh.items():
+        merged = {path: split(text)[0] for path, text in texts(project).items()}
+        for path, stamped in fresh.items():
+            text, _ = split(stamped)
             without = functools.reduce(lambda rest, one: rest.replace(one, ""), ADDITIONS.values(), merged[path])
             tally[f"{kind}: files with an addition"] += without != merged[path]
             if path in edits and merged[path].count(ADDITIONS[edits[path]]) != 1:

@@ -85,12 +85,12 @@ def test_edits_follow_when_the_program_gives_an_element_another_identifier(
     component = f"f{old[1:]}"
     edit(links / f"{old}.mo", "\nequation", "\n  Real mine = m;\n\nequation")
     edit(robot, "\nequation", f"\n  Real mine = {component}.m;\n\nequation")
-    edit(program / "urdfsync/urdf/names.py", "_DIGITS = 6\n", "_DIGITS = 7\n")
+    edit(program / "urdfsync/modelica/identifiers.py", "_DIGITS = 6\n", "_DIGITS = 7\n")
     try:
         assert call(program, "build", "--quiet") == 0
         assert call(program, "build", "--check") == 0
     finally:
-        edit(program / "urdfsync/urdf/names.py", "_DIGITS = 7\n", "_DIGITS = 6\n")
+        edit(program / "urdfsync/modelica/identifiers.py", "_DIGITS = 7\n", "_DIGITS = 6\n")
     (new,) = (path.stem for path in links.glob("Fore_arm_???????.mo"))
     assert new.startswith(old)
     assert "Real mine = m;" in (links / f"{new}.mo").read_text()

@@ -91,6 +91,8 @@ def test_what_git_has_united_is_in_step_without_a_build(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, way: str, driver: bool, case: str
 ) -> None:
     edits, ours, theirs, verdict, approach = CASES[case]
+    if approach == "record" and not driver:
+        pytest.skip("without the driver, git marks the stamp of a file that both branches exported")
     Path("urdfsync.toml").write_text(
         f'[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\napproach = ["{approach}"]\non_conflict = "merge"\n'
     )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+import warnings
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
@@ -301,9 +302,11 @@ def candidates(attribute: str, root: Element) -> Iterator[str]:
 
 def observe(text: str) -> Any:
     """Return numbers of the motion that MuJoCo computes. Raises ValueError if MuJoCo refuses the model."""
-    model = mujoco.MjSpec.from_string(
-        text, include={name: text for name, text in FILES.items() if name.endswith("xml")}, assets=FILES
-    ).compile()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # some attributes are deprecated
+        model = mujoco.MjSpec.from_string(
+            text, include={name: text for name, text in FILES.items() if name.endswith("xml")}, assets=FILES
+        ).compile()
     data, seen = mujoco.MjData(model), list[Any]()
     for start in range(-1, min(model.nkey, 1)):
         for command in (0.3, -20.0, 20.0):

@@ -10,7 +10,7 @@ from urdfsync.spelling import same_count
 
 _LONGEST = 60
 """The greatest number of characters of a text that a sentence quotes."""
-_BLANK = re.compile(r'("(?:[^"\\]|\\.)*")| (?=[,)\]])|(?<=[(\[]) |(?<=\w) (?=[(\[])')
+_BLANK = re.compile(r'("(?:[^"\\]|\\.)*+(?:"|\\?\Z))| (?=[,)\]])|(?<=[(\[]) |(?<=\w) (?=[(\[])', re.DOTALL)
 """A blank between the words of a key that no user writes; a string stays."""
 _SILENT = frozenset("body value expression definition import components".split())
 """Parts that sentences do not name, since they contain things with names."""

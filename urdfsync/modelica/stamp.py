@@ -19,20 +19,22 @@ _MARKED = re.compile(
 """Git's markers around a stamp alone: both branches exported the part."""
 _ANY = re.compile(rf"\n[ \t]*annotation\s*\(\s*{_STAMP.pattern}\s*\)\s*;|,\s*{_STAMP.pattern}")
 _LAST = rf"[ \t]*{_WORD}[^\n]*?\)[ \t]*(\)[ \t]*;\r?\n)"
-_LINES = r"((?:(?![<|=>]{7})[^\n]*\n)*)"
+_LINES = r"((?:(?![<|=>]{7})[^\n]*\n)*+)"
 _FIRST = re.compile(
     rf",\n(<{{7,}}(?=\s)[^\n]*\n){_LAST}{_LINES}(?:(\|{{7,}}(?=\s)[^\n]*\n){_LAST})?{_LINES}(={{7,}}\r?\n){_LAST}"
 )
 """Git's markers around stamps that begin both sides, with the lines after our one."""
 _ALONE = re.compile(r"(\s*\))\s*;[ \t]*(\r?\n)?")
-_TOKENS = re.compile(r'"(?:[^"\\]|\\.)*+"|//[^\n]*+|/\*.*?\*/|[;\[\]]', re.DOTALL)
-_END = re.compile(r"\bend\s+[^\s;]+\s*$")
-_BLANKS = r"(?:\s|//[^\n]*\n|/\*.*?\*/)*"
-_HEAD = r"(?:[\w\s]*\b(?:package|model|record|block|class|connector|function|type|operator)\s+[^\s;\"]+" + (
-    rf"{_BLANKS}(?:\"(?:[^\"\\]|\\.)*+\"{_BLANKS}\+?{_BLANKS})*)?"
+_TOKENS = re.compile(r'"(?:[^"\\]|\\.)*+(?:"|\\?\Z)|//[^\n]*+|/\*(?:[^*]|\*(?!/))*+(?:\*/|\Z)|[;\[\]]', re.DOTALL)
+_END = re.compile(r"\bend\s++[^\s;]++\s*+$")
+_BLANKS = r"(?:\s|//[^\n]*\n|/\*(?:[^*]|\*(?!/))*+\*/)*+"
+_PREFIXES = r"(?:(?:encapsulated|partial|operator|expandable|pure|impure)\s++)*+"
+_STRINGS = rf"(?:\"(?:[^\"\\]|\\.)*+\"{_BLANKS}\+?{_BLANKS})*+"
+_HEAD = (
+    rf"(?:{_PREFIXES}(?:package|model|record|block|class|connector|function|type)\s++[^\s;\"]++{_BLANKS}{_STRINGS})?+"
 )
 _ANNOTATION = re.compile(
-    rf"{_BLANKS}{_HEAD}(?:(?:public|protected|initial|equation|algorithm)\b{_BLANKS})*annotation\s*\(", re.DOTALL
+    rf"{_BLANKS}{_HEAD}(?:(?:public|protected|initial|equation|algorithm)\b{_BLANKS})*+annotation\s*\(", re.DOTALL
 )
 
 

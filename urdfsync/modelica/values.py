@@ -63,7 +63,7 @@ def literals(text: str) -> tuple[float, ...] | str | None:
 
 def without_comments(text: str) -> str:
     """Return an expression without strings, with blanks for its comments."""
-    return re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.DOTALL)
+    return re.sub(r"/\*.*?(?:\*/|\Z)|//[^\n]*+", " ", text, flags=re.DOTALL)
 
 
 def _of_statement(text: str, tokens: list[Token]) -> Iterator[Value]:

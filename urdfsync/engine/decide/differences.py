@@ -81,7 +81,8 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         others = {name: f"{name}{GONE}" for _, name in displaced(renames)}
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
-    is_structural = news is None or news.change_class.rank >= ChangeClass.STRUCTURAL.rank
+    # another version of urdfsync may give an element another identifier
+    is_structural = news is None or news.change_class.rank >= ChangeClass.STRUCTURAL.rank or bool(moves)
     former_ids = find_former_ids(inputs, generation, parts) if is_structural else last.record.former_ids
     identifiers, former = dict[str, str](), last.record.former
     if is_structural:
