@@ -75,7 +75,8 @@ def lacks_unmodelled(path: str, result: Result, found: bytes | None, wanted: byt
     old, new = (statefile.loads(text.decode(), path)[0] for text in (found, wanted))
     if old is None or new is None:
         return False
-    return old == msgspec.structs.replace(new, snapshot=old.snapshot, former=old.former)
+    history = {"former": old.former, "former_ids": old.former_ids, "ids": old.ids, "edits": old.edits}
+    return old == msgspec.structs.replace(new, snapshot=old.snapshot, **history)
 
 
 def faults(project: Project, before: Stamps, result: Result, old: Files, package: Files, state: Files) -> Iterator[str]:
