@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Changes, by_deepdiff, compare, find_differences, moved_files, of_leaves
+from urdfsync.changes import Changes, by_deepdiff, compare, find_differences, of_leaves
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
@@ -166,20 +166,3 @@ def test_noise_is_a_number_that_changed_by_a_millionth_or_less(old: Any, new: An
 
 MODEL = Role.MODEL
 A, B, C, D = (f"link {name}" for name in "abcd")
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "moved"),
-    [
-        pytest.param({"A.mo": A, "C.mo": C}, {"B.mo": B, "C.mo": C}, {"A.mo": "B.mo"}, id="with a renamed element"),
-        pytest.param({"A.mo": C}, {"A_2.mo": C, "A.mo": B}, {"A.mo": "A_2.mo"}, id="another takes its place"),
-        pytest.param({"A.mo": D, "B.mo": C}, {"B.mo": D, "C.mo": C}, {"A.mo": "B.mo", "B.mo": "C.mo"}, id="in a row"),
-        pytest.param({"A.mo": A, "B.mo": B}, {"B.mo": B}, {"A.mo": "B.mo"}, id="with the name of one that is gone"),
-        pytest.param({"A.mo": "robot", "ARun.mo": "robot"}, {"B.mo": "robot", "BRun.mo": "robot"}, {}, id="no guess"),
-    ],
-)
-def test_files_move_with_the_element_that_they_belong_to(
-    old: dict[str, str], new: dict[str, str], moved: dict[str, str]
-) -> None:
-    before, after = ({path: (owner, MODEL) for path, owner in files.items()} for files in (old, new))
-    assert moved_files(before, after, {("link", "a"): "b"}) == moved

@@ -1,10 +1,9 @@
-"""Compares two versions of a model: finds and classifies the changes, and finds moved files. Works for any domain."""
+"""Compares two versions of a model: finds and classifies the changes. Works for any domain."""
 
 from __future__ import annotations
 
 import functools
-from collections import defaultdict
-from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -162,36 +161,6 @@ def _weight(change: Change) -> tuple[bool, ...]:
         change.change_class is ChangeClass.UNMODELLED,
     )
     return change.kind is not ChangeKind.RENAMED, not is_structural, len(change.path) > 1, change.noise or is_quiet
-
-
-def moved_files(
-    old: Mapping[str, tuple[str, str]], new: Mapping[str, tuple[str, str]], renames: Mapping[ElementKey, str]
-) -> Mapping[str, str]:
-    """Return old path → new path of each file that belongs to the same element, but has another path.
-
-    `old` and `new` map a file's path to its owner and template. A file moves with its element's new name, or with its
-    new identifier. If several files of one element and template have moved, the result has none of them. If another
-    element has a removed element's name, the removed element's files are left out.
-    """
-    if old == new and not renames:
-        return {}
-    owners = {f"{kind} {name}": f"{kind} {renamed}" for (kind, name), renamed in renames.items()}
-    displaced_owners = {f"{kind} {name}" for kind, name in displaced(renames)}
-    sources, targets = defaultdict[Hashable, list[str]](list), defaultdict[Hashable, list[str]](list)
-    unmoved = set()
-    for path, (owner, template) in old.items():
-        if owner in displaced_owners:
-            continue
-        key = owners.get(owner, owner), template
-        if new.get(path) == key:
-            unmoved.add(path)
-        else:
-            sources[key].append(path)
-    for path, key in new.items():
-        if path not in unmoved:
-            targets[key].append(path)
-    pairs = ((paths, targets[key]) for key, paths in sources.items() if key in targets)
-    return {old_paths[0]: new_paths[0] for old_paths, new_paths in pairs if len(old_paths) == len(new_paths) == 1}
 
 
 def find_differences(

@@ -16,7 +16,7 @@ from urdfsync.identification.bag import TOO_LARGE, Bag
 from urdfsync.identification.process import LogRequest, is_recording
 from urdfsync.identification.tables import INSTANTS, csv_rows, open_parquet, parquet_rows, read_header
 from urdfsync.processes import limits
-from urdfsync.processes.limited import Answer, answer_requests
+from urdfsync.processes.limited import LimitedAnswer, answer_requests
 
 _ROWS, _NUMBERS = 50_000, 5_000_000
 """The greatest number of rows, and of their numbers, that are read at once."""
@@ -28,20 +28,22 @@ class Worker:
     def __init__(self) -> None:
         self._rows: Iterator[Array] = iter(())
 
-    def answer(self, line: bytes, _: IO[bytes]) -> tuple[Answer, list[bytes]]:
+    def answer(self, line: bytes, _: IO[bytes]) -> tuple[LimitedAnswer, list[bytes]]:
         """Open a log, or read its next rows."""
         request = msgspec.json.decode(line, type=LogRequest)
         try:
             with limits(request.seconds, request.memory, request.most):
                 if not request.file:
-                    return Answer(), [np.ascontiguousarray(next(self._rows, np.zeros(0)), float).tobytes()]
+                    return LimitedAnswer(), [np.ascontiguousarray(next(self._rows, np.zeros(0)), float).tobytes()]
                 header, instants = self._open(Path(request.file), request)
-                return Answer(facts=({"header": header, "instants": instants},)), []
+                return LimitedAnswer(facts=({"header": header, "instants": instants},)), []
         except MemoryError:
-            return Answer(problem=f"reading the log takes more than {request.memory // 1_000_000} MB of memory"), []
+            return LimitedAnswer(
+                problem=f"reading the log takes more than {request.memory // 1_000_000} MB of memory"
+            ), []
         except UrdfsyncError as error:
             finding = msgspec.to_builtins(error.diagnostics[0])
-            return Answer(facts=({"finding": finding, "is_of_user": isinstance(error, ConfigError)},)), []
+            return LimitedAnswer(facts=({"finding": finding, "is_of_user": isinstance(error, ConfigError)},)), []
 
     def _open(self, file: Path, request: LogRequest) -> tuple[list[str], list[int]]:
         """Return the columns of a log, and the places of those with instants."""

@@ -20,7 +20,7 @@ _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
 
 
-class Answer(msgspec.Struct, frozen=True):
+class LimitedAnswer(msgspec.Struct, frozen=True):
     """A line from the process; the bytes of each file follow."""
 
     sizes: tuple[int, ...] = ()
@@ -49,7 +49,7 @@ class LimitedProcess:
 
     def ask(
         self, request: msgspec.Struct, contents: Sequence[bytes], seconds: float, wall_seconds: float
-    ) -> tuple[Answer, list[bytes]]:
+    ) -> tuple[LimitedAnswer, list[bytes]]:
         """Return the answer to a request, with its files; the process limits itself to `seconds` of CPU time.
 
         Raises TimeoutError for a request that took too long, ValueError if the process fails, or OSError if it can't
@@ -102,7 +102,7 @@ class LimitedProcess:
         )
 
 
-def answer_requests(answer: Callable[[bytes, IO[bytes]], tuple[Answer, Sequence[bytes]]]) -> None:
+def answer_requests(answer: Callable[[bytes, IO[bytes]], tuple[LimitedAnswer, Sequence[bytes]]]) -> None:
     """Answer requests until stdin is closed, as the program of the process. Contents follow the line of a request."""
     requests, answers = sys.stdin.buffer, reserve_stdout()
     while line := requests.readline():
@@ -117,14 +117,14 @@ def answer_requests(answer: Callable[[bytes, IO[bytes]], tuple[Answer, Sequence[
 
 def _exchange(
     process: subprocess.Popen[bytes], request: msgspec.Struct, contents: Sequence[bytes]
-) -> tuple[Answer, list[bytes]]:
+) -> tuple[LimitedAnswer, list[bytes]]:
     """Send a request to the process, and return its answer. Raises OSError or ValueError for a wrong answer."""
     stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
     stdin.write(msgspec.json.encode(request) + b"\n")
     for content in contents:
         stdin.write(content)
     stdin.flush()
-    answer = msgspec.json.decode(stdout.readline(_MAX_LINE), type=Answer)
+    answer = msgspec.json.decode(stdout.readline(_MAX_LINE), type=LimitedAnswer)
     files = [stdout.read(min(size, _MAX_FILE)) for size in answer.sizes]
     if tuple(map(len, files)) != answer.sizes:
         raise ValueError("the answer ends early, or is too large")

@@ -17,7 +17,7 @@ from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.decide.parts import is_of_part, other_meanings
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inspect.commits import Commit
+from urdfsync.engine.inspect.commits import PastCommit
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Doubt
@@ -47,11 +47,15 @@ def find_doubts(
     doubts |= open_doubts
     unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
     others = other_meanings(inputs, generation, differences.parts) if unknown else {}
-    for action in unknown:
-        if not (others or inputs.commits):
-            break
-        lines, read = _added_lines(inputs, package := generation.package, action), (inputs, package, differences.ids)
-        for found in (others, *(_meanings_in(*read, commit, action, lines) for commit in inputs.commits)):
+    commits = [(one, one.texts(action.path for action in unknown)) for one in inputs.commits] if unknown else []
+    package, nothing = generation.package, ("", None)
+    for action in unknown if others or commits else ():
+        lines = _added_lines(inputs, package, action)
+        shared = ((commit, lines & _lines(texts.get(action.path, nothing)[0])) for commit, texts in commits)
+        meanings = (
+            _meanings_in(inputs, package, differences.ids, commit, action, both) for commit, both in shared if both
+        )
+        for found in (others, *meanings):
             if (element := _element(action)) is None:
                 doubt = _named(inputs, lines, found, generation.now.snapshot)
             else:
@@ -61,15 +65,12 @@ def find_doubts(
 
 
 def _meanings_in(
-    inputs: Inputs, package: Package, ids: Mapping[str, str], commit: Commit, action: Action, lines: Counter[str]
+    inputs: Inputs, package: Package, ids: Mapping[str, str], commit: PastCommit, action: Action, shared: Counter[str]
 ) -> dict[ElementKey, Doubt]:
-    """Return a doubt for each element of which a commit with lines of this edit has another part.
+    """Return a doubt for each element of which a commit with some lines of this edit (`shared`) has another part.
 
     An edit that is in the file of its part already is no doubt. `ids` are the present ids of files, by path.
     """
-    text, _ = commit.texts([action.path]).get(action.path, ("", None))
-    if not (shared := lines & _lines(text)):
-        return {}
     doubts, targets, key_of = dict[ElementKey, Doubt](), {ids[path]: path for path in ids}, inputs.folder.key
     owners = {key_of(path): owner for path, owner in package.owners.items() if owner == action.owner or " " in owner}
     keys = [key for key, owner in owners.items() if owner == action.owner or not _element(action)]

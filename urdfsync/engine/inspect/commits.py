@@ -30,7 +30,7 @@ _BACK = 10
 """The greatest number of commits, counted back from HEAD, whose parents are searched, too."""
 
 
-class Commit(msgspec.Struct, frozen=True):
+class PastCommit(msgspec.Struct, frozen=True):
     """A commit that an edit may come from. What the clone lacks, or what can't be read, counts as missing."""
 
     _revision: Revision
@@ -47,7 +47,7 @@ class Commit(msgspec.Struct, frozen=True):
         return {key: split(plain(content.decode(errors="replace"))) for key, content in found.items()}
 
 
-def read_commits(root: Path, files: PackageFiles, *, has_built: bool) -> Iterator[Commit]:
+def read_commits(root: Path, files: PackageFiles, *, has_built: bool) -> Iterator[PastCommit]:
     """Yield the commits that an edit may come from: of HEAD, and others if this machine `has_built` here."""
     if (top := git.find_top(root)) is None:
         return
@@ -69,7 +69,7 @@ def read_commits(root: Path, files: PackageFiles, *, has_built: bool) -> Iterato
         commits += [commit for other in others if (commit := _commit_id(repository, other)) not in history]
     for commit in dict.fromkeys(filter(None, commits)):  # several branches may have one commit
         try:
-            yield Commit(Revision(root, commit), files)
+            yield PastCommit(Revision(root, commit), files)
         except SourceError:  # there is no such commit
             continue
 

@@ -18,7 +18,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncErro
 from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
-from urdfsync.engine.inspect.commits import Commit, read_commits
+from urdfsync.engine.inspect.commits import PastCommit, read_commits
 from urdfsync.engine.inspect.last_build import LastBuild, option_values
 from urdfsync.engine.inspect.package_files import Folder, PackageFiles, key_of
 from urdfsync.engine.inspect.parents import Parents
@@ -118,7 +118,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return frozenset(map(self.folder.key, inside))
 
     @cached_property
-    def commits(self) -> tuple[Commit, ...]:
+    def commits(self) -> tuple[PastCommit, ...]:
         """The commits that an edit of unknown origin may come from."""
         return (*read_commits(self.config.root, self.files, has_built=bool(self.last.notes.written)),)
 

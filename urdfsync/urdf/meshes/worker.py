@@ -10,7 +10,7 @@ from typing import IO
 import msgspec
 
 from urdfsync.processes import limits
-from urdfsync.processes.limited import Answer, answer_requests
+from urdfsync.processes.limited import LimitedAnswer, answer_requests
 from urdfsync.urdf.meshes.lookup import COLORLESS, COLORS, TEXTURED
 from urdfsync.urdf.meshes.process import COARSER, FOR_PICTURE, MEMORY, MeshError, MeshRequest, is_binary_stl
 
@@ -29,7 +29,7 @@ def main() -> None:
     answer_requests(_answer)
 
 
-def _answer(line: bytes, contents: IO[bytes]) -> tuple[Answer, list[bytes]]:
+def _answer(line: bytes, contents: IO[bytes]) -> tuple[LimitedAnswer, list[bytes]]:
     request = msgspec.json.decode(line, type=MeshRequest)
     content = contents.read(request.size)
     others = {name: contents.read(size) for name, size in request.others.items()}
@@ -66,12 +66,12 @@ def _answer(line: bytes, contents: IO[bytes]) -> tuple[Answer, list[bytes]]:
                 is_textured = any(other and not name.lower().endswith(".mtl") for name, other in others.items())
                 all_facts[0] |= {request.colors: [*parts], TEXTURED: is_textured, COLORLESS: missing}
     except MeshError as error:
-        return Answer(problem=str(error), hint=error.hint), []
+        return LimitedAnswer(problem=str(error), hint=error.hint), []
     except MemoryError:
         size = MEMORY * (FOR_PICTURE if request.most else 1) // 1_000_000
         problem = f"reading the file takes more than {size} MB of memory"
-        return Answer(problem=problem, hint=COARSER, is_last=True), []
-    return Answer(facts=tuple(all_facts), is_last=_allocated() > _GROWN), files
+        return LimitedAnswer(problem=problem, hint=COARSER, is_last=True), []
+    return LimitedAnswer(facts=tuple(all_facts), is_last=_allocated() > _GROWN), files
 
 
 def _allocated() -> int:
