@@ -65,8 +65,6 @@ class Changes(msgspec.Struct, frozen=True):
     """The changed options; empty if templates or the version of urdfsync differ."""
     package: str = ""
     """The former and the present name of the package, if its name changed, and templates and options did not."""
-    unshown: tuple[Change, ...] = ()
-    """The changes that no text shows, of parts that templates use; among `changes`, they are unmodelled."""
 
     @property
     def change_class(self) -> ChangeClass:

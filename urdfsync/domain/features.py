@@ -55,16 +55,8 @@ class Judgements(Protocol):
 class Parts(Protocol):
     """The parts of a model that elements share, such as `column mass`; a domain's attribute `parts`. Pure.
 
-    Templates need not use a part. A part is an element with empty `Features`.
+    A part is an element with empty `Features`.
     """
-
-    def without_each(self, snapshot: Snapshot, options: Any) -> Mapping[str, Snapshot]:
-        """Return for each part the model without it."""
-        ...
-
-    def part_of(self, path: Sequence[str]) -> str:
-        """Return the part that a change belongs to, by the change's path; empty if it belongs to none."""
-        ...
 
     def pairs(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, ElementKey]:
         """Return new parts by old parts with another name."""

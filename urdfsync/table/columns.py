@@ -1,4 +1,4 @@
-"""The columns of a table: which ones templates use, which ones have a new name, and which ones jump.
+"""The columns of a table: which ones have a new name, and which ones jump.
 
 `urdfsync.domain.features` describes the functions: `Parts` and `Judgements`.
 """
@@ -17,7 +17,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ElementKey, Version
 from urdfsync.domain.changes import is_number
 from urdfsync.domain.jumps import SAME_UNIT, more, units_of
-from urdfsync.table.model import FROM, SHEETS, TO, CellValue, Table, TableOptions, shown_unit
+from urdfsync.table.model import SHEETS, CellValue, Table, shown_unit
 
 _LARGE, _LARGEST = 3, 99
 """Greater ratios are probably mistakes: the first one if three different numbers have it."""
@@ -32,26 +32,6 @@ class _Number(NamedTuple):
     row: str
     before: float
     after: float
-
-
-def without_each(table: Table, options: TableOptions) -> Mapping[str, Table]:
-    """Return the table without each column that has filled cells; the columns that name elements are used anyway."""
-    found, naming = dict[str, Table](), (options.kind, FROM, TO)
-    for kind, (types, rows) in SHEETS.items():
-        columns, cells = getattr(table, types), getattr(table, rows)
-        for column in {name: None for row in cells.values() for name in row if name not in naming}:
-            without = {key: _without(row, column) for key, row in cells.items()}
-            parts = {types: _without(columns, column), rows: without}
-            found[f"{_noun(kind)} {column}"] = msgspec.structs.replace(table, **parts)
-    return found
-
-
-def part_of(path: Sequence[str]) -> str:
-    """Return the column of a change."""
-    is_column = path[0].startswith(tuple(f"{_noun(kind)} " for kind in SHEETS))
-    if is_column or len(path) < 2:
-        return path[0] if is_column else ""
-    return f"{'column' if path[0].startswith('element ') else 'connection column'} {path[1]}"
 
 
 def pairs(old: Table, new: Table) -> Mapping[ElementKey, ElementKey]:

@@ -77,7 +77,6 @@ class TableDomain(Domain):
         elements, units = dict[str, dict[str, Any]](), dict(sorted(snapshot.columns.items()))
         columns = {column: _column(column, unit) for column, unit in units.items()}
         components = component_names(snapshot.elements, target)
-        # elements first: the artifacts of the first row show nearly each column, so `find_unused` reads no further
         for key, row in snapshot.elements.items():
             cells = dict(sorted(row.items()))  # the order of a recorded table
             element = elements[key] = _element(key, components[key], cells, units, options)

@@ -23,7 +23,6 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError,
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Lookup, Reading, Target, Version
 from urdfsync.domain.changes import Effect
 from urdfsync.engine.build import build
-from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, tell_unused, with_unshown
 from urdfsync.engine.inspect.inputs import inspect
 from urdfsync.engine.judgements import find_jumps, judge
 from urdfsync.engine.options import BuildOptions
@@ -330,10 +329,6 @@ def _with_version(
         packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
         if domain.describe is None:
             differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
-        unused = find_unused(domain, new, robot.target, robot.options, templates, packages[1])
-        owners = changed_owners(packages[1], packages[0]) | ({IMPORTS} if old.imports != new.imports else set())
-        differences = with_unshown(differences, domain, unused, set(packages[1].owners.values()), owners)
-        findings += tell_unused(unused, differences.unshown, name, Reading(None, ()))
         changed = packages[1].changed_since(packages[0])
         older, newer = (_contents(*pair, changed) for pair in zip(packages, (old, new), strict=True))
         kinds = dict.fromkeys(older, ChangeKind.REMOVED) | dict.fromkeys(newer, ChangeKind.ADDED)

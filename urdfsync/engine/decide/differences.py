@@ -13,7 +13,6 @@ from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, displaced
 from urdfsync.engine.decide.parts import file_ids, find_former_ids, find_part_ids
 from urdfsync.engine.decide.renames import match_with_last
-from urdfsync.engine.decide.unused import IMPORTS, changed_owners, find_unused, with_unshown
 from urdfsync.engine.declared import pending
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
@@ -52,8 +51,6 @@ class Differences(msgspec.Struct, frozen=True):
     """Whether an element has the former name of another element."""
     undeclared: Mapping[ElementKey, str]
     """The renames without the declarations that are not made yet: the user may delete a declaration."""
-    unused: frozenset[str] = frozenset()
-    """The parts of the model that no template uses."""
 
     @property
     def renames(self) -> Mapping[ElementKey, str]:
@@ -67,11 +64,7 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
     declared = pending(inputs)
     matching = _find_matching(inputs, now, declared)
     undeclared = match_with_last(inputs, now, {}).renames if declared else matching.renames
-    unused = frozenset[str]()
-    if not inputs.options.removes:
-        target, options = inputs.robot.target, inputs.robot.options
-        unused = find_unused(inputs.domain, generation.now, target, options, inputs.templates, package)
-    news = _find_changes(inputs, generation, matching, unused)
+    news = _find_changes(inputs, generation, matching)
     parts = find_part_ids(inputs, generation, matching)
     ids = file_ids(package.artifacts.values(), parts)
     moves = _find_moves(inputs, ids)
@@ -89,7 +82,7 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         identifiers = _find_identifiers(inputs, now, renames, moves) if news is not None else {}
         former = {old: identifiers.get(new, new) for old, new in former.items()} | identifiers
     names = identifiers, former, others, has_exchanges
-    return Differences(matching, news, is_structural, ids, parts, former_ids, moves, *names, undeclared, unused)
+    return Differences(matching, news, is_structural, ids, parts, former_ids, moves, *names, undeclared)
 
 
 def _find_matching(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
@@ -125,9 +118,7 @@ def agrees(inputs: Inputs, owners: Collection[str]) -> bool:
     return True
 
 
-def _find_changes(
-    inputs: Inputs, generation: Generation, matching: Matching, unused: Collection[str]
-) -> Changes | None:
+def _find_changes(inputs: Inputs, generation: Generation, matching: Matching) -> Changes | None:
     """Find the changes of the model, and of templates, options and version."""
     last, robot, domain = inputs.last, inputs.robot, inputs.domain
     if last.version is None or inputs.options.removes:
@@ -141,7 +132,6 @@ def _find_changes(
         return None  # git may have merged two models into an invalid model
     if domain.describe is None and news.changes and (before := last.package_like(generation.now.snapshot)) is not None:
         news = changes.by_texts(news, generation.package.changed_models(before))
-    news = _with_unshown(inputs, generation, news, unused)
     is_same = last.record.generator == inputs.generator and last.target == robot.target
     if last.record.generator == inputs.generator and last.record.options == option_values(robot.options):
         if is_same:
@@ -155,26 +145,6 @@ def _find_changes(
         names = robot.options.__struct_fields__
         options = [name for name in names if getattr(last.options, name) != getattr(robot.options, name)]
     return msgspec.structs.replace(news, generator=True, options=tuple(options))
-
-
-def _with_unshown(inputs: Inputs, generation: Generation, news: Changes, unused: Collection[str]) -> Changes:
-    """Return the changes, of which those that no text shows count as unmodelled.
-
-    The recorded hashes show most changes; they do not show the changes that an incomplete build has written already.
-    The recorded package takes 20 ms with 100 links.
-    """
-    last, package = inputs.last, generation.package
-    owners = package.owners
-    hashes = {last.folder.path(key): base for key, base in last.files.items()}
-    changed = {owner for path, owner in owners.items() if package.hash(path) != hashes.get(path)}
-    imported = {IMPORTS} if last.version and last.version.imports != generation.now.imports else set[str]()
-    found = with_unshown(news, inputs.domain, unused, set(owners.values()), changed | imported)
-    if not found.unshown:
-        return found
-    if (before := last.package_like(generation.now.snapshot)) is None:
-        return news
-    changed = changed_owners(package, before)
-    return with_unshown(news, inputs.domain, unused, set(owners.values()), changed | imported)
 
 
 def _find_identifiers(

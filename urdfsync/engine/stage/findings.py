@@ -31,7 +31,6 @@ from urdfsync.engine.decide.package_names import (
     new_name,
     new_names,
 )
-from urdfsync.engine.decide.unused import tell_unused
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.users_files import read_saved_facts
@@ -76,7 +75,6 @@ def find_findings(
     findings += _unmerged(inputs, reads)
     findings += () if inputs.has_moved else _twin(inputs)
     findings += _unlisted(inputs, decision)
-    findings += tell_unused(differences.unused, changes.unshown if changes else (), file, generation.reading)
     findings += [*_look_left_behind(inputs, decision.actions), *([inputs.damage] if inputs.damage else [])]
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
