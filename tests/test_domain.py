@@ -128,11 +128,10 @@ def test_a_snapshot_comes_back_from_a_state(case: Case) -> None:
         folder="Sample",
         generator=Generator("sample", "0.1.0", ""),
         snapshot=as_recorded(case.snapshot),
-        imports={key: (one,) for key, one in case.imports.items()},
+        imports=case.imports,
     )
-    loaded, damage = statefile.loads(statefile.dumps(record), "sample.state")
+    (loaded,), damage = statefile.loads(statefile.dumps(record), "sample.state")
     assert (loaded, damage) == (record, None)
-    assert loaded is not None
     assert loaded.snapshot is not None
     assert as_read(loaded.snapshot, case.domain.model) == case.snapshot
 

@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 
 import msgspec
 import pytest
+from support import states
 from support.networks import edit
 from support.replay import contents
 from support.urdfs import joint, limit, link, robot
@@ -171,13 +172,12 @@ def invent_an_import(record: Record, _: Random) -> Record:
     file = ARM / "Resources/mine.csv"
     entry = Import("Resources/mine.csv", "0" * 64, digest(file.read_bytes()), {})
     files = {**record.files, file.as_posix(): digest(file.read_bytes())}
-    return msgspec.structs.replace(record, imports={"mine": (entry,)}, files=files)
+    return msgspec.structs.replace(record, imports={"mine": entry}, files=files)
 
 
 def exchange_robots(record: Record, random: Random) -> Record:
     """Replace the state of one robot by another's."""
-    other, _ = statefile.loads(Path(".urdfsync/robots/leg.state").read_text(), "leg.state")
-    assert other is not None
+    other = states.record(Path(".urdfsync/robots/leg.state"))
     if random.random() < 0.5:  # with the name of this package
         files = {key.replace("Leg", "Arm"): file for key, file in other.files.items()}
         other = msgspec.structs.replace(other, package="Arm", class_="Arm", folder=record.folder, files=files)
@@ -192,8 +192,7 @@ FORGERIES: tuple[Forgery, ...] = (
 
 def forge(random: Random) -> list[str]:
     """Forge the state in the working folder in one to three ways; return their names."""
-    record, _ = statefile.loads(STATE.read_text(), "arm.state")
-    assert record is not None
+    record = states.record(STATE)
     # some forgeries need a model
     chosen = sorted(random.sample(FORGERIES, random.randint(1, 3)), key=lambda forgery: forgery is no_model)
     for forgery in chosen:
@@ -260,11 +259,9 @@ def test_a_recorded_exchange_of_names_moves_no_edit(
     """The records on disk are not those of the recorded model: `upper` is still the former `upper`."""
     monkeypatch.chdir(shutil.copytree(project, tmp_path / "forged"))
     shutil.rmtree(".urdfsync/notes")
-    record, _ = statefile.loads(STATE.read_text(), "arm.state")
-    assert record is not None
-    text = msgspec.json.encode(record.snapshot).replace(b'"upper"', b'"-"').replace(b'"fore"', b'"upper"')
+    text = msgspec.json.encode(states.record(STATE).snapshot).replace(b'"upper"', b'"-"').replace(b'"fore"', b'"upper"')
     model = msgspec.json.decode(text.replace(b'"-"', b'"fore"'))
-    STATE.write_text(statefile.dumps(msgspec.structs.replace(record, snapshot=model)))
+    states.rewrite(STATE, snapshot=model)
     actions = {action.path: action.reason for action in build_all(Path.cwd())["arm"].actions}
     assert actions[f"{ARM.as_posix()}/Links/UpperParameters.mo"] is Reason.ASKED
     assert "mass = 7" in (ARM / "Links/UpperParameters.mo").read_text()

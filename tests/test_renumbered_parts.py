@@ -11,8 +11,9 @@ from pathlib import Path
 from random import Random
 from typing import get_args
 
+import msgspec
 import pytest
-from support import corpus
+from support import corpus, states
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
@@ -28,6 +29,7 @@ from urdfsync.engine.result import Exit, Result
 from urdfsync.urdf.options import LeftOut
 
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\napproach = ["package", "record"]\n'
+STATE = Path(".urdfsync/robots/arm.state")
 LINK, JOINT = "modelica/Arm/Links/Link_{}.mo", "modelica/Arm/Joints/Joint_{}Parameters.mo"
 MINE = "\n  Real mine = 1;\n\nequation"
 BUILT = "1 1.1, 2 2.2, 3 3.3"
@@ -64,14 +66,10 @@ def repository(folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) 
 
 def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, execute: Execute) -> None:
     """A stranger exchanged two links in the record: the edit stays, and the build asks about it."""
-    state = Path(".urdfsync/robots/arm.state")
-    text = state.read_text()
-    elements = dict(re.findall(r'^model \["links","(link_[23])",(.*)\]$', text, re.MULTILINE))
-    for name, other in (("link_2", "link_3"), ("link_3", "link_2")):
-        text = text.replace(
-            f'model ["links","{name}",{elements[name]}]', f'model ["links","{name}",{elements[other]}] '
-        )
-    state.write_text(text)
+    model = msgspec.to_builtins(states.record(STATE).snapshot)
+    links = model["links"]
+    links |= {"link_2": links["link_3"], "link_3": links["link_2"]}
+    states.rewrite(STATE, snapshot=model)
     assert "may be another part now" in execute("build", code=Exit.CONFLICT).words
     assert "Real mine" in Path(LINK.format(2)).read_text()
 
@@ -81,13 +79,12 @@ def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, 
 def test_a_recorded_model_that_lacks_parts_loses_no_edit(
     edited: Path, execute: Execute, lost: str, export: str
 ) -> None:
-    """A possible result of git: one branch removed parts, the other changed the files that name these parts."""
-    state = Path(".urdfsync/robots/arm.state")
-    text = state.read_text()
+    """A stranger took them out of the record."""
+    model = msgspec.to_builtins(states.record(STATE).snapshot)
     for number in "123":
-        kept = re.sub(rf'^model \["{lost}","\w+_{number}",.*\n', "", text, flags=re.MULTILINE)
-        assert kept != text
-        state.write_text(kept)
+        kept = {name: one for name, one in model[lost].items() if not name.endswith(f"_{number}")}
+        assert kept != model[lost]
+        states.rewrite(STATE, snapshot={**model, lost: kept})
         Path("arm.urdf").write_text(robot_of(EXPORTS[export]))
         code = execute("build", code=None).code
         assert code in (Exit.IN_STEP, Exit.CONFLICT)

@@ -72,11 +72,9 @@ def lacks_unmodelled(path: str, result: Result, found: bytes | None, wanted: byt
         return False
     if not path.endswith(".state") or found is None or wanted is None:
         return False
-    old, new = (statefile.loads(text.decode(), path)[0] for text in (found, wanted))
-    if old is None or new is None:
-        return False
+    (old,), (new,) = (statefile.loads(text.decode(), path)[0] for text in (found, wanted))
     history = {"former": old.former, "former_ids": old.former_ids, "ids": old.ids, "edits": old.edits}
-    return old == msgspec.structs.replace(new, snapshot=old.snapshot, **history)
+    return old == msgspec.structs.replace(new, snapshot=old.snapshot, ancestors=old.ancestors, **history)
 
 
 def faults(project: Project, before: Stamps, result: Result, old: Files, package: Files, state: Files) -> Iterator[str]:

@@ -8,16 +8,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-import msgspec
 import pytest
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
 from support.replay import contents
+from support.states import rewrite
 from support.urdfs import ELBOW_ARM
 
 from urdfsync import cli
 from urdfsync.engine.package import generate
-from urdfsync.state import statefile
 
 pytestmark = NEEDS_GIT
 
@@ -162,9 +161,7 @@ def test_options_that_are_known_no_more_may_have_had_an_effect(verdict: Callable
     edit("urdfsync.toml", CONFIGURATION, f'{CONFIGURATION}base = "floating"\n')
     assert verdict() == LATE
     edit("urdfsync.toml", 'base = "floating"\n', "")
-    record, _ = statefile.loads(Path(STATE).read_text(), STATE)
-    assert record is not None
-    Path(STATE).write_text(statefile.dumps(msgspec.structs.replace(record, options={"bases": "floating"})))
+    rewrite(Path(STATE), options={"bases": "floating"})
     assert verdict() == LATE
     assert contents(Path(PACKAGE)) == before
 

@@ -58,7 +58,7 @@ def said(execute: Execute, *arguments: str) -> tuple[int, list[str]]:
 
 
 def test_another_release_that_gives_the_same_texts_is_no_change(built: Path, execute: Execute) -> None:
-    edit(MANIFEST, 'release "0.1.0"', 'release "0.0.9"')
+    edit(MANIFEST, '"release":"0.1.0"', '"release":"0.0.9"')
     assert said(execute) == (0, ["ladder: nothing changed since the last build"])
     resistor(120)
     code, lines = said(execute)

@@ -96,7 +96,7 @@ def test_what_was_never_written_is_none(tmp_path: Path) -> None:
     store = Store(tmp_path)
     found = store.load_expansion("arm"), store.bases("arm", "a"), store.base("arm", "ab"), store.aside_text("arm", "a")
     assert found == (None,) * 4
-    assert store.load("arm") == (None, None)
+    assert store.load("arm") == ((), None)
     assert store.aside("arm") == {}
 
 

@@ -195,7 +195,5 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
 def _needed(project: Path, robot: str) -> bytes:
     """The bases that a record needs, by their hashes."""
     store = Store(project)
-    state, _ = store.load(robot)
-    assert state is not None
-    needed = set(state.files.values())
+    needed = {base for record in store.load(robot)[0] for base in record.files.values()}
     return repr([(digest, store.base(robot, digest)) for digest in sorted(needed)]).encode()

@@ -124,11 +124,11 @@ class Stranger:
     def manifest_file(self, path: str) -> None:
         """Record a file with its hash as a generated file, although no build generates it."""
         digest, name = _digest((self.project / path).read_bytes()), os.path.relpath(path, "modelica/Arm")
-        self.append(MANIFEST, f"file {digest}  {name}")
+        self.edit(MANIFEST, '"files":{', f'"files":{{{json.dumps(name)}:"{digest}",')
 
     def manifest_folder(self, folder: str) -> None:
         """A record whose package had another folder before."""
-        self.edit(MANIFEST, 'folder "modelica/Arm"', f"folder {json.dumps(folder)}")
+        self.edit(MANIFEST, '"folder":"modelica/Arm"', f'"folder":{json.dumps(folder)}')
 
     def show(self, *names: str) -> None:
         """Give the robot meshes."""

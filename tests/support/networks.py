@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from support.choices import options
+from support.states import records
 from urdfsync import config
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
@@ -134,7 +134,7 @@ def stored(folder: Path = BASES) -> dict[str, str | None]:
 
 def mentioned() -> set[str]:
     """The hashes of texts that the recorded state mentions."""
-    return set(re.findall(r"(?m)^file (\w{16})  (?!Resources/)", Path(MANIFEST).read_text()))
+    return {base for one in records(Path(MANIFEST)) for key, base in one.files.items() if "/Resources/" not in key}
 
 
 def inner_kinds(result: Result) -> dict[str, Reason]:

@@ -13,6 +13,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from support import corpus
 from support.choices import options
 from support.packages import proposed_base, read
@@ -20,6 +22,7 @@ from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result
 from urdfsync.modelica.stamp import with_stamp
+from urdfsync.state import statefile
 
 ALL = "URDFSYNC_REPLAYS"
 """Environment variable: a number of steps with random edits; with it, all histories of the corpus are replayed."""
@@ -136,9 +139,10 @@ def without_former(content: bytes | None) -> bytes | None:
     """The content of a file without its stamp; of a recorded state, without the facts that tell how it came about."""
     if not content or not content.startswith(b"# What urdfsync built last"):
         return content and with_stamp(content, None)
-    history, lines = (b"former ", b"former-id ", b"id ", b"edit ", b"sum "), content.splitlines(keepends=True)
-    kept = b"".join(line for line in lines if line.strip() and not line.startswith(history))
-    return re.sub(rb',?"number":\d+', b"", kept)  # shapes keep their numbers
+    records, _ = statefile.loads(content.decode(), "")
+    plain: dict[str, Any] = {"former": {}, "former_ids": {}, "ids": {}, "edits": {}, "ancestors": ()}
+    text = statefile.dumps(*(msgspec.structs.replace(record, **plain) for record in records))
+    return re.sub(r',?"number":\d+', "", text).encode()  # shapes keep their numbers
 
 
 def contents(folder: Path) -> dict[str, bytes]:

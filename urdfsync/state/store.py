@@ -31,7 +31,7 @@ _FOR_GIT = {
 """,
     ".gitattributes": """\
 # Written by urdfsync. Lines of recorded states and bases stand alone: git unites those of two branches.
-/robots/*.state merge=union
+/robots/*.state merge=union -diff linguist-generated
 /robots/*.expanded merge=union
 /bases/** merge=union -diff -text linguist-generated
 """,
@@ -72,15 +72,15 @@ class Store:
             return []
         return sorted(filter(is_robot_name, (name.removesuffix(SUFFIX) for name in files if name.endswith(SUFFIX))))
 
-    def load(self, robot: str) -> tuple[Record | None, Diagnostic | None]:
-        """Return the robot's record, None without a readable record, and a warning if it is damaged.
+    def load(self, robot: str) -> tuple[tuple[Record, ...], Diagnostic | None]:
+        """Return the robot's records, one for each branch that git has united, and a warning if one is damaged.
 
         Raises StateError for the record of a newer urdfsync, OutputError for a link or a folder in its place.
         """
         path = self.path(robot)
         content = self._bytes(path)
         if content is None:
-            return None, None
+            return (), None
         return statefile.loads(content.decode(errors="replace").replace("\r\n", "\n"), shown(path))
 
     def load_expansion(self, robot: str) -> Expansion | None:

@@ -34,8 +34,8 @@ REFUSED: dict[str, tuple[dict[str, str], Callable[[], object]]] = {
     "out [no-templates]": ({"templates": '"own"'}, Path),
     "urdfsync.toml:5: error: robot `ladder`: `prefix` names `in`, which is a node; choose another one "
     "[prefix-is-node]": ({"prefix": '"in"'}, Path),
-    ".urdfsync/robots/ladder.state:31: error: urdfsync 10.1.0 wrote this state, and this is": (
-        *({}, lambda: edit(MANIFEST, 'release "0', 'release "10')),
+    ".urdfsync/robots/ladder.state:2: error: urdfsync 10.1.0 wrote this state, and this is": (
+        *({}, lambda: edit(MANIFEST, '"release":"0', '"release":"10')),
     ),
 }
 """What stops a build, by how its message begins: keys of the robot, and what is done to files."""

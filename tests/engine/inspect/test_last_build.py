@@ -5,27 +5,20 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
-import msgspec
 import pytest
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.networks import MANIFEST, configure, edit, own_model, resistor, run
 from support.replay import contents
+from support.states import rewrite
 
 from urdfsync.files import text_hash
-from urdfsync.state import bases, statefile
+from urdfsync.state import bases
 from urdfsync.state.store import Store
 
 OWN = {"Pump.mo": b"within Mine;\nmodel Pump\nend Pump;\n", "Resources/table.csv": b"1,2\n", "package.order": b"Pump\n"}
 """A package of the user's own."""
-
-
-def rewrite(state: Path, **changes: Any) -> None:
-    record, _ = statefile.loads(state.read_text(), state.name)
-    assert record is not None
-    state.write_text(statefile.dumps(msgspec.structs.replace(record, **changes)))
 
 
 def store(project: Path, text: str) -> None:

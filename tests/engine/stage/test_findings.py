@@ -9,6 +9,7 @@ import support.urdfs as urdfs
 from support.commands import Execute
 from support.networks import LADDER, MANIFEST, ROBOT, edit, run, run_all, said, source
 from support.networks import inner_kinds as kinds
+from support.states import record, rewrite
 
 from urdfsync import cli
 from urdfsync.engine.actions import Reason
@@ -112,17 +113,16 @@ def test_a_renamed_package_is_told_as_such(arm: Path, execute: Execute) -> None:
     assert told in execute("build", "--dry-run").words
 
 
-@pytest.mark.parametrize("option", ['["frames","none"]', '["frames",3]', '["roof","red"]'])
+@pytest.mark.parametrize("option", [{"frames": "none"}, {"frames": 3}, {"roof": "red"}])
 def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
-    arm: Path, execute: Execute, option: str
+    arm: Path, execute: Execute, option: dict[str, object]
 ) -> None:
     recorded = arm / ".urdfsync/robots/arm.state"
-    text = recorded.read_text()
-    assert 'option ["frames","leaves"]\n' in text
-    recorded.write_text(text.replace('["frames","leaves"]', option))
+    assert record(recorded).options["frames"] == "leaves"
+    rewrite(recorded, options=option)
     configure(arm, "driven = []\n")
     assert "connector-changed" not in execute("build").words
-    assert 'option ["frames","leaves"]\n' in recorded.read_text()
+    assert record(recorded).options["frames"] == "leaves"
 
 
 def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:

@@ -11,7 +11,7 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, displaced
-from urdfsync.engine.decide.parts import file_ids, find_former_ids, find_part_ids
+from urdfsync.engine.decide.parts import file_ids, find_former_ids, find_part_ids, ids_of, recorded_ids
 from urdfsync.engine.decide.renames import match_with_last
 from urdfsync.engine.declared import pending
 from urdfsync.engine.generation import Generation
@@ -75,12 +75,14 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
     # another version of urdfsync may give an element another identifier
-    is_structural = news is None or news.change_class.rank >= ChangeClass.STRUCTURAL.rank or bool(moves)
+    is_large = news is None or news.change_class.rank >= ChangeClass.STRUCTURAL.rank
+    is_structural = is_large or bool(moves) or last.is_united
     former_ids = find_former_ids(inputs, generation, parts) if is_structural else last.record.former_ids
     identifiers, former = dict[str, str](), last.record.former
     if is_structural:
         identifiers = _find_identifiers(inputs, now, renames, moves) if news is not None else {}
         former = {old: identifiers.get(new, new) for old, new in former.items()} | identifiers
+        former = _other_identifiers(inputs, now, parts) | former
     names = identifiers, former, others, has_exchanges
     return Differences(matching, news, is_structural, ids, parts, former_ids, moves, *names, undeclared)
 
@@ -95,8 +97,6 @@ def _find_matching(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -
     if last.version is None or not matching.renames:
         return matching
     old = last.elements
-    if last.record.is_united:  # a record that git united has elements of both branches: a name may mean either
-        return Matching(without_exchanges(matching, old).renames)
     found = {key: new for key, new in matching.renames.items() if key[1] not in declared}
     exchanged = {f"{kind} {name}" for (kind, name), new in found.items() if (kind, new) in old}
     return matching if agrees(inputs, exchanged) else without_exchanges(matching, old)
@@ -166,6 +166,25 @@ def _find_identifiers(
         if former not in renamed and present in renamed:
             renamed[former] = renamed.pop(present)
     return {name: new for name, new in renamed.items() if name != new}
+
+
+def _other_identifiers(inputs: Inputs, now: Snapshot, parts: Mapping[str, str]) -> dict[str, str]:
+    """Return new identifiers by those in the records of further branches that git has united; `parts` as in `ids`."""
+    last, found = inputs.last, dict[str, str]()
+    if not last.is_united:
+        return found
+    names = {part: key for key, part in ids_of(inputs.domain.features(now), parts).items()}
+    present = inputs.domain.names(now, inputs.robot.target)
+    for record, ids in recorded_ids(last):
+        if record is last.records[0]:
+            continue
+        former = inputs.domain.names(last.read(record.snapshot), Target(record.package, record.class_))
+        for (kind, name), part in ids.items():
+            new = names.get(part, (kind, name))[1]
+            old_name, new_name = former.get(f"{kind}s", {}).get(name), present.get(f"{kind}s", {}).get(new)
+            if old_name and new_name and old_name != new_name:
+                found[old_name] = new_name
+    return found
 
 
 def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:

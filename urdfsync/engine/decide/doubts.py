@@ -22,6 +22,7 @@ from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
+from urdfsync.state.record import edit_key
 
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
@@ -91,8 +92,8 @@ def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Actio
     last, now = inputs.last, generation.now.snapshot
     is_undone = last.seen != now and last.version is not None and last.version.snapshot == now
     asked = {} if is_undone or last.record.open is None else last.record.open.asked
-    edits = (action for action in actions if action.path in asked and asked[action.path].mine == (action.mine or ""))
-    return {action.path: asked[action.path].doubt for action in edits}
+    keys = {action.path: edit_key(action.path, action.mine) for action in actions}
+    return {path: asked[key] for path, key in keys.items() if key in asked}
 
 
 def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:
@@ -107,9 +108,9 @@ def _doubt(inputs: Inputs, generation: Generation, differences: Differences, act
         return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
     # if only numbers changed, no element is new, and most builds need no features
     is_new_element = last.version is not None and differences.is_structural and element not in last.elements
-    is_orphan = is_new_element and action.path in last.files
-    is_new = last.record.open is not None and action.path not in last.record.open.asked  # a later build wrote the file
-    if is_orphan and not (is_new or last.record.is_united or _is_back(inputs, generation, action)):
+    # other files with this name were written by an incomplete build
+    is_orphan = is_new_element and any(action.path in record.files for record in last.records)
+    if is_orphan and not (last.is_united or _is_back(inputs, generation, action)):
         return Doubt(" ".join(element), is_certain=True)  # the user edited the file for an element that is gone
     return None
 

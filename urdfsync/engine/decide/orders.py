@@ -88,7 +88,7 @@ def _removable_lines(
     paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
     deleted = [path.removeprefix(folder) for path in paths if path.rpartition("/")[0] == folder.rstrip("/")]
     listed = {line.strip() for line in text.splitlines()}
-    is_united = inputs.last.record.is_united and order.startswith(inputs.folder.key(""))
+    is_united = inputs.last.is_united and order.startswith(inputs.folder.key(""))
     candidates = listed if is_united else listed.intersection(recorded)
     names = filter(is_identifier, candidates.difference(deleted))
     missing = [name for name in names if not inputs.files.has_class(folder, name)]
@@ -112,7 +112,7 @@ def _order_reason(old: str | None, new: str, *, is_recorded: bool) -> Reason:
 
 def _order_text(inputs: Inputs, key: str, old: str) -> str:
     """Return the lines on disk; where git has left both sides of a merge that may stand together, both."""
-    is_united = inputs.last.record.is_united
+    is_united = inputs.last.is_united
     is_joined = find_markers(old) and can_join(inputs.files.path(key), old, is_united=is_united)
     return join_sides(old) if is_joined else old
 

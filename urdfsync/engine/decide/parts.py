@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
-from urdfsync.domain import Artifact, ElementKey, Role, displaced
+from urdfsync.domain import Artifact, ElementKey, displaced
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.last_build import LastBuild
+from urdfsync.engine.renames import find_matching
 from urdfsync.files import digest
 from urdfsync.matching import Doubt, Matching
 from urdfsync.modelica.stamp import Stamp
+from urdfsync.state.record import Record
 
 _DIGITS = 8
 """The number of digits of a part's id, which begins the id of each of its files."""
@@ -25,22 +28,34 @@ def is_of_part(stamp: Stamp, file_id: str) -> bool:
     return stamp.id[:_DIGITS] == file_id[:_DIGITS]
 
 
+def ids_of(elements: Iterable[ElementKey], ids: Mapping[str, str]) -> dict[ElementKey, str]:
+    """Return the ids of all these elements; `ids` has those that differ from `first_id`, by owner."""
+    return {key: ids.get(" ".join(key)) or first_id(" ".join(key)) for key in elements}
+
+
+def recorded_ids(last: LastBuild) -> Iterator[tuple[Record, Mapping[ElementKey, str]]]:
+    """Yield the records of all branches, each with the ids of all its elements."""
+    for record, elements in last.branches():
+        yield record, ids_of(elements, record.ids)
+
+
 def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) -> dict[str, str]:
     """Return the ids of the parts that have another id than `first_id`, by owner."""
-    last, renames = inputs.last, matching.renames
-    recorded = dict(last.record.ids)
-    if last.record.is_united:  # the branches may have recorded other ids: the files on disk say which count
-        recorded |= _stated_ids(inputs, generation)
-    if not (recorded or renames):
+    last, renames, now = inputs.last, matching.renames, generation.now.snapshot
+    if not (last.is_united or last.record.ids or renames):
         return {}
-    present, gone, ids = inputs.domain.features(generation.now.snapshot), displaced(renames), dict[str, str]()
-    for kind, name in last.elements or present:
-        owner, new = f"{kind} {name}", renames.get((kind, name), name)
-        if (kind, new) in present and (kind, name) not in gone:
-            ids[f"{kind} {new}"] = recorded.get(owner, first_id(owner))
-    taken = set(ids.values())
-    for kind, name in present:
-        if (owner := f"{kind} {name}") not in ids:
+    present, ids, taken = inputs.domain.features(now), dict[str, str](), set[str]()
+    for record, parts in recorded_ids(last):
+        if record is not last.records[0]:
+            renames = find_matching(inputs.domain, last.read(record.snapshot), now, {}).renames
+        gone = displaced(renames)
+        for (kind, name), part in parts.items():
+            key = kind, renames.get((kind, name), name)
+            if key in present and (kind, name) not in gone and part not in taken and " ".join(key) not in ids:
+                ids[" ".join(key)] = part
+                taken.add(part)
+    for key in present:
+        if (owner := " ".join(key)) not in ids:
             ids[owner] = first_id(owner)
             while ids[owner] in taken:  # a part that was renamed began with this name
                 ids[owner] = first_id(ids[owner])
@@ -50,16 +65,14 @@ def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) ->
 
 def find_former_ids(inputs: Inputs, generation: Generation, parts: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
     """Return the ids of all parts that had each name and have it no more, by owner; `parts` are present ids."""
-    last = inputs.last
-    if not last.elements:
-        return dict(last.record.former_ids)
-    present = inputs.domain.features(generation.now.snapshot)
-    found = {owner: dict.fromkeys(ids) for owner, ids in last.record.former_ids.items()}
-    for kind, name in last.elements:
-        owner = f"{kind} {name}"
-        part = last.record.ids.get(owner, first_id(owner))
-        if (kind, name) not in present or parts.get(owner, first_id(owner)) != part:
-            found.setdefault(owner, {})[part] = None
+    if inputs.last.version is None:
+        return dict(inputs.last.record.former_ids)
+    present = {" ".join(key) for key in inputs.domain.features(generation.now.snapshot)}
+    found = {owner: dict.fromkeys(ids) for owner, ids in inputs.last.record.former_ids.items()}
+    for _, ids in recorded_ids(inputs.last):
+        for key, part in ids.items():
+            if (owner := " ".join(key)) not in present or parts.get(owner, first_id(owner)) != part:
+                found.setdefault(owner, {})[part] = None
     return {owner: tuple(ids) for owner, ids in found.items()}
 
 
@@ -72,7 +85,7 @@ def other_meanings(inputs: Inputs, generation: Generation, parts: Mapping[str, s
     if not former_ids:
         return doubts
     present = inputs.domain.features(generation.now.snapshot)
-    ids = {key: parts.get(" ".join(key), first_id(" ".join(key))) for key in present}
+    ids = ids_of(present, parts)
     for key, part in ids.items():
         if others := set(former_ids.get(" ".join(key), ())) - {part}:
             moved_to = next((name for (kind, name), other in ids.items() if kind == key[0] and other in others), "")
@@ -80,16 +93,6 @@ def other_meanings(inputs: Inputs, generation: Generation, parts: Mapping[str, s
             former = next(formers, "").partition(" ")[2]
             doubts[key] = Doubt(" ".join(key), former, (), moved_to, is_certain=True)
     return doubts
-
-
-def _stated_ids(inputs: Inputs, generation: Generation) -> dict[str, str]:
-    """Return the ids in the stamps of all records that equal their generated texts, by owner."""
-    found = dict[str, str]()
-    for path, artifact in generation.package.artifacts.items():
-        state = inputs.files.state(inputs.folder.key(path)) if artifact.role is Role.RECORD else None
-        if state and state.stamp and state.text_sha256 == generation.package.hash(path):
-            found[artifact.owner] = state.stamp.id[:_DIGITS]
-    return found
 
 
 def file_ids(artifacts: Iterable[Artifact], parts: Mapping[str, str]) -> dict[str, str]:

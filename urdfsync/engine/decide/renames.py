@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from urdfsync.domain import ElementKey, Snapshot, displaced
+from urdfsync.engine.decide.parts import ids_of
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.renames import find_matching
 from urdfsync.matching import Doubt, Matching
@@ -14,31 +15,29 @@ def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) 
     """Match the elements of the last complete build with the present elements.
 
     While a conflict is open, one export may rename an element, and the next export may change its numbers. So this
-    joins the renames up to the model that the last build read with the renames since then. `declared` has only renames
+    follows each part, by its id, through the model that the last build read. `declared` has only renames
     that no complete build has made.
     """
     last, domain = inputs.last, inputs.domain
     if last.version is None:
         return Matching()
     recorded, last_seen = last.version.snapshot, last.seen
-    open_renames = last.record.open.renamed if last.record.open else {}
     has_other_format = recorded != now and last.source_format != inputs.source.format
     direct = find_matching(domain, recorded, now, declared, is_pending=True, has_other_format=has_other_format)
     if last_seen is None:
         return direct
-    opened = {(name, new) for (_, name), new in open_renames.items()}
+    existing = domain.features(now)
+    recorded_ids = ids_of(last.elements, last.record.ids)
+    seen = {part: key for key, part in ids_of(domain.features(last_seen), last.seen_ids).items()}
+    opened = {(name, seen[part][1]) for (_, name), part in recorded_ids.items() if part in seen}
     remaining = {name: new for name, new in declared.items() if (name, new) not in opened}
     later = find_matching(domain, last_seen, now, remaining, is_pending=True, has_other_format=has_other_format)
-    existing, seen = domain.features(now), domain.features(last_seen)
-    gone, followed = displaced(open_renames), dict[ElementKey, str]()
-    gone_since = displaced(later.renames)
-    for kind, name in domain.features(recorded):
-        last_name = open_renames.get((kind, name), name)
-        if (kind, name) in gone or (kind, last_name) in gone_since:
-            continue
-        new_name = later.renames.get((kind, last_name), last_name)
-        if (kind, last_name) in seen and (kind, new_name) in existing:
-            followed[kind, name] = new_name
+    gone, followed = displaced(later.renames), dict[ElementKey, str]()
+    for key, part in recorded_ids.items():
+        if part in seen and seen[part] not in gone:
+            new = later.renames.get(seen[part], seen[part][1])
+            if (key[0], new) in existing:
+                followed[key] = new
     found = {key: name for key, name in direct.renames.items() if key[1] in declared}
     for more in (followed, direct.renames):
         taken = {(kind, name) for (kind, _), name in found.items()}

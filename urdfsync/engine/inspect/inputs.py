@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -30,7 +30,7 @@ from urdfsync.files import Templates, digest, shown
 from urdfsync.git.unmerged import find_unmerged
 from urdfsync.modelica.files import text_of
 from urdfsync.state.notes import Use
-from urdfsync.state.record import Generator, Record
+from urdfsync.state.record import Generator, Record, unite
 from urdfsync.state.store import Store
 from urdfsync.version import __version__
 
@@ -159,22 +159,22 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     files = PackageFiles(config, robot)
     folder = Folder(files.key(robot.folder))
     above = Parents(listed=False) if options.removes else parents.check(config, robot, domain.uses(robot.options))
-    (record, damage), name = store.load(robot.name), robot.name
+    (records, damage), name = store.load(robot.name), robot.name
     others = {files.key(other.folder) for other in config.robots if other.name != robot.name}
-    if record and record.folder in others:  # another robot has this folder now: its files must not be deleted
-        record = None
-    if record is None:  # the folder may have the package of a robot that is no longer configured
-        name = next((name for name, place in read_orphaned_robots(store, config) if place == folder), name)
-        record = store.load(name)[0] if name != robot.name else None
+    # another robot may have a folder now: its files must not be deleted
+    records = tuple(record for record in records if record.folder not in others)
+    if not records:  # the folder may have the package of a robot that is no longer configured
+        name = next((name for name, places in read_orphaned_robots(store, config) if folder in places), name)
+        records = store.load(name)[0] if name != robot.name else ()
     damage, notes = damage or store.find_damaged_base(name), store.notes(name)
-    if options.adopts and record and (record.snapshot is not None or record.is_united):
+    if options.adopts and any(record.snapshot is not None for record in records):
         message, hint = f"robot `{robot.name}` was built already", "`urdfsync resolve` settles its conflicts"
         place = shown(config.file), robot.lines[""]
         raise OutputError.of("already-built", message, *place, hint=hint)
     templates = source.templates(config, robot, domain)
     text = Source(b"", "") if options.removes else source.read_source(config, robot, store, options, name)
     generator = Generator(robot.domain, __version__, templates.digest)
-    record = record or Record(
+    nothing = Record(
         package=robot.target.package,
         class_=robot.target.name,
         folder=str(folder),
@@ -184,23 +184,24 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     program = digest(f"{registry.program(robot.domain, store.folder)} {templates.digest}".encode())
     if notes.program != program:  # another program wrote these texts and imports
         notes = msgspec.structs.replace(notes, texts={}, imports=frozenset())
-    last = LastBuild(name, record, notes, store, files, domain, robot, templates)
+    record = unite(records or [nothing])
+    last = LastBuild(name, record, records, notes, store, files, domain, robot, templates)
     read = domain, templates, generator, text, store, last, files, folder, above
     return Inputs(config, robot, options, *read, program, damage)
 
 
-def read_orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
-    """Yield robots with a record but no configuration, and the key of their folder; None for an unreadable record."""
+def read_orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, Collection[str]]]:
+    """Yield robots with a record but no configuration, and the keys of their folders; none for an unreadable record."""
     # a robot counts if its record file exists: if the disk ignores case, `arm` and `Arm` share one
     names = store.names()
     configured = {robot.name.casefold() for robot in config.robots if os.path.lexists(store.path(robot.name))}
     for name in names:
         if name.casefold() not in configured:
             try:
-                record, _ = store.load(name)
+                records, _ = store.load(name)
             except UrdfsyncError:
-                record = None
-            yield name, record.folder if record else None
+                records = ()
+            yield name, {record.folder for record in records}
 
 
 def read_stray_states(config: Config) -> list[Diagnostic]:
@@ -208,7 +209,7 @@ def read_stray_states(config: Config) -> list[Diagnostic]:
     store = Store(config.root)
     built = set(store.names())
     heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}
-    stray = [name for name, folder in read_orphaned_robots(store, config) if folder not in heirs]
+    stray = [name for name, folders in read_orphaned_robots(store, config) if heirs.isdisjoint(folders)]
     if not stray:
         return []
     listed = ", ".join(f"`{name}`" for name in stray)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator, Mapping
 from functools import cached_property
+from operator import itemgetter
 from pathlib import PurePath
 from typing import Any
 
@@ -12,7 +13,7 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, ElementKey, Features, Import, Role, Snapshot, Target, Version
+from urdfsync.domain import Domain, ElementKey, Features, Role, Snapshot, Target, Version
 from urdfsync.engine.inspect.package_files import Folder, PackageFiles
 from urdfsync.engine.package.generate import Package, generate
 from urdfsync.engine.package.imports import RecordedFile
@@ -40,7 +41,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     name: str
     """The robot's name in the last build."""
     record: Record
-    """The record; without model and files if the robot was never built, or if its state is lost."""
+    """The record, united from `records` (see `unite`); without model and files if there are none."""
+    records: tuple[Record, ...]
+    """The records of all branches that git has united; none if the robot was never built, or if its state is lost."""
     notes: Notes
     _store: Store
     _files: PackageFiles
@@ -107,40 +110,29 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def imports(self) -> Mapping[str, RecordedFile]:
-        """The imported files and their copies."""
-        seen = self.record.open.imports if self.record.open else {}
-        keys = self.record.imports.keys() | seen.keys()
-        return self._imported({key: (*self.record.imports.get(key, ()), *seen.get(key, ())) for key in sorted(keys)})
-
-    def _imported(self, recorded: Mapping[str, tuple[Import, ...]]) -> Mapping[str, RecordedFile]:
-        """Return imported files and their copies. If a file has several records, the copy's hash decides."""
+        """The imported files and their copies. If a file has several records, the copy's hash decides."""
+        parts = (part for record in self.records for part in record.parts())
         imports = dict[str, RecordedFile]()
-        for name, entries in recorded.items():
-            files = list[RecordedFile]()
-            for entry in entries:
+        for name, entry in sorted((item for part in parts for item in part.imports.items()), key=itemgetter(0)):
+            if name not in imports or not imports[name].is_intact:
                 key, is_noted = self.folder.key(entry.target), hash_of(entry) in self.notes.imports
-                written = self.files.get(key)
-                files.append(RecordedFile(entry, self._files.read(key), written, is_noted))
-            imports[name] = next((file for file in files if file.is_intact), files[0])
+                file = RecordedFile(entry, self._files.read(key), self.files.get(key), is_noted)
+                if name not in imports or file.is_intact:
+                    imports[name] = file
         return imports
 
     @cached_property
     def version(self) -> Version | None:
         """The model of the last complete build; None if there was none, or if it is lost."""
         snapshot = self.read(self.record.snapshot)
-        files = self._imported(self.record.imports) if self.record.open else self.imports
-        imports = {key: file.entry for key, file in files.items()}
-        return None if snapshot is None else Version(snapshot, imports, self.options)
+        return None if snapshot is None else Version(snapshot, self.record.imports, self.options)
 
     @cached_property
     def formers(self) -> tuple[Version, ...]:
-        """The versions with the numbers of parts: of the last, incomplete build, then of the complete one.
-
-        If git has doubled an element, this is a version with each of its values.
-        """
-        models = map(self.read, self.record.variants) if self.version is None else (self.version.snapshot,)
+        """The versions with the numbers of parts: of the last, incomplete build, then of the complete ones."""
+        models = (self.seen, *(self.read(record.snapshot) for record in self.records))
         imports = {key: file.entry for key, file in self.imports.items()}
-        return tuple(Version(model, imports) for model in (self.seen, *models) if model is not None)
+        return tuple(Version(model, imports) for model in models if model is not None)
 
     @cached_property
     def elements(self) -> Mapping[ElementKey, Features]:
@@ -150,7 +142,23 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def seen(self) -> Snapshot | None:
         """The model that the last build read, if that build was incomplete."""
-        return self.read(self.record.open.seen) if self.record.open else None
+        return self.read(self.record.open.snapshot) if self.record.open else None
+
+    @property
+    def seen_ids(self) -> Mapping[str, str]:
+        """The ids of the parts of that model, as in `Record.ids`."""
+        return self.record.open.ids if self.record.open else {}
+
+    def branches(self) -> Iterator[tuple[Record, Mapping[ElementKey, Features]]]:
+        """Yield the readable records of all branches, each with the elements of its model."""
+        for record in self.records:
+            if (snapshot := self.read(record.snapshot)) is not None:
+                yield record, self._domain.features(snapshot)
+
+    @property
+    def is_united(self) -> bool:
+        """Whether git has united the records of several branches."""
+        return len(self.records) > 1
 
     def read(self, recorded: Mapping[str, Any] | None) -> Snapshot | None:
         """Return a recorded model; None if this domain can't read the record: a stranger may have written it."""

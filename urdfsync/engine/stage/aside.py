@@ -128,7 +128,7 @@ def _replaced(
         key, is_moving = action.path, action.reason is Reason.MOVE
         if not action.writes or key not in contents or (key in origins and not is_moving):
             continue  # the user's text moves to another file
-        if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
+        if action.role is Role.ORDER and not (last.is_united and key.startswith(folder)):
             continue
         place = (action.origin or key) if is_moving else key
         base = last.base_of(place, action.role)

@@ -11,7 +11,7 @@ from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.doubts import EDITED
-from urdfsync.engine.decide.parts import other_meanings
+from urdfsync.engine.decide.parts import find_part_ids, other_meanings
 from urdfsync.engine.decide.rules import file_records_after
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
@@ -19,26 +19,32 @@ from urdfsync.engine.inspect.last_build import hash_of, option_values
 from urdfsync.engine.inspect.package_files import bare_hash, encode, text_hash
 from urdfsync.engine.sources.source import expansion_hash
 from urdfsync.engine.stage.saved_conflicts import SavedConflicts
+from urdfsync.matching import Matching
 from urdfsync.state.notes import Notes, Use
-from urdfsync.state.record import Open, Question, Record, as_recorded
+from urdfsync.state.record import Open, Record, as_recorded, edit_key, unite
+from urdfsync.state.statefile import key_of
 from urdfsync.state.store import Aside
 
+_MOST_ANCESTORS = 50
+"""The greatest number of earlier records that a record names: branches are seldom longer."""
 
-def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> Record:
-    """Return the record after a build."""
-    old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
-    imports, inside = generation.imported.imports, inputs.folder.key("")
+
+def records_after(inputs: Inputs, generation: Generation, decision: Decision) -> tuple[Record, ...]:
+    """Return the records after a build: one, or after an incomplete build those of all branches."""
+    last, differences, news = inputs.last, decision.differences, decision.differences.changes
+    old, *others = last.records or (last.record,)
     merged = {key: text_hash(text) for key, text in decision.texts.items() if key.endswith(".mo")}
-    edits = {**old.edits, **seen_edits(inputs, decision), **seen_merges(inputs, decision)}
+    edits = {**last.record.edits, **seen_edits(inputs, decision), **seen_merges(inputs, decision)}
     # the merge of a confirmed text with an export stays confirmed
-    merges = (action for action in decision.actions if action.path in merged and action.mine in old.confirmed)
+    merges = (action for action in decision.actions if action.path in merged and action.mine in last.record.confirmed)
     confirmed = frozenset(merged[action.path] for action in merges)
     if not decision.is_complete:
-        return _open_record(inputs, generation, decision, edits, confirmed)
-    files = file_records_after(decision.actions, inputs.last.files, is_complete=True)
-    users, is_chosen = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen
-    edited = (one for one in decision.actions if one.reason in users and one.mine)
-    is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
+        return _open_record(inputs, generation, decision, edits, confirmed), *others
+    files = file_records_after(decision.actions, last.files, is_complete=True)
+    users, is_chosen, inside = {*EDITED, Reason.UNKNOWN}, inputs.files.is_chosen, inputs.folder.key("")
+    edited = [str(one.mine) for one in decision.actions if one.reason in users and one.mine]
+    kept = (one.mine for one in decision.actions if one.mine in edited and is_chosen(one.path))
+    is_same = last.version is not None and last.version.snapshot == generation.now.snapshot
     # who keeps an edit says what the name means: later edits are not asked about
     answered = {one.owner for one in inputs.settled.actions.values() if one.choice is Choice.KEEP}
     new = Record(
@@ -49,13 +55,14 @@ def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> 
         options=option_values(inputs.robot.options),
         renamed=_brought(inputs, differences.renames),
         former=_former(inputs, generation, differences),
-        confirmed=confirmed.union(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
+        confirmed=confirmed.union(last.record.confirmed.intersection(edited), map(str, kept)),
         edits=edits,
         former_ids={owner: ids for owner, ids in differences.former_ids.items() if owner not in answered},
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
-        imports={key: (entry,) for key, entry in imports.items()},
+        imports=generation.imported.imports,
         files={key: file for key, file in files.items() if key.startswith(inside)},
         ids=differences.parts,
+        ancestors=old.ancestors,
     )
     # an edit is not worth a commit of the record, unless a clone would ask which part it belongs to
     asked = {" ".join(element) for element in other_meanings(inputs, generation, differences.parts)}
@@ -66,7 +73,14 @@ def record_after(inputs: Inputs, generation: Generation, decision: Decision) -> 
     if news is not None and all(change.change_class.rank <= ChangeClass.UNMODELLED.rank for change in news.changes):
         # nor is a change without effect on the package, such as an unmodelled part of the source
         silent = msgspec.structs.replace(silent, snapshot=old.snapshot, options=old.options, generator=old.generator)
-    return old if silent == old else new
+    is_news = silent != old or len(last.records) > 1
+    return (msgspec.structs.replace(new, ancestors=_ancestors(last.records)) if is_news else old,)
+
+
+def _ancestors(records: Iterable[Record]) -> tuple[str, ...]:
+    """Return the keys of these records and of those before them."""
+    keys = (key for record in records for key in (key_of(record), *record.ancestors))
+    return tuple(dict.fromkeys(keys))[:_MOST_ANCESTORS]
 
 
 def _open_record(
@@ -76,27 +90,25 @@ def _open_record(
 
     `edits` has the files of the user's texts, `confirmed` the hashes of confirmed texts after their merges.
     """
-    old, imports, inside = inputs.last.record, generation.imported.imports, inputs.folder.key("")
+    last, imports, inside = inputs.last, generation.imported.imports, inputs.folder.key("")
+    old = last.records[0] if last.records else last.record
+    before = old.open or Open()
     # record renewed files, but none in a former folder
-    files = {} if inputs.has_moved else file_records_after(decision.actions, old.files, is_complete=False)
-    files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
-    renewed = dict(old.open.imports) if old.open else {}
-    for key, entry in imports.items():
-        if files.get(inputs.folder.key(entry.target)) == entry.target_hash:
-            renewed[key] = (entry,)
-    renewed = {key: entries for key, entries in renewed.items() if entries != old.imports.get(key)}
-    questions = (action for action in decision.actions if action.reason is Reason.ASKED)
-    asked = {one.path: Question(one.mine or "", decision.doubts[one.path]) for one in questions}
+    files = {} if inputs.has_moved else file_records_after(decision.actions, before.files, is_complete=False)
+    files = {**before.files} | {key: file for key, file in files.items() if key.startswith(inside)}
+    written = (item for item in imports.items() if files.get(inputs.folder.key(item[1].target)) == item[1].target_hash)
+    renewed = {key: entry for key, entry in (*before.imports.items(), *written) if entry != old.imports.get(key)}
     # a decision about an earlier export does not answer a question, not in the next build either
-    confirmed |= old.confirmed.difference(question.mine for question in asked.values())
-    renames = decision.differences.undeclared
+    questions = (one for one in decision.actions if one.reason is Reason.ASKED)
+    asked = {edit_key(one.path, one.mine): decision.doubts[one.path] for one in questions}
+    confirmed |= last.record.confirmed.difference(asked)
+    ids = find_part_ids(inputs, generation, Matching(decision.differences.undeclared))
     new = msgspec.structs.replace(
         old,
-        files=files,
-        open=Open(as_recorded(generation.now.snapshot), renames, asked, renewed),
+        open=Open(as_recorded(generation.now.snapshot), ids, renewed, files, asked),
         confirmed=confirmed.union(bare_hash(text) for text in inputs.settled.contents.values() if text is not None),
     )
-    return old if new == old else msgspec.structs.replace(new, edits=edits)
+    return old if new == old else msgspec.structs.replace(new, edits=edits, ancestors=_ancestors(last.records[:1]))
 
 
 def seen_edits(inputs: Inputs, decision: Decision) -> dict[str, str]:
@@ -133,17 +145,17 @@ def notes_after(
     inputs: Inputs,
     generation: Generation,
     decision: Decision,
-    record: Record,
+    records: Iterable[Record],
     saved: Iterable[Aside],
     conflicts: SavedConflicts,
     uses: Mapping[str, Use],
 ) -> Notes:
-    """Return this machine's notes with the results of this build; `record` is the new record.
+    """Return this machine's notes with the results of this build; `records` are the new records.
 
     A dry run writes no record. So it notes no edits of another model than the recorded one, and no saved versions.
     """
     old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
-    recorded, texts = {*inputs.last.files.values(), *record.files.values()}, generation.package.notes()
+    recorded, texts = {*inputs.last.files.values(), *unite([*records]).files.values()}, generation.package.notes()
     recorded |= {bare_hash(encode(model)) for aside in saved for model in aside.beside.values()}  # for `--undo`
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}

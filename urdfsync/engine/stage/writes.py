@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
 import msgspec
@@ -22,14 +22,14 @@ from urdfsync.engine.package.generate import Package
 from urdfsync.engine.result import Outlook
 from urdfsync.engine.stage.aside import put_aside, tell_aside
 from urdfsync.engine.stage.findings import UNMERGED, find_findings, find_uses
-from urdfsync.engine.stage.record_after import notes_after, record_after
+from urdfsync.engine.stage.record_after import notes_after, records_after
 from urdfsync.engine.stage.saved_conflicts import save_conflicts
 from urdfsync.files import digest, shown
 from urdfsync.modelica.markers import join_sides
 from urdfsync.modelica.stamp import Stamp, with_stamp
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.notes import Notes
-from urdfsync.state.record import Record
+from urdfsync.state.record import Record, unite
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange, Writes
 
@@ -63,13 +63,13 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
     conflicts = save_conflicts(inputs, decision.conflicts)
     picture, drawing = draw_model(inputs, generation, decision) if options.draw else None, store.drawing(robot.name)
     copies = [*(store.save(drawing, picture.encode()) if picture else ()), *store.save_aside(robot.name, index, texts)]
-    record = None if options.removes else record_after(inputs, generation, decision)
-    if record is None:
+    records = () if options.removes else records_after(inputs, generation, decision)
+    if not records:
         state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
         needed = list[FileChange]()
     else:
         copies += conflicts.changes
-        needed, state = _state_changes(inputs, generation, decision, record, index.values(), is_writing=is_writing)
+        needed, state = _state_changes(inputs, generation, decision, records, index.values(), is_writing=is_writing)
     writes = Writes(before=(*needed, *copies), files=tuple(files.values()), record=tuple(state))
     uses = find_uses(inputs, generation, decision)
     findings = [*find_findings(inputs, generation, decision, uses, reads), *tell_aside(inputs, actions, index, texts)]
@@ -89,8 +89,8 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
         settled=frozenset(inputs.settled.keys),
     )
     notes = None
-    if record is not None:
-        notes = notes_after(inputs, generation, decision, record, index.values(), conflicts, uses)
+    if records:
+        notes = notes_after(inputs, generation, decision, records, index.values(), conflicts, uses)
         if notes == inputs.last.notes and not (inputs.former_name or options.choices):
             notes = None
     return Plan(outlook, store.hashes(), decision.shared, writes, _emptied(inputs, writes.in_order()), notes)
@@ -174,7 +174,7 @@ def _state_changes(
     inputs: Inputs,
     generation: Generation,
     decision: Decision,
-    record: Record,
+    records: Sequence[Record],
     saved: Iterable[Aside],
     *,
     is_writing: bool,
@@ -185,10 +185,11 @@ def _state_changes(
     if last.record.files and decision.is_complete and not (is_writing or inputs.options.renews):
         return [], []
     source = _source_changes(inputs)
-    recorded = store.save(store.path(inputs.robot.name), statefile.dumps(record).encode())
-    needed = {*last.files.values(), *record.files.values(), *(sha256 for one in saved for sha256 in one.base)}
+    recorded = store.save(store.path(inputs.robot.name), statefile.dumps(*records).encode())
+    written = unite(records).files.values()
+    needed = {*last.files.values(), *written, *(sha256 for one in saved for sha256 in one.base)}
     kept, is_renewing = needed if decision.is_complete else None, is_writing or bool(source or recorded)
-    return [*_base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)], [*source, *recorded]
+    return [*_base_changes(inputs, generation.package, written, kept, is_writing=is_renewing)], [*source, *recorded]
 
 
 def _source_changes(inputs: Inputs) -> list[FileChange]:
@@ -201,24 +202,24 @@ def _source_changes(inputs: Inputs) -> list[FileChange]:
 
 
 def _base_changes(
-    inputs: Inputs, package: Package, record: Record, needed: Collection[str] | None, *, is_writing: bool
+    inputs: Inputs, package: Package, written: Collection[str], needed: Collection[str] | None, *, is_writing: bool
 ) -> Iterator[FileChange]:
     """Yield the changes of the stored bases.
 
-    A missing or damaged text is written again if the present package has it. The next complete build that writes
-    anything keeps only the hashes of texts that are not `needed`.
+    A missing or damaged text of those `written` is written again if the present package has it. The next complete build
+    that writes anything keeps only the hashes of texts that are not `needed`.
     """
     store, last, settled = inputs.store, inputs.last, inputs.settled
     stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
     known = (item for texts in stored.values() for item in (texts or {}).items())
-    absent = {*record.files.values(), *settled.texts} - {sha256 for sha256, text in known if text is not None}
+    absent = {*written, *settled.texts} - {sha256 for sha256, text in known if text is not None}
     missing = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
     if absent:
         made = package.paths_by_hash  # found by hash, since a text may have another path now
         missing |= {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
     cleans = needed is not None and (is_writing or bool(missing))
     # git may have united lines in another order
-    is_united = last.record.is_united and is_writing
+    is_united = last.is_united and is_writing
     is_whole = inputs.options.full or inputs.former_name or inputs.damage or is_united
     for digit, texts in stored.items():
         is_kept = frozenset(texts or ()) if not cleans else frozenset(needed or ())
