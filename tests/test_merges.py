@@ -132,7 +132,6 @@ def first_conflict(text: str) -> str:
         ),
         pytest.param("renamed-by-both", MODEL, "line", marks=pytest.mark.slow),
         ("renamed-by-both", MODEL, "ours"),
-        ("renamed-by-both", f"{LADDER}/Elements/package.order", "both"),
     ],
 )
 def test_markers_that_somebody_has_half_settled_stay(

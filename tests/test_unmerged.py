@@ -118,3 +118,38 @@ def test_a_merge_of_two_other_files_is_no_version_of_a_file(
     assert RECORD.read_text() == text
     repository.git("add", "-A")
     execute("build", "--check")
+
+
+@pytest.mark.parametrize("style", ["merge", "diff3", "zdiff3"])
+@pytest.mark.parametrize("attributes", ["", "*.mo conflict-marker-size=12", "*.mo text eol=crlf"])
+def test_markers_of_every_style_and_size_are_read(
+    repository: Repository, execute: Execute, style: str, attributes: str
+) -> None:
+    Path(".gitattributes").write_text(attributes)
+    repository.commit()
+    branch(repository, execute, "theirs", "mass = 1", "mass = 4.5")
+    branch(repository, execute, "ours", "mass = 1", "mass = 4.5 + 0")
+    edit(RECORD, "ixx = 0.021", "ixx = 0.025")
+    repository.commit()
+    repository.git("config", "merge.conflictStyle", style)
+    with pytest.raises(subprocess.CalledProcessError):
+        repository.git("merge", "theirs")
+    assert "<<<<<<<" in RECORD.read_text()
+    assert "both branches changed" in execute("build", code=3).words
+    execute("resolve", str(RECORD), "--merge", "--prefer", "theirs")
+    assert "mass = 4.5," in RECORD.read_text()
+    assert "ixx = 0.025" in RECORD.read_text()
+
+
+def test_markers_that_git_knows_no_more_are_an_error(repository: Repository, execute: Execute) -> None:
+    """Without their common ancestor, nobody knows what both branches meant."""
+    Path(".gitattributes").unlink()
+    repository.commit()
+    branch(repository, execute, "theirs", "mass = 1", "mass = 4.5")
+    branch(repository, execute, "ours", "mass = 1", "mass = 5.5")
+    with pytest.raises(subprocess.CalledProcessError):
+        repository.git("merge", "theirs")
+    before = RECORD.read_text()
+    repository.git("add", "-A")
+    assert "unresolved merge markers" in execute("build", code=2).words
+    assert RECORD.read_text() == before

@@ -11,9 +11,8 @@ from urdfsync.engine.actions import ORPHANS, Action, Choice, Reason
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.parents import SharedFile, merge_order
-from urdfsync.engine.inspect.united import can_join
 from urdfsync.engine.package.generate import Package
-from urdfsync.modelica.markers import find_markers, join_sides
+from urdfsync.modelica.markers import join_sides
 from urdfsync.modelica.names import is_identifier
 
 
@@ -39,7 +38,7 @@ def decide_orders(inputs: Inputs, package: Package, differences: Differences, ac
     decided, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
         old, written, generated = files.text(key), recorded.get(key, ()), desired.get(key, ())
-        text = None if old is None else _order_text(inputs, key, old)
+        text = None if old is None else join_sides(old)  # lines of both sides of a merge may stand together
         names = _wanted_lines(inputs, key, generated, written, actions)
         owned = () if text is None else _owned_lines(inputs, key, text, generated, written, actions)
         texts[key] = merge_order(text, names, owned)
@@ -108,13 +107,6 @@ def _order_reason(old: str | None, new: str, *, is_recorded: bool) -> Reason:
     if old is None:
         return Reason.FORGET if not new else Reason.RESTORE if is_recorded else Reason.CREATE
     return Reason.UNCHANGED if new == old else Reason.UPDATE if new else Reason.DELETE
-
-
-def _order_text(inputs: Inputs, key: str, old: str) -> str:
-    """Return the lines on disk; where git has left both sides of a merge that may stand together, both."""
-    is_united = inputs.last.is_united
-    is_joined = find_markers(old) and can_join(inputs.files.path(key), old, is_united=is_united)
-    return join_sides(old) if is_joined else old
 
 
 def _wanted_lines(

@@ -20,8 +20,6 @@ from urdfsync.modelica.stamp import Stamp, split
 if TYPE_CHECKING:
     import pygit2
 
-UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
-"""The references under which git keeps the commit that it is merging into HEAD."""
 _MOST = 50
 """The greatest number of branches that are searched, and the most commits that were checked out last."""
 _HISTORY = 1000
@@ -105,14 +103,6 @@ def _commit_id(repository: pygit2.Repository, name: str) -> str:
         return str(repository.revparse_single(name).peel(pygit2.Commit).id)
     except (KeyError, ValueError, pygit2.GitError):
         return ""
-
-
-def read_text(revision: str, file: Path) -> str | None:
-    """Return the text of a file in a commit, with line feeds; None if the commit lacks it."""
-    try:
-        return plain(Revision(file.parent, revision).read(file).decode())
-    except (SourceError, UnicodeDecodeError):
-        return None
 
 
 def plain(text: str) -> str:
