@@ -119,8 +119,8 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def commits(self) -> tuple[PastCommit, ...]:
-        """The commits that an edit of unknown origin may come from."""
-        return (*read_commits(self.config.root, self.files, has_built=bool(self.last.notes.written)),)
+        """The commits that an edit of unknown origin may come from; none in a clone, which has other branches."""
+        return (*read_commits(self.config.root, self.files),) if self.last.notes.written else ()
 
     @cached_property
     def users_files(self) -> UsersFiles:
