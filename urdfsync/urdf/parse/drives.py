@@ -73,6 +73,7 @@ _STATES = ("position", "velocity", "acceleration", "effort")
 """State interfaces that the model of a joint has."""
 _KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
 """Words for the fields of `DriveStatement` that may contradict each other."""
+_BAD = "bad-transmission"
 _SAME = 1e-6
 """The greatest rounding error of a position, in rad or m."""
 _WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
@@ -171,15 +172,15 @@ def _read_coupled_gears(
         return None
     reader.used.update(part for holder in parts.values() for part in (holder, *holder.findall("role")))
     holders = [parts[role] for role in _ROLES.values()]
-    first, second, *motors = (_read_reduction(reader, part, _REDUCTIONS_OF_PARTS, path) or 1.0 for part in holders)
-    offsets = [_number(reader, joint, ("offset", "@offset"), path) or 0.0 for joint in holders[:2]]
+    first, second, *motors = (_read_reduction(reader, part, _REDUCTIONS_OF_PARTS, path) for part in holders)
+    offsets = [reader.number(joint, ("offset", "@offset"), path, _BAD) or 0.0 for joint in holders[:2]]
     gears = list[Transmission | None]()
     for k, row in enumerate(law(first, second)):
         own, shared = motors[k] * row[k], motors[k] * row[1 - k]
         offset = offsets[k] + offsets[1 - k] * (row[1 - k] / row[k])
         if not own or not all(map(math.isfinite, (own, shared, offset))):
             return None
-        rotor = _number(reader, holders[2 + k], ("drake:rotor_inertia",), path)
+        rotor = reader.number(holders[2 + k], ("drake:rotor_inertia",), path, _BAD)
         gear = Transmission(own, offset, rotor, holders[1 - k].get("name") if shared else None, shared or None)
         gears.append(None if gear == Transmission() else gear)
     return gears if holders[0] is joints[0] else gears[::-1]
@@ -216,10 +217,11 @@ def _read_servo(reader: Reader, interface: Element, command: Command, path: str,
     for field in (field for field in (*needed, *others) if field in params):
         reader.used.add(params[field])
         reader.place(params[field], f"joint {name} / servo / {field}")
-        if found := reader.numbers(params[field], ("",), f"{path} / {field}", "bad-servo"):
-            numbers[field] = found[0]
-            if field.endswith("gain") and found[0] < 0:
-                message = f"{path}: {field} is {found[0]:g}, but a gain is never negative"
+        number = reader.number(params[field], ("",), f"{path} / {field}", "bad-servo")
+        if number is not None:
+            numbers[field] = number
+            if field.endswith("gain") and number < 0:
+                message = f"{path}: {field} is {number:g}, but a gain is never negative"
                 reader.add(params[field], "bad-servo", message, "correct its sign")
     for lower, upper in ((f"min_{quantity}", f"max_{quantity}") for quantity in _COMMANDS):
         if lower in numbers and upper in numbers and numbers[lower] > numbers[upper]:
@@ -302,25 +304,20 @@ def _add_unknown(reader: Reader, element: Element, path: str, name: str, names: 
 def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | None:
     """Return reduction, offset and rotor of a transmission; None if the transmission has none of these numbers."""
     reduction = _read_reduction(reader, element, _REDUCTIONS, path)
-    offset = _number(reader, element, ("joint/offset",), path) or 0.0
-    gear = Transmission(reduction or 1.0, offset, _number(reader, element, ("actuator/drake:rotor_inertia",), path))
+    offset = reader.number(element, ("joint/offset",), path, _BAD) or 0.0
+    gear = Transmission(reduction, offset, reader.number(element, ("actuator/drake:rotor_inertia",), path, _BAD))
     reader.used.update(part for part in element if part.tag in ("joint", "actuator"))
     # the type SimpleTransmission needs no report: the model has it
     reader.used.update(part for part in element if "SimpleTransmission" in (part.text or ""))
     return None if gear == Transmission() else gear
 
 
-def _number(reader: Reader, element: Element, places: Iterable[str], path: str) -> float | None:
-    numbers = reader.numbers(element, places, path, "bad-transmission")
-    return numbers[0] if numbers else None
-
-
-def _read_reduction(reader: Reader, element: Element, places: Iterable[str], path: str) -> float | None:
-    """Return a reduction; None if the reduction is missing or, after a warning, zero."""
-    reduction = _number(reader, element, places, path)
+def _read_reduction(reader: Reader, element: Element, places: Iterable[str], path: str) -> float:
+    """Return a reduction; 1 if the reduction is missing or, after a warning, zero."""
+    reduction = reader.number(element, places, path, _BAD)
     if reduction == 0:
-        reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
-    return reduction or None
+        reader.add(element, _BAD, f"{path}: the reduction is 0")
+    return reduction or 1.0
 
 
 def configured_drives(options: Options) -> Iterator[DriveStatement]:

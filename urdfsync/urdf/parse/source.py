@@ -25,13 +25,14 @@ from urdfsync.urdf.parse.closures import Closures, read_closures
 from urdfsync.urdf.parse.drives import DriveStatement, configured_drives, read_drives, read_motors, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
-from urdfsync.urdf.parse.gazebo import read_contacts, read_springs, warn_of_left_out
+from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out, write_springs
 from urdfsync.urdf.parse.loops import TAGS, read_loops, tell_foreign_loops
 from urdfsync.urdf.parse.sensors import read_sensors
-from urdfsync.urdf.parse.translated import TRANSLATED, read_translated
-from urdfsync.urdf.robot import Contact, Dynamics, Joint, Link, Material, Robot
+from urdfsync.urdf.robot import Contact, Joint, Link, Material, Robot
 
 _MODELLED = ("link", "joint", "material")
+_TRANSLATED = ("left_out", "free_root")
+"""Elements that translators of other formats add: a part that acts and that no model has, and a free root link."""
 _DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint"})
 """Children of `<robot>` that other code reads, or that do not concern links and joints."""
 _XACRO = ("include", "macro", "if", "unless", "property")
@@ -163,7 +164,7 @@ def _read(
     contacts = read_contacts(reader, root)
     warn_of_left_out(reader, root)
     tell_foreign_loops(reader, root, options)
-    read_translated(reader, root, options)
+    _tell_translated(reader, root, options)
     parts = _read_parts(reader, root, contacts, closures, rows)
     links, joints = split(reader, parts.links, parts.joints, axes)
     drives = [*configured_drives(options), *parts.drives]
@@ -206,12 +207,22 @@ def _classify(reader: Reader, root: Element) -> None:
             reader.extensions.append(("", child))
             message = f"<{child.tag}> has no effect in URDF: the elements that it stands for are missing"
             reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or move its links out")
-        elif child.tag not in (*_MODELLED, *TAGS, *TRANSLATED):
+        elif child.tag not in (*_MODELLED, *TAGS, *_TRANSLATED):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # other code reads or reports each of its parts
     for element in root.iterfind("gazebo/joint"):
         reader.used.update((element, *(part for part in element if part.tag in ("parent", "child", "pose"))))
+
+
+def _tell_translated(reader: Reader, root: Element, options: Options) -> None:
+    """Add a finding for each part that a translator left out, and one if a free robot is bolted down."""
+    for part in root.iterfind("left_out"):
+        words = f"{part.get('what', '')} {part.get('name', '')}".rstrip()
+        reader.add(part, "part-left-out", f"{words}: this acts on the robot, but no model has it")
+    for element in root.iterfind("free_root") if options.base == "fixed" else ():
+        message = f"link {element.get('link', '')!r} moves freely in the source, but is bolted down"
+        reader.add(element, "free-root", message)
 
 
 class _Parts(NamedTuple):
@@ -244,20 +255,13 @@ def _read_parts(
         read_link(reader, element, path, contacts.get(element.get("name", ""))) for element, path in elements("link")
     ]
     given = {name: row.cells.keys() for name, row in rows.items()}
-    springs = read_springs(reader, root)
+    write_springs(reader, root)
     joints = [
         read_joint(reader, element, path, given.get(element.get("name", ""), ())) for element, path in elements("joint")
     ]
-    joints = [joint and _with_spring(joint, springs.get(joint.name, {})) for joint in joints]
     named_links, named_joints = [link for link in links if link.name], [each for each in joints if each and each.name]
     complete = len(named_links) == len(links) and len(named_joints) == len(joints)
     return _Parts(named_links, named_joints, drives, materials, complete)
-
-
-def _with_spring(joint: Joint, spring: Mapping[str, float]) -> Joint:
-    """Return a joint with numbers of its spring."""
-    dynamics = joint.dynamics or Dynamics()
-    return msgspec.structs.replace(joint, dynamics=msgspec.structs.replace(dynamics, **spring)) if spring else joint
 
 
 def _with_materials(
