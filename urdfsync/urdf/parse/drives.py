@@ -237,8 +237,8 @@ def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str)
         kind, param = state.get("name", ""), state.find("param[@name='initial_value']")
         if param is not None and kind in ("position", "velocity"):
             reader.used.add(param)
-            if numbers := reader.numbers(param, ("",), path, "bad-start"):
-                starts[kind] = numbers[0]
+            if (number := reader.number(param, ("",), path, "bad-start")) is not None:
+                starts[kind] = number
             if kind == "position":
                 reader.place(param, f"joint {name} / start")
             elif starts.get(kind):
@@ -264,13 +264,10 @@ def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path:
     name = (parts[leader].text or "").strip() if leader in parts else ""
     if not name:
         return None
-
-    def number(part: str, default: float) -> float:
-        numbers = reader.numbers(parts[part], ("",), path, "bad-mimic") if part in parts else None
-        return numbers[0] if numbers else default
-
     reader.used.update(parts[part] for part in (leader, "multiplier", "offset") if part in parts)
-    return Mimic(name, number("multiplier", 1.0), number("offset", 0.0))
+    stated = {part: parts[part] for part in ("multiplier", "offset") if part in parts}
+    numbers = {part: reader.number(element, ("",), path, "bad-mimic") for part, element in stated.items()}
+    return Mimic(name, **{part: number for part, number in numbers.items() if number is not None})
 
 
 def _read_interfaces(reader: Reader, element: Element, joint: Element, path: str) -> set[Command | None]:
