@@ -128,23 +128,22 @@ def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
     """
     tree, names, options, closed = assembly.tree, assembly.connectors, assembly.options, assembly.closed
     reaches, sensors, top, rows = loop_reaches(closed), _sensor_outputs(tree, names), robot["top"], robot["drives"]
-    saturated = {joint.name for joint in tree.joints if is_chosen(joint, options.saturated)}
+    joints = {joint.name: joint for joint in tree.joints}
     moved = {joint.name for joint in tree.joints if not by_effort(joint)} & closed.driven
-    servos = {joint.name: joint.servo for joint in tree.joints if joint.servo}
-    by_speed = {joint.name for joint in tree.joints if joint.command == "velocity"}
-    integrating = {name for name in by_speed & servos.keys() if servos[name].position_gain is not None}
-    drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
+    driven = [(row, joints[row["name"]], joints[row["name"]].servo) for row in rows if row["command"]]
     return {
         "drives": [
             row
             | {
+                "y": _FRAME_Y + row["y"] * 3 // 2,
+                "icon_y": row["y"],
                 "input": row[row["command"]],
-                "saturated": row["name"] in saturated,
-                "servo": row["name"] in servos,
-                "integrates": row["name"] in integrating,
-                "reach": reaches.get(row["name"]),
+                "saturated": is_chosen(joint, options.saturated),
+                "servo": servo is not None,
+                "integrates": joint.command == "velocity" and servo is not None and servo.position_gain is not None,
+                "reach": reaches.get(joint.name),
             }
-            for row in drives
+            for row, joint, servo in driven
         ],
         "starts": [tree.joint(joint.name).component for joint in tree.starts()],
         "free": [row["joint"] for row in rows if row["name"] not in moved | closed.dependent],
@@ -163,7 +162,7 @@ def _names(identifier: Identifier) -> dict[str, str]:
     return {"component": identifier.component, "type": identifier.type}
 
 
-def _heights(connectors: Iterable[str]) -> Mapping[str, int]:
+def _heights(connectors: Iterable[str]) -> dict[str, int]:
     """Return the heights of the connectors at one side of the icon, above the picture.
 
     A new connector displaces few connectors.

@@ -67,7 +67,7 @@ _TEXT_SHOWN = 60
 class Reader:
     """A reader of the elements of one file. Each element has a path in the robot, such as `joint elbow / limit`."""
 
-    def __init__(self, element_lines: Mapping[Element, int], allowed: Collection[str] = ()) -> None:
+    def __init__(self, element_lines: dict[Element, int], allowed: Collection[str] = ()) -> None:
         self.element_lines = element_lines
         self.allowed = allowed
         """Codes of errors that become warnings."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -39,8 +39,6 @@ _COUNTS = frozenset({"width", "height", "samples", "vertical_samples"})
 _LARGEST_INTEGER = 2**31 - 1  # of Modelica
 _PARTS = ("camera", "ray", "lidar")
 """Elements of a sensor that may contain these fields."""
-
-_SensorNumbers = TypeVar("_SensorNumbers", Camera, Lidar)
 
 
 class _SensorElement(NamedTuple):
@@ -113,14 +111,11 @@ def _read(reader: Reader, source: _SensorElement, name: str) -> Sensor:
             reader.used.add(child)
     rate = reader.number(element, ("update_rate", "@update_rate"), path, "bad-sensor")
     sensor = Sensor(name, source.kind, source.at, _read_origin(reader, source, path), rate or 0.0)
-    match source.kind:
-        case "camera":
-            return msgspec.structs.replace(sensor, camera=_read_fields(reader, element, path, Camera, _CAMERA))
-        case "lidar":
-            return msgspec.structs.replace(sensor, lidar=_read_fields(reader, element, path, Lidar, _LIDAR))
-        case "force_torque":
-            return _read_wrench(reader, element, path, sensor)
-    return sensor
+    if source.kind == "camera":
+        return msgspec.structs.replace(sensor, camera=Camera(**_read_fields(reader, element, path, _CAMERA)))
+    if source.kind == "lidar":
+        return msgspec.structs.replace(sensor, lidar=Lidar(**_read_fields(reader, element, path, _LIDAR)))
+    return _read_wrench(reader, element, path, sensor) if source.kind == "force_torque" else sensor
 
 
 def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
@@ -139,13 +134,11 @@ def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
     return Origin((x, y, z), (roll * turn, pitch * turn, yaw * turn))
 
 
-def _read_fields(
-    reader: Reader, element: Element, path: str, struct: type[_SensorNumbers], places: Mapping[str, Sequence[str]]
-) -> _SensorNumbers:
+def _read_fields(reader: Reader, element: Element, path: str, places: Mapping[str, Sequence[str]]) -> dict[str, float]:
     """Return the numbers of a camera or laser scanner; missing numbers are 0."""
     part = next((child for child in element if child.tag in _PARTS), element)
     reader.used.add(part)
-    values = {}
+    values = dict[str, float]()
     for field, ways in places.items():
         value = reader.number(part, ways, path, "bad-sensor") or 0.0
         if field in _COUNTS and not (value.is_integer() and 0 <= value <= _LARGEST_INTEGER):
@@ -153,7 +146,7 @@ def _read_fields(
             reader.add(part, "bad-sensor", message)
             continue
         values[field] = value
-    return struct(**values)
+    return values
 
 
 def _read_wrench(reader: Reader, element: Element, path: str, sensor: Sensor) -> Sensor:
