@@ -71,23 +71,25 @@ def write_springs(reader: Reader, root: Element) -> None:
     The first number of each field counts. A faulty number is left out, with a warning.
     """
     joints = {joint.get("name", ""): joint for joint in root.iterfind("joint")}
+    # SDFormat has <dynamics> in <axis>
+    stated = {name: [*joint.findall("dynamics"), *joint.findall("axis/dynamics")] for name, joint in joints.items()}
     springs = defaultdict[str, dict[str, float]](dict)
     for gazebo in root.iterfind("gazebo"):
         name = gazebo.get("reference", "")
         for field, tag in _SPRINGS.items() if name in joints else ():
             number = reader.number(gazebo, (tag,), f"joint {name}", "bad-spring")
-            stated = joints[name].find("dynamics")
-            if number is not None and stated is not None and (field in stated.attrib or stated.find(field) is not None):
+            if number is None:
+                continue
+            if any(field in part.attrib or part.find(field) is not None for part in stated[name][:1]):
                 message = f"joint {name}: the {field} of its <dynamics> counts, not the <{tag}> of <gazebo>"
                 reader.add(gazebo, "duplicate-element", message)
-            elif number is not None:
+            else:
                 reader.keep_first(gazebo, springs[name], field, number, f"joint {name}: {tag}")
     for name, numbers in springs.items():
-        dynamics = joints[name].find("dynamics")
-        if dynamics is None:
-            dynamics = SubElement(joints[name], "dynamics")
-            reader.element_lines[dynamics] = reader.element_lines[joints[name]]
-        dynamics.attrib.update({field: repr(number) for field, number in numbers.items()})
+        if not stated[name]:
+            stated[name] = [SubElement(joints[name], "dynamics")]
+            reader.element_lines[stated[name][0]] = reader.element_lines[joints[name]]
+        stated[name][0].attrib.update({field: repr(number) for field, number in numbers.items()})
 
 
 def warn_of_left_out(reader: Reader, root: Element) -> None:
