@@ -87,7 +87,7 @@ class DriveStatement(NamedTuple):
     """For example `transmission wheel_trans / joint wheel`; empty for the configuration."""
     joint: str
     element: Element | None = None
-    """The source's element."""
+    """The source's element; None if urdfsync does not model it, or there is none."""
     transmission: Transmission | None = None
     command: Command | None = None
     mimic: Mimic | None = None
@@ -97,8 +97,6 @@ class DriveStatement(NamedTuple):
     """Whether the element drives the joint."""
     is_measured: bool = False
     """Whether the element only measures the joint."""
-    is_coupled: bool = False
-    """Whether the transmission couples joints by a law that urdfsync does not model."""
 
 
 def read_drives(reader: Reader, element: Element, path: str) -> Iterator[DriveStatement]:
@@ -118,18 +116,15 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[DriveSt
     for transmission in transmissions:
         joints = [part for part in transmission if _JOINT.fullmatch(part.tag) and part.get("name")]
         gears = _read_gears(reader, transmission, path, joints)
-        for number, joint in enumerate(joints):
+        modelled = None if gears is None else transmission
+        for joint, gear in zip(joints, gears or [None] * len(joints), strict=True):
             name = joint.get("name", "")
             place = reader.place(joint, f"{path} / joint {name}")
             commands = _read_interfaces(reader, transmission, joint, place)
-            gear = gears[number] if gears else None
-            drive = DriveStatement(
-                place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None)
-            )
-            is_measured = commands == {None}
+            command, is_measured = next(filter(commands.__contains__, _COMMANDS), None), commands == {None}
             # the passive_joints of the PR2's gripper have no motor
             is_driven = not is_measured and not joint.tag.startswith("passive")
-            yield drive._replace(is_driven=is_driven, is_measured=is_measured, is_coupled=gears is None)
+            yield DriveStatement(place, name, modelled, gear, command, is_driven=is_driven, is_measured=is_measured)
 
 
 def _read_gears(
@@ -371,7 +366,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[DriveStatement]) -> 
             message = f"joint {joint.name!r} is a ball: its drive has no effect"
             reader.extend([Finding("ball-not-driven", f"joint {joint.name}", message)])
         return msgspec.structs.replace(joint, actuated=is_driven or None)
-    reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
+    reader.used.update(drive.element for drive in drives if drive.element is not None)
 
     def first(field: str) -> DriveStatement | None:
         """Return the first drive that states a field; report later drives that contradict the first."""
