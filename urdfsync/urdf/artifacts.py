@@ -14,7 +14,7 @@ from urdfsync.urdf.model.joint import joint_model, joint_title
 from urdfsync.urdf.model.loop import loop_note, loop_reaches, loop_title
 from urdfsync.urdf.model.numbers import joint_part, link_numbers, loop_numbers, shape_part
 from urdfsync.urdf.model.record import obstacles, record_data
-from urdfsync.urdf.model.robot import bench_data, robot_data
+from urdfsync.urdf.model.robot import bench_data, robot_data, sensor_rows
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.options import USES, Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Inertial, Joint, Link, Loop, Robot
@@ -48,9 +48,8 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     if is_whole and options.base == "floating":
         files.append(_of_robot(assembly, "Stance", {"height": standing_height(tree, imports)}, Role.RECORD))
     if is_whole and tree.sensors:
-        models = zip(tree.sensors, whole["sensors"], strict=True)
-        sensors = [msgspec.structs.asdict(sensor) | model for sensor, model in models]
-        files.append(_of_robot(assembly, "Sensors", {"sensors": sensors}, Role.RECORD))
+        rows = {"sensors": sensor_rows(tree, assembly.connectors)}
+        files.append(_of_robot(assembly, "Sensors", rows, Role.RECORD))
     if starts:
         begin = [
             {"component": starts[joint.name], "motion": MOTION_KINDS[joint.type], "joint": joint}

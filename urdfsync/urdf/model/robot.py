@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from typing import Any
 
-import msgspec
+from msgspec.structs import asdict
 
 from urdfsync.urdf.assembly import Assembly
 from urdfsync.urdf.connectors import Connectors, input_vector
@@ -19,11 +19,12 @@ from urdfsync.urdf.drives import by_effort, is_chosen
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.joint import joint_title
 from urdfsync.urdf.model.loop import loop_reaches, loop_title
-from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
-from urdfsync.urdf.robot import MOTION_KINDS
+from urdfsync.urdf.names import Identifier
+from urdfsync.urdf.robot import MOTION_KINDS, SENSOR_KINDS
 
-_ROW = 20  # Height of a row of connectors on the icon: an axis, and the support 10 below.
+_ROW = 20  # Height of a row of connectors on the icon: an axis, and the support 10 below; of an output of a sensor.
 _PICTURE = 100  # The upper end of the picture on the icon; the rows begin there.
+_OUTPUT_TOP, _OUTPUT_ICON_TOP = 80, 90  # Y of the first output of a sensor in Run, below the outputs of the drives.
 _FRAME_Y = -50  # Y of the frame in the library's benches that connects to the robot.
 
 
@@ -35,22 +36,11 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     the rows "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
     """
     motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
-    couplings: dict[str, dict[str, Any]] = {
-        joint.name: {
-            "component": names.couplings[joint.name],
-            "follower": tree.joint(joint.name).component,
-            "follower_motion": motions[joint.name],
-            "name": joint.name,
-            # a fixed leader holds its follower: in the model the follower has no leader
-            "leader": tree.joint(mimic.joint).component if motions[mimic.joint] else None,
-            "leader_motion": motions[mimic.joint],
-            "leader_name": mimic.joint,
-        }
-        for joint, mimic in tree.followers()
-    }
-    followers = defaultdict[str | None, list[str]](list)
-    for coupling in couplings.values():
-        followers[coupling["leader"]].append(coupling["component"])
+    # a fixed leader holds its follower: in the model the follower has no leader
+    leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if motions[mimic.joint]}
+    followers = defaultdict[str, list[str]](list)
+    for name, leader in leaders.items():
+        followers[leader].append(names.couplings[name])
     gears = defaultdict[str | None, list[dict[str, Any]]](list)  # gears in the robot model, by moved joint
     for name, drive in names.drives.items():
         if drive.gear:
@@ -59,53 +49,40 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
             gears[drive.other].append(gear | {"factor": "otherReduction"})
     with_motor = {name for name, drive in names.drives.items() if drive.motor and not drive.gear}
     diagram, axes = layout(tree, names), _heights(drive.axis for drive in names.drives.values())
-    frames = _heights((*names.frames.values(), *names.sensor_frames.values()))
-    heights = [*axes.values(), *frames.values()]
+    frames = [("link", name, tree.link(name).component, connector) for name, connector in names.frames.items()]
+    frames += [("sensor", name, name, connector) for name, connector in names.sensor_frames.items()]
+    heights = axes | _heights(connector for *_, connector in frames)
     return {
         "frames": [
-            {"connector": connector, "link": tree.link(name).component, "name": name, "y": frames[connector]}
-            for name, connector in names.frames.items()
+            {"connector": connector, "owner": f'{kind} "{name}"', "label": label, "y": heights[connector]}
+            for kind, name, label, connector in frames
         ],
         "drives": [
-            {"joint": tree.joint(name).component, "name": name, "y": axes[drive.axis], **msgspec.structs.asdict(drive)}
+            {"joint": tree.joint(name).component, "name": name, "y": axes[drive.axis], **asdict(drive)}
             for name, drive in names.drives.items()
         ],
-        "links": [
-            {"component": tree.link(link.name).component, "type": tree.link(link.name).type, "name": link.name}
-            for link in tree.links
-        ],
+        "links": [{"name": link.name, **_names(tree.link(link.name))} for link in tree.links],
         "joints": [
             {
-                "component": tree.joint(joint.name).component,
-                "type": tree.joint(joint.name).type,
-                "kind": joint.type,
+                **_names(tree.joint(joint.name)),
+                "source": joint,
                 "title": joint_title(joint),
-                "start": joint.start is not None,
+                "motion": motions[joint.name],
                 "axis": names.drives[joint.name].axis if joint.name in names.drives else None,
                 "motor": joint.name in with_motor,
-                "follows": couplings.get(joint.name),
-                "followers": followers[tree.joint(joint.name).component],
+                "coupling": names.couplings.get(joint.name),
+                "leader": tree.joint(leaders[joint.name]).component if joint.name in leaders else None,
+                "leader_motion": motions[leaders[joint.name]] if joint.name in leaders else None,
+                "followers": followers[joint.name],
                 "gears": gears[joint.name],
                 "dependent": joint.name in dependent,
             }
             for joint in tree.joints
         ],
-        "loops": [
-            {
-                "component": tree.loop(loop.name).component,
-                "type": tree.loop(loop.name).type,
-                "title": loop_title(loop),
-            }
-            for loop in tree.loops
-        ],
-        "couplings": list(couplings.values()),
+        "loops": [{"title": loop_title(loop), **_names(tree.loop(loop.name))} for loop in tree.loops],
         "starts": bool(tree.starts()),
-        "sensors": sensor_models(tree, names),
-        "sensor_frames": [
-            {"connector": connector, "name": name, "y": frames[connector]}
-            for name, connector in names.sensor_frames.items()
-        ],
-        "top": max(heights) + 10 if heights else _PICTURE,
+        "sensors": sensor_rows(tree, names),
+        "top": max(heights.values()) + 10 if heights else _PICTURE,
         "extent": _extent(diagram.extent),
         "diagram": {name: _extent(box) for name, box in diagram.placements.items()},
         "lines": [
@@ -115,6 +92,34 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     }
 
 
+def sensor_rows(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
+    """Return each sensor with its model and its component; `tree` may have no numbers."""
+    return [
+        {
+            "component": names.sensors[sensor.name],
+            "model": SENSOR_KINDS[sensor.kind],
+            "joint": tree.joint(sensor.at).component if sensor.is_in_joint else None,
+            "source": sensor,
+        }
+        for sensor in tree.sensors
+    ]
+
+
+def _sensor_outputs(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
+    """Return Run's outputs of sensors with their places: a column at the right, below the outputs of the drives."""
+    outputs = [(sensor.name, output) for sensor in tree.sensors for output in SENSOR_KINDS[sensor.kind].outputs]
+    return [
+        {
+            "component": names.sensors[name],
+            "name": name,
+            "output": output,
+            "y": _OUTPUT_TOP - _ROW * number,
+            "icon_y": _OUTPUT_ICON_TOP - _ROW // 2 * number,
+        }
+        for number, (name, output) in enumerate(outputs)
+    ]
+
+
 def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
     """Return the data of Run and Test; `robot` is that of the robot model.
 
@@ -122,24 +127,23 @@ def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
     20 fits beside each row.
     """
     tree, names, options, closed = assembly.tree, assembly.connectors, assembly.options, assembly.closed
-    reaches, sensors, top, rows = loop_reaches(closed), sensor_outputs(tree, names), robot["top"], robot["drives"]
-    saturated = {joint.name for joint in tree.joints if is_chosen(joint, options.saturated)}
+    reaches, sensors, top, rows = loop_reaches(closed), _sensor_outputs(tree, names), robot["top"], robot["drives"]
+    joints = {joint.name: joint for joint in tree.joints}
     moved = {joint.name for joint in tree.joints if not by_effort(joint)} & closed.driven
-    servos = {joint.name: joint.servo for joint in tree.joints if joint.servo}
-    by_speed = {joint.name for joint in tree.joints if joint.command == "velocity"}
-    integrating = {name for name in by_speed & servos.keys() if servos[name].position_gain is not None}
-    drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
+    driven = [(row, joints[row["name"]], joints[row["name"]].servo) for row in rows if row["command"]]
     return {
         "drives": [
             row
             | {
+                "y": _FRAME_Y + row["y"] * 3 // 2,
+                "icon_y": row["y"],
                 "input": row[row["command"]],
-                "saturated": row["name"] in saturated,
-                "servo": row["name"] in servos,
-                "integrates": row["name"] in integrating,
-                "reach": reaches.get(row["name"]),
+                "saturated": is_chosen(joint, options.saturated),
+                "servo": servo is not None,
+                "integrates": joint.command == "velocity" and servo is not None and servo.position_gain is not None,
+                "reach": reaches.get(joint.name),
             }
-            for row in drives
+            for row, joint, servo in driven
         ],
         "starts": [tree.joint(joint.name).component for joint in tree.starts()],
         "free": [row["joint"] for row in rows if row["name"] not in moved | closed.dependent],
@@ -154,7 +158,11 @@ def bench_data(assembly: Assembly, robot: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _heights(connectors: Iterable[str]) -> Mapping[str, int]:
+def _names(identifier: Identifier) -> dict[str, str]:
+    return {"component": identifier.component, "type": identifier.type}
+
+
+def _heights(connectors: Iterable[str]) -> dict[str, int]:
     """Return the heights of the connectors at one side of the icon, above the picture.
 
     A new connector displaces few connectors.

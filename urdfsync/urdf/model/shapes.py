@@ -143,13 +143,11 @@ def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package:
     if shape is None:
         return
     if visual.material is not None and visual.material.rgba is not None:
-        red, green, blue, opacity = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
-        shape.update(color=(round(255 * red), round(255 * green), round(255 * blue)), opacity=opacity)
-        yield shape
+        *tones, opacity = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
+        yield shape | {"color": tuple(round(255 * tone) for tone in tones), "opacity": opacity}
         return
     if not isinstance(visual.geometry, Mesh):
-        shape.update(color=GREY, opacity=1.0)
-        yield shape
+        yield shape | {"color": GREY, "opacity": 1.0}
         return
     key = lookup.key(visual.geometry)
     facts = imports[key].facts

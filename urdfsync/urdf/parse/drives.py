@@ -73,6 +73,7 @@ _STATES = ("position", "velocity", "acceleration", "effort")
 """State interfaces that the model of a joint has."""
 _KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
 """Words for the fields of `DriveStatement` that may contradict each other."""
+_BAD = "bad-transmission"
 _SAME = 1e-6
 """The greatest rounding error of a position, in rad or m."""
 _WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
@@ -86,7 +87,7 @@ class DriveStatement(NamedTuple):
     """For example `transmission wheel_trans / joint wheel`; empty for the configuration."""
     joint: str
     element: Element | None = None
-    """The source's element."""
+    """The source's element; None if urdfsync does not model it, or there is none."""
     transmission: Transmission | None = None
     command: Command | None = None
     mimic: Mimic | None = None
@@ -96,8 +97,6 @@ class DriveStatement(NamedTuple):
     """Whether the element drives the joint."""
     is_measured: bool = False
     """Whether the element only measures the joint."""
-    is_coupled: bool = False
-    """Whether the transmission couples joints by a law that urdfsync does not model."""
 
 
 def read_drives(reader: Reader, element: Element, path: str) -> Iterator[DriveStatement]:
@@ -117,18 +116,15 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[DriveSt
     for transmission in transmissions:
         joints = [part for part in transmission if _JOINT.fullmatch(part.tag) and part.get("name")]
         gears = _read_gears(reader, transmission, path, joints)
-        for number, joint in enumerate(joints):
+        modelled = None if gears is None else transmission
+        for joint, gear in zip(joints, gears or [None] * len(joints), strict=True):
             name = joint.get("name", "")
             place = reader.place(joint, f"{path} / joint {name}")
             commands = _read_interfaces(reader, transmission, joint, place)
-            gear = gears[number] if gears else None
-            drive = DriveStatement(
-                place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None)
-            )
-            is_measured = commands == {None}
+            command, is_measured = next(filter(commands.__contains__, _COMMANDS), None), commands == {None}
             # the passive_joints of the PR2's gripper have no motor
             is_driven = not is_measured and not joint.tag.startswith("passive")
-            yield drive._replace(is_driven=is_driven, is_measured=is_measured, is_coupled=gears is None)
+            yield DriveStatement(place, name, modelled, gear, command, is_driven=is_driven, is_measured=is_measured)
 
 
 def _read_gears(
@@ -171,15 +167,15 @@ def _read_coupled_gears(
         return None
     reader.used.update(part for holder in parts.values() for part in (holder, *holder.findall("role")))
     holders = [parts[role] for role in _ROLES.values()]
-    first, second, *motors = (_read_reduction(reader, part, _REDUCTIONS_OF_PARTS, path) or 1.0 for part in holders)
-    offsets = [_number(reader, joint, ("offset", "@offset"), path) or 0.0 for joint in holders[:2]]
+    first, second, *motors = (_read_reduction(reader, part, _REDUCTIONS_OF_PARTS, path) for part in holders)
+    offsets = [reader.number(joint, ("offset", "@offset"), path, _BAD) or 0.0 for joint in holders[:2]]
     gears = list[Transmission | None]()
     for k, row in enumerate(law(first, second)):
         own, shared = motors[k] * row[k], motors[k] * row[1 - k]
         offset = offsets[k] + offsets[1 - k] * (row[1 - k] / row[k])
         if not own or not all(map(math.isfinite, (own, shared, offset))):
             return None
-        rotor = _number(reader, holders[2 + k], ("drake:rotor_inertia",), path)
+        rotor = reader.number(holders[2 + k], ("drake:rotor_inertia",), path, _BAD)
         gear = Transmission(own, offset, rotor, holders[1 - k].get("name") if shared else None, shared or None)
         gears.append(None if gear == Transmission() else gear)
     return gears if holders[0] is joints[0] else gears[::-1]
@@ -216,10 +212,11 @@ def _read_servo(reader: Reader, interface: Element, command: Command, path: str,
     for field in (field for field in (*needed, *others) if field in params):
         reader.used.add(params[field])
         reader.place(params[field], f"joint {name} / servo / {field}")
-        if found := reader.numbers(params[field], ("",), f"{path} / {field}", "bad-servo"):
-            numbers[field] = found[0]
-            if field.endswith("gain") and found[0] < 0:
-                message = f"{path}: {field} is {found[0]:g}, but a gain is never negative"
+        number = reader.number(params[field], ("",), f"{path} / {field}", "bad-servo")
+        if number is not None:
+            numbers[field] = number
+            if field.endswith("gain") and number < 0:
+                message = f"{path}: {field} is {number:g}, but a gain is never negative"
                 reader.add(params[field], "bad-servo", message, "correct its sign")
     for lower, upper in ((f"min_{quantity}", f"max_{quantity}") for quantity in _COMMANDS):
         if lower in numbers and upper in numbers and numbers[lower] > numbers[upper]:
@@ -235,8 +232,8 @@ def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str)
         kind, param = state.get("name", ""), state.find("param[@name='initial_value']")
         if param is not None and kind in ("position", "velocity"):
             reader.used.add(param)
-            if numbers := reader.numbers(param, ("",), path, "bad-start"):
-                starts[kind] = numbers[0]
+            if (number := reader.number(param, ("",), path, "bad-start")) is not None:
+                starts[kind] = number
             if kind == "position":
                 reader.place(param, f"joint {name} / start")
             elif starts.get(kind):
@@ -262,13 +259,10 @@ def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path:
     name = (parts[leader].text or "").strip() if leader in parts else ""
     if not name:
         return None
-
-    def number(part: str, default: float) -> float:
-        numbers = reader.numbers(parts[part], ("",), path, "bad-mimic") if part in parts else None
-        return numbers[0] if numbers else default
-
     reader.used.update(parts[part] for part in (leader, "multiplier", "offset") if part in parts)
-    return Mimic(name, number("multiplier", 1.0), number("offset", 0.0))
+    stated = {part: parts[part] for part in ("multiplier", "offset") if part in parts}
+    numbers = {part: reader.number(element, ("",), path, "bad-mimic") for part, element in stated.items()}
+    return Mimic(name, **{part: number for part, number in numbers.items() if number is not None})
 
 
 def _read_interfaces(reader: Reader, element: Element, joint: Element, path: str) -> set[Command | None]:
@@ -302,25 +296,20 @@ def _add_unknown(reader: Reader, element: Element, path: str, name: str, names: 
 def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | None:
     """Return reduction, offset and rotor of a transmission; None if the transmission has none of these numbers."""
     reduction = _read_reduction(reader, element, _REDUCTIONS, path)
-    offset = _number(reader, element, ("joint/offset",), path) or 0.0
-    gear = Transmission(reduction or 1.0, offset, _number(reader, element, ("actuator/drake:rotor_inertia",), path))
+    offset = reader.number(element, ("joint/offset",), path, _BAD) or 0.0
+    gear = Transmission(reduction, offset, reader.number(element, ("actuator/drake:rotor_inertia",), path, _BAD))
     reader.used.update(part for part in element if part.tag in ("joint", "actuator"))
     # the type SimpleTransmission needs no report: the model has it
     reader.used.update(part for part in element if "SimpleTransmission" in (part.text or ""))
     return None if gear == Transmission() else gear
 
 
-def _number(reader: Reader, element: Element, places: Iterable[str], path: str) -> float | None:
-    numbers = reader.numbers(element, places, path, "bad-transmission")
-    return numbers[0] if numbers else None
-
-
-def _read_reduction(reader: Reader, element: Element, places: Iterable[str], path: str) -> float | None:
-    """Return a reduction; None if the reduction is missing or, after a warning, zero."""
-    reduction = _number(reader, element, places, path)
+def _read_reduction(reader: Reader, element: Element, places: Iterable[str], path: str) -> float:
+    """Return a reduction; 1 if the reduction is missing or, after a warning, zero."""
+    reduction = reader.number(element, places, path, _BAD)
     if reduction == 0:
-        reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
-    return reduction or None
+        reader.add(element, _BAD, f"{path}: the reduction is 0")
+    return reduction or 1.0
 
 
 def configured_drives(options: Options) -> Iterator[DriveStatement]:
@@ -377,7 +366,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[DriveStatement]) -> 
             message = f"joint {joint.name!r} is a ball: its drive has no effect"
             reader.extend([Finding("ball-not-driven", f"joint {joint.name}", message)])
         return msgspec.structs.replace(joint, actuated=is_driven or None)
-    reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
+    reader.used.update(drive.element for drive in drives if drive.element is not None)
 
     def first(field: str) -> DriveStatement | None:
         """Return the first drive that states a field; report later drives that contradict the first."""

@@ -104,13 +104,12 @@ def read_material(reader: Reader, element: Element, path: str, owner: str = "") 
 
 
 def resolve_materials(
-    reader: Reader, links: Mapping[str, Link], materials: dict[str, Material], defined: Collection[str]
-) -> tuple[Link, ...]:
+    reader: Reader, root: Element, links: Mapping[str, Link], materials: Mapping[str, Material]
+) -> list[Link]:
     """Return the links after looking up their materials by name in the whole robot.
 
-    As in urdfdom, the first definition of a name counts: the robot's own `materials` come before those in visuals.
-    `defined` has the names of all materials that a definition gives a colour or a texture. The keys of `links` and
-    `materials` are paths.
+    As in urdfdom, the first definition of a name counts: the robot's own `materials` come before those in visuals. The
+    keys of `links` and `materials` are paths.
     """
     inline = {
         f"{path} / visual {number} / material": visual.material
@@ -118,15 +117,12 @@ def resolve_materials(
         for number, visual in enumerate(link.visuals, start=1)
         if visual.material
     }
-    if not inline:
-        return tuple(links.values())
     table: dict[str, Material] = {}
-    for path, material in (materials | inline).items():
-        if not material.name or material.rgba is None:
-            continue
-        if table.setdefault(material.name, material) != material:
+    for path, material in {**materials, **inline}.items() if inline else ():
+        if material.name and material.rgba and table.setdefault(material.name, material) != material:
             message = f"material {material.name!r} is defined again, with other values; the first definition counts"
             reader.extend([Finding("material-redefined", path, message)])
+    defined = {material.get("name") for material in root.iter("material") if len(material)}  # a colour or a texture
     for path, material in inline.items():
         if material.name and material.name not in defined:
             reader.extend([Finding("unknown-material", path, f"material {material.name!r} is not defined")])
@@ -135,10 +131,10 @@ def resolve_materials(
         material = visual.material and table.get(visual.material.name, visual.material)
         return msgspec.structs.replace(visual, material=None if material == Material() else material)
 
-    return tuple(
+    return [
         msgspec.structs.replace(link, visuals=tuple(map(resolved, link.visuals))) if link.visuals else link
         for link in links.values()
-    )
+    ]
 
 
 def read_joint(reader: Reader, element: Element, path: str, given: Collection[str] = ()) -> Joint | None:

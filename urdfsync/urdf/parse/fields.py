@@ -67,7 +67,7 @@ _TEXT_SHOWN = 60
 class Reader:
     """A reader of the elements of one file. Each element has a path in the robot, such as `joint elbow / limit`."""
 
-    def __init__(self, element_lines: Mapping[Element, int], allowed: Collection[str] = ()) -> None:
+    def __init__(self, element_lines: dict[Element, int], allowed: Collection[str] = ()) -> None:
         self.element_lines = element_lines
         self.allowed = allowed
         """Codes of errors that become warnings."""
@@ -214,6 +214,17 @@ class Reader:
                 self.add(holder, code, f"{path}: <{holder.tag}> {shown} {error}")
                 return None
         return None
+
+    def number(self, element: Element, places: Iterable[str], path: str, code: str) -> float | None:
+        """Return a single number, as `numbers` does."""
+        numbers = self.numbers(element, places, path, code)
+        return numbers[0] if numbers else None
+
+    def keep_first(self, element: Element, numbers: dict[str, float], field: str, number: float, words: str) -> None:
+        """Add a number of an element to those of a part, or warn if an earlier one contradicts it."""
+        if numbers.setdefault(field, number) != number:
+            message = f"{words} {number:g} contradicts {numbers[field]:g}, the first value, which counts"
+            self.add(element, "duplicate-element", message)
 
     def expect(self, element: Element, path: str, attributes: Collection[str], *, moves: bool = True) -> None:
         """Report unexpected attributes: with a warning if the attribute may change the motion or looks misspelt."""

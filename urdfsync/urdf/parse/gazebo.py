@@ -1,14 +1,15 @@
-"""Reads the contacts of links and the springs of joints, and warns of elements that only change the motion elsewhere.
+"""Reads what Gazebo, SDFormat and Bullet state about links and joints, and warns of what only acts in these.
 
-Gazebo, SDFormat and Bullet each have their own form of contact properties.
+Each of them has its own form of contact properties. The springs of Gazebo become attributes of `<dynamics>`.
 """
 
 from __future__ import annotations
 
 import contextlib
 import re
+from collections import defaultdict
 from collections.abc import Mapping
-from xml.etree.ElementTree import Element
+from xml.etree.ElementTree import Element, SubElement
 
 from urdfsync.urdf.parse.fields import Reader
 from urdfsync.urdf.robot import Contact
@@ -23,7 +24,7 @@ _IN_GAZEBO = {
 _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "kd": ("contact/damping",)}
 """Fields of `Contact`, with the paths of their elements in `<gazebo>` and in links."""
 _SPRINGS = {"spring_stiffness": "springStiffness", "spring_reference": "springReference"}
-"""Fields of `Dynamics`, with their elements in `<gazebo>`."""
+"""Attributes of `<dynamics>`, with their elements in `<gazebo>`."""
 
 FORCES = re.compile("force|cable|spring|damper|bushing|tendon")
 """Elements of Drake and MuJoCo with forces between the links of a robot."""
@@ -50,47 +51,45 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
         elif name and name not in joints and gazebo.find("sensor") is None:  # sensors have their own warning
             message = f"<gazebo> refers to {name!r}, which is no link or joint"
             reader.add(gazebo, "unknown-reference", message, perhaps(name, links.keys() | joints))
-    contacts: dict[str, dict[str, float]] = {}
+    contacts = defaultdict[str, dict[str, float]](dict)
     for element, name, ways in places:
-        numbers = contacts.setdefault(name, {})
         for field, way in ways.items():
-            (number,) = reader.numbers(element, way, f"link {name}", "bad-contact") or (None,)
+            number = reader.number(element, way, f"link {name}", "bad-contact")
             if number is None:
                 continue
             if number < 0 or (number == 0 and field == "kp"):
                 message = f"link {name}: {field} {number:g} is {'negative' if number else 'zero'}, and is left out"
                 reader.add(element, "bad-contact", message)
-            elif numbers.setdefault(field, number) != number:
-                message = (
-                    f"link {name}: {field} {number:g} contradicts {numbers[field]:g}, the first value, which counts"
-                )
-                reader.add(element, "duplicate-element", message)
-    return {name: Contact(**numbers) for name, numbers in contacts.items() if numbers}
+            else:
+                reader.keep_first(element, contacts[name], field, number, f"link {name}: {field}")
+    return {name: Contact(**numbers) for name, numbers in contacts.items()}
 
 
-def read_springs(reader: Reader, root: Element) -> Mapping[str, Mapping[str, float]]:
-    """Return the springs that Gazebo's elements give to joints: fields of `Dynamics` by name of the joint.
+def write_springs(reader: Reader, root: Element) -> None:
+    """Write the springs of Gazebo's elements into the `<dynamics>` of their joints.
 
     The first number of each field counts. A faulty number is left out, with a warning.
     """
-    stated = {joint.get("name", ""): joint.find("dynamics") for joint in root.iterfind("joint")}
-    springs = dict[str, dict[str, float]]()
+    joints = {joint.get("name", ""): joint for joint in root.iterfind("joint")}
+    # SDFormat has <dynamics> in <axis>
+    stated = {name: [*joint.findall("dynamics"), *joint.findall("axis/dynamics")] for name, joint in joints.items()}
+    springs = defaultdict[str, dict[str, float]](dict)
     for gazebo in root.iterfind("gazebo"):
-        if (name := gazebo.get("reference", "")) not in stated:
-            continue
-        for field, tag in _SPRINGS.items():
-            (number,) = reader.numbers(gazebo, (tag,), f"joint {name}", "bad-spring") or (None,)
-            dynamics = stated[name]
+        name = gazebo.get("reference", "")
+        for field, tag in _SPRINGS.items() if name in joints else ():
+            number = reader.number(gazebo, (tag,), f"joint {name}", "bad-spring")
             if number is None:
                 continue
-            if dynamics is not None and field in dynamics.attrib:
+            if any(field in part.attrib or part.find(field) is not None for part in stated[name][:1]):
                 message = f"joint {name}: the {field} of its <dynamics> counts, not the <{tag}> of <gazebo>"
                 reader.add(gazebo, "duplicate-element", message)
-            elif springs.setdefault(name, {}).setdefault(field, number) != number:
-                first = springs[name][field]
-                message = f"joint {name}: {tag} {number:g} contradicts {first:g}, the first value, which counts"
-                reader.add(gazebo, "duplicate-element", message)
-    return springs
+            else:
+                reader.keep_first(gazebo, springs[name], field, number, f"joint {name}: {tag}")
+    for name, numbers in springs.items():
+        if not stated[name]:
+            stated[name] = [SubElement(joints[name], "dynamics")]
+            reader.element_lines[stated[name][0]] = reader.element_lines[joints[name]]
+        stated[name][0].attrib.update({field: repr(number) for field, number in numbers.items()})
 
 
 def warn_of_left_out(reader: Reader, root: Element) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -39,8 +39,6 @@ _COUNTS = frozenset({"width", "height", "samples", "vertical_samples"})
 _LARGEST_INTEGER = 2**31 - 1  # of Modelica
 _PARTS = ("camera", "ray", "lidar")
 """Elements of a sensor that may contain these fields."""
-
-_SensorNumbers = TypeVar("_SensorNumbers", Camera, Lidar)
 
 
 class _SensorElement(NamedTuple):
@@ -85,29 +83,21 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
 
 def _find_sensors(root: Element) -> Iterator[_SensorElement]:
     """Yield the sensors of known kinds. Their links and joints may not exist."""
-    for at, element in _elements(root):
-        parent = element.find("parent")
-        inside = [child.tag for child in element]
-        kind = next((_TYPES[word] for word in (element.get("type", ""), *inside) if word in _TYPES), None)
-        place = at if parent is None else parent.get("link") or parent.get("joint", at)
-        if kind and place:
-            yield _SensorElement(element, element.get("name", "") or f"{place} {kind}", kind, place)
+    for child in root:
+        at = child.get("reference" if child.tag == "gazebo" else "name", "") if child.tag != "sensor" else ""
+        inner = child.findall("sensor") if child.tag in ("link", "joint", "gazebo") else []
+        for element in [child] if child.tag == "sensor" else inner:
+            parent, words = element.find("parent"), (element.get("type", ""), *(part.tag for part in element))
+            kind = next((_TYPES[word] for word in words if word in _TYPES), None)
+            place = at if parent is None else parent.get("link") or parent.get("joint", at)
+            if kind and place:
+                yield _SensorElement(element, element.get("name", "") or f"{place} {kind}", kind, place)
     for element in root.iterfind("ros2_control/sensor"):
         states = [state.get("name", "").partition(".")[0] for state in element.findall("state_interface")]
         kind = next((_STATES[state] for state in states if state in _STATES), None)
-        frame = next((part.text for part in element.findall("param") if part.get("name") == "frame_id"), None)
+        frame = element.findtext("param[@name='frame_id']")
         if kind and frame:
             yield _SensorElement(element, element.get("name", ""), kind, frame.strip())
-
-
-def _elements(root: Element) -> Iterator[tuple[str, Element]]:
-    """Yield the sensors of robot, links, joints and `<gazebo>`, with the name of the link or joint."""
-    for child in root:
-        if child.tag == "sensor":
-            yield "", child
-        elif child.tag in ("link", "joint", "gazebo"):
-            at = child.get("reference" if child.tag == "gazebo" else "name", "")
-            yield from ((at, sensor) for sensor in child.findall("sensor"))
 
 
 def _read(reader: Reader, source: _SensorElement, name: str) -> Sensor:
@@ -119,16 +109,13 @@ def _read(reader: Reader, source: _SensorElement, name: str) -> Sensor:
         is_state = child.tag == "state_interface" and _STATES.get(words.partition(".")[0]) == source.kind
         if is_state or child.tag == "parent" or (child.tag == "param" and words == "frame_id"):
             reader.used.add(child)
-    rate = reader.numbers(element, ("update_rate", "@update_rate"), path, "bad-sensor")
-    sensor = Sensor(name, source.kind, source.at, _read_origin(reader, source, path), rate[0] if rate else 0.0)
-    match source.kind:
-        case "camera":
-            return msgspec.structs.replace(sensor, camera=_read_fields(reader, element, path, Camera, _CAMERA))
-        case "lidar":
-            return msgspec.structs.replace(sensor, lidar=_read_fields(reader, element, path, Lidar, _LIDAR))
-        case "force_torque":
-            return _read_wrench(reader, element, path, sensor)
-    return sensor
+    rate = reader.number(element, ("update_rate", "@update_rate"), path, "bad-sensor")
+    sensor = Sensor(name, source.kind, source.at, _read_origin(reader, source, path), rate or 0.0)
+    if source.kind == "camera":
+        return msgspec.structs.replace(sensor, camera=Camera(**_read_fields(reader, element, path, _CAMERA)))
+    if source.kind == "lidar":
+        return msgspec.structs.replace(sensor, lidar=Lidar(**_read_fields(reader, element, path, _LIDAR)))
+    return _read_wrench(reader, element, path, sensor) if source.kind == "force_torque" else sensor
 
 
 def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
@@ -147,21 +134,19 @@ def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
     return Origin((x, y, z), (roll * turn, pitch * turn, yaw * turn))
 
 
-def _read_fields(
-    reader: Reader, element: Element, path: str, struct: type[_SensorNumbers], places: Mapping[str, Sequence[str]]
-) -> _SensorNumbers:
+def _read_fields(reader: Reader, element: Element, path: str, places: Mapping[str, Sequence[str]]) -> dict[str, float]:
     """Return the numbers of a camera or laser scanner; missing numbers are 0."""
     part = next((child for child in element if child.tag in _PARTS), element)
     reader.used.add(part)
-    values = {}
+    values = dict[str, float]()
     for field, ways in places.items():
-        (value,) = reader.numbers(part, ways, path, "bad-sensor") or (0.0,)
+        value = reader.number(part, ways, path, "bad-sensor") or 0.0
         if field in _COUNTS and not (value.is_integer() and 0 <= value <= _LARGEST_INTEGER):
             message = f"{path}: {field.replace('_', ' ')} {value:g} is no whole number, or too large"
             reader.add(part, "bad-sensor", message)
             continue
         values[field] = value
-    return struct(**values)
+    return values
 
 
 def _read_wrench(reader: Reader, element: Element, path: str, sensor: Sensor) -> Sensor:

@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
-import msgspec
+from msgspec.structs import replace
 
 from urdfsync.diagnostics import Detail, Diagnostic, SourceError, cut
 from urdfsync.domain import Companion
@@ -25,13 +25,14 @@ from urdfsync.urdf.parse.closures import Closures, read_closures
 from urdfsync.urdf.parse.drives import DriveStatement, configured_drives, read_drives, read_motors, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
-from urdfsync.urdf.parse.gazebo import read_contacts, read_springs, warn_of_left_out
+from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out, write_springs
 from urdfsync.urdf.parse.loops import TAGS, read_loops, tell_foreign_loops
 from urdfsync.urdf.parse.sensors import read_sensors
-from urdfsync.urdf.parse.translated import TRANSLATED, read_translated
-from urdfsync.urdf.robot import Contact, Dynamics, Joint, Link, Material, Robot
+from urdfsync.urdf.robot import Joint, Link, Robot
 
 _MODELLED = ("link", "joint", "material")
+_TRANSLATED = ("left_out", "free_root")
+"""Elements that translators of other formats add: a part that acts and that no model has, and a free root link."""
 _DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint"})
 """Children of `<robot>` that other code reads, or that do not concern links and joints."""
 _XACRO = ("include", "macro", "if", "unless", "property")
@@ -158,40 +159,35 @@ def _read(
 ) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
-    name, axes = _read_root(reader, root), find_axes(reader, root, closures)
-    _classify(reader, root)
-    contacts = read_contacts(reader, root)
-    warn_of_left_out(reader, root)
-    tell_foreign_loops(reader, root, options)
-    read_translated(reader, root, options)
-    parts = _read_parts(reader, root, contacts, closures, rows)
-    links, joints = split(reader, parts.links, parts.joints, axes)
-    drives = [*configured_drives(options), *parts.drives]
-    joints = with_rows(reader, with_drives(reader, joints, drives), rows)
-    robot = Robot(name, _with_materials(reader, root, links, parts.materials), tuple(joints))
-    reader.extend(validate.check(robot, complete=parts.complete))
-    moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
-    robot = msgspec.structs.replace(robot, joints=tuple(moving))
-    if not reader.failed:
-        robot = msgspec.structs.replace(robot, loops=read_loops(reader, root, robot, options, closures))
-        robot = _without_balls_in_loops(reader, robot, drives, rows)
-    if parts.complete:  # the joint of a transmission may be missing in an incomplete robot
-        known = {joint.name for joint in (*joints, *robot.joints)}  # a ball in a loop, and its hinges
-        reader.extend(_find_idle_drives(parts.drives, known))
-    reader.diagnostics += find_gaps(robot.joints, rows)
-    sensors = read_sensors(reader, root, {link.name for link in robot.links}, robot.joints) if parts.complete else ()
-    return msgspec.structs.replace(robot, extensions=_extensions(reader), sensors=sensors)
-
-
-def _read_root(reader: Reader, root: Element) -> str:
-    """Read the version of URDF; return the robot's name."""
     reader.place(root, "robot")
     reader.expect(root, "robot", ("name", "version"), moves=False)
     reader.version = _read_version(reader, root)
     name = root.get("name", "")
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
-    return name
+    axes = find_axes(reader, root, closures)
+    _classify(reader, root)
+    warn_of_left_out(reader, root)
+    tell_foreign_loops(reader, root, options)
+    _tell_translated(reader, root, options)
+    links, joints, stated = _read_parts(reader, root, closures, rows)
+    is_complete = len(links) + len(joints) == len(root.findall("link")) + len(root.findall("joint"))
+    links, joints = split(reader, links, joints, axes)
+    drives = [*configured_drives(options), *stated]
+    joints = with_rows(reader, with_drives(reader, joints, drives), rows)
+    robot = Robot(name, tuple(links), tuple(joints))
+    reader.extend(validate.check(robot, complete=is_complete))
+    moving = [replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
+    robot = replace(robot, joints=tuple(moving))
+    if not reader.failed:
+        robot = replace(robot, loops=read_loops(reader, root, robot, options, closures))
+        robot = _without_balls_in_loops(reader, robot, drives, rows)
+    if is_complete:  # the joint of a transmission may be missing in an incomplete robot
+        known = {joint.name for joint in (*joints, *robot.joints)}  # a ball in a loop, and its hinges
+        reader.extend(_find_idle_drives(stated, known))
+    reader.diagnostics += find_gaps(robot.joints, rows)
+    sensors = read_sensors(reader, root, {link.name for link in robot.links}, robot.joints) if is_complete else ()
+    return replace(robot, extensions=_extensions(reader), sensors=sensors)
 
 
 def _classify(reader: Reader, root: Element) -> None:
@@ -206,7 +202,7 @@ def _classify(reader: Reader, root: Element) -> None:
             reader.extensions.append(("", child))
             message = f"<{child.tag}> has no effect in URDF: the elements that it stands for are missing"
             reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or move its links out")
-        elif child.tag not in (*_MODELLED, *TAGS, *TRANSLATED):
+        elif child.tag not in (*_MODELLED, *TAGS, *_TRANSLATED):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # other code reads or reports each of its parts
@@ -214,59 +210,42 @@ def _classify(reader: Reader, root: Element) -> None:
         reader.used.update((element, *(part for part in element if part.tag in ("parent", "child", "pose"))))
 
 
-class _Parts(NamedTuple):
-    """The elements of a robot, each read alone."""
-
-    links: list[Link]
-    joints: list[Joint]
-    drives: list[DriveStatement]
-    materials: dict[str, Material]
-    """Materials of the robot by path."""
-    complete: bool
-    """Whether each link and joint could be read."""
+def _tell_translated(reader: Reader, root: Element, options: Options) -> None:
+    """Add a finding for each part that a translator left out, and one if a free robot is bolted down."""
+    for part in root.iterfind("left_out"):
+        words = f"{part.get('what', '')} {part.get('name', '')}".rstrip()
+        reader.add(part, "part-left-out", f"{words}: this acts on the robot, but no model has it")
+    for element in root.iterfind("free_root") if options.base == "fixed" else ():
+        message = f"link {element.get('link', '')!r} moves freely in the source, but is bolted down"
+        reader.add(element, "free-root", message)
 
 
 def _read_parts(
-    reader: Reader, root: Element, contacts: Mapping[str, Contact], closures: Closures, rows: Mapping[str, CatalogueRow]
-) -> _Parts:
-    """Read each element of the robot."""
+    reader: Reader, root: Element, closures: Closures, rows: Mapping[str, CatalogueRow]
+) -> tuple[list[Link], list[Joint], list[DriveStatement]]:
+    """Read each element of the robot alone; links and joints without a name or an end are left out, after an error."""
 
     def elements(tag: str) -> list[tuple[Element, str]]:
         children = root.findall(tag)
         paths = validate.element_paths(tag, [element.get("name", "") for element in children])
         return [(element, reader.place(element, path)) for element, path in zip(children, paths, strict=True)]
 
+    contacts = read_contacts(reader, root)
     driving = [place for tag in ("ros2_control", "transmission", "gazebo") for place in elements(tag)]
     drives = [drive for element, path in driving for drive in read_drives(reader, element, path)]
     drives += read_motors(reader, closures)
     materials = {path: read_material(reader, element, path) for element, path in elements("material")}
-    links = [
-        read_link(reader, element, path, contacts.get(element.get("name", ""))) for element, path in elements("link")
-    ]
+    links = {
+        path: read_link(reader, element, path, contacts.get(element.get("name", "")))
+        for element, path in elements("link")
+    }
     given = {name: row.cells.keys() for name, row in rows.items()}
-    springs = read_springs(reader, root)
+    write_springs(reader, root)
     joints = [
         read_joint(reader, element, path, given.get(element.get("name", ""), ())) for element, path in elements("joint")
     ]
-    joints = [joint and _with_spring(joint, springs.get(joint.name, {})) for joint in joints]
-    named_links, named_joints = [link for link in links if link.name], [each for each in joints if each and each.name]
-    complete = len(named_links) == len(links) and len(named_joints) == len(joints)
-    return _Parts(named_links, named_joints, drives, materials, complete)
-
-
-def _with_spring(joint: Joint, spring: Mapping[str, float]) -> Joint:
-    """Return a joint with numbers of its spring."""
-    dynamics = joint.dynamics or Dynamics()
-    return msgspec.structs.replace(joint, dynamics=msgspec.structs.replace(dynamics, **spring)) if spring else joint
-
-
-def _with_materials(
-    reader: Reader, root: Element, links: Sequence[Link], materials: dict[str, Material]
-) -> tuple[Link, ...]:
-    """Return the links with the colours of the materials that they name."""
-    by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
-    defined = {material.get("name", "") for material in root.iter("material") if len(material)}
-    return resolve_materials(reader, by_path, materials, defined)
+    named_links = [link for link in resolve_materials(reader, root, links, materials) if link.name]
+    return named_links, [joint for joint in joints if joint and joint.name], drives
 
 
 def _find_idle_drives(drives: Iterable[DriveStatement], joints: Collection[str]) -> Iterator[validate.Finding]:
@@ -301,6 +280,6 @@ def _without_balls_in_loops(
     links, joints = split(reader, robot.links, robot.joints, dict.fromkeys(held, "xyz"))
     hinges = with_drives(reader, joints[-3 * len(held) :], drives)  # `split` adds the hinges at the end
     joints[-3 * len(held) :] = with_rows(reader, hinges, rows)
-    known, robot = {*validate.check(robot)}, msgspec.structs.replace(robot, links=tuple(links), joints=tuple(joints))
+    known, robot = {*validate.check(robot)}, replace(robot, links=tuple(links), joints=tuple(joints))
     reader.extend(finding for finding in validate.check(robot) if finding not in known)
     return robot

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import codecs
 import re
-from collections.abc import Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, TreeBuilder, tostring
 from xml.parsers import expat
@@ -58,7 +57,7 @@ class XmlDocument(NamedTuple):
 
     text: str
     root: Element
-    lines: Mapping[Element, int]
+    lines: dict[Element, int]
     """Lines of start tags, counted from 1, in document order."""
     warnings: list[Diagnostic]
 
