@@ -112,7 +112,8 @@ class Scenario:
 
     def path(self, file: str) -> Path:
         """A file of the package, or of the project."""
-        return Path(file[1:]) if file.startswith("/") else Path(self._package, file)
+        path = Path(file[1:]) if file.startswith("/") else Path(self._package, file)
+        return next(iter(sorted(path.parent.glob(path.name))), path) if "*" in file else path
 
     def command(self, rest: str, *, changes: bool = True) -> None:
         words, _, code = rest.partition(" => ")

@@ -10,7 +10,7 @@ from support.files import unchanged
 from support.networks import BASES, MANIFEST, edit, resistor, run, stored
 
 from urdfsync.state.expansion import Expansion, dumps
-from urdfsync.state.store import Aside, Store
+from urdfsync.state.store import Aside, Store, saved_name
 
 
 def test_bases_follow_the_name_of_their_robot_and_go_with_it(project: Path, execute: Execute) -> None:
@@ -74,13 +74,18 @@ def test_a_file_that_has_its_content_is_not_saved(tmp_path: Path) -> None:
     assert [change.content for change in store.save(path, None)] == [None]
 
 
-def test_versions_of_what_conflicts_no_more_go(tmp_path: Path) -> None:
+def test_versions_of_what_conflicts_no_more_go_unless_somebody_has_changed_them(tmp_path: Path) -> None:
     store = Store(tmp_path)
-    for name in ("A.base.mo", "B.base.mo"):
-        store.conflicts("arm").joinpath(name).parent.mkdir(parents=True, exist_ok=True)
-        store.conflicts("arm").joinpath(name).write_bytes(b"text")
-    changes = store.save_conflicts("arm", {"A.base.mo": b"text", "C.base.mo": b"new"})
-    assert {change.path.name: change.content for change in changes} == {"B.base.mo": None, "C.base.mo": b"new"}
+    old, kept, new = (saved_name(f"a-b/{name}.base.mo", name.encode()) for name in "ABC")
+    for name, text in {old: "A", kept: "B", f"{kept}.txt": "mine", "a-b/changed.base-12345678.mo": "mine"}.items():
+        path = store.conflicts("arm") / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    changes = Store(tmp_path).save_conflicts("arm", {kept: b"B", new: b"C"})
+    assert {change.path: change.content for change in changes} == {
+        store.conflicts("arm") / old: None,
+        store.conflicts("arm") / new: b"C",
+    }
 
 
 def test_robots_are_known_by_states_with_names_that_they_can_have(tmp_path: Path) -> None:

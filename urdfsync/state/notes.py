@@ -38,11 +38,6 @@ class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Hash of the source that this machine expanded."""
     written: frozenset[str] = frozenset()
     """Hashes of recorded texts and imported files that this machine generated."""
-    proposals: Mapping[str, tuple[str, str]] = {}
-    """Two hashes for each proposed merge, by path: of the proposal and of its two sides. A person changed a proposal if
-    its hash differs."""
-    versions: Mapping[str, str] = {}
-    """Hashes of the other saved versions of conflicts, as urdfsync wrote them, by path."""
     edits: Mapping[str, str] = {}
     """The id of the file that each edited text belongs to, by the text's hash: all edits that builds here have seen."""
     uses: Mapping[str, Use] = {}

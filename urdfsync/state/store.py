@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from pathlib import Path
+import re
+from collections.abc import Mapping
+from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
 import msgspec
@@ -52,6 +53,13 @@ class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
     """The text of the saved text's base, by hash; empty if it is unknown."""
     beside: Mapping[str, str] = {}
     """The texts of unedited models that the same build deleted, by path below the package."""
+
+
+def saved_name(path: str, content: bytes) -> str:
+    """Return the path of a saved version, which has a hash of its content: `Elbow.base-1f0c3a52.mo` for any version."""
+    place = PurePosixPath(path)
+    stem = re.sub(r"-[0-9a-f]{8}\Z", "", place.stem)
+    return place.with_name(f"{stem}-{digest(normalised(content))[:8]}{place.suffix}").as_posix()
 
 
 class Store:
@@ -186,26 +194,22 @@ class Store:
         existing = map(Path, walk_files(folder)) if self._tree.check_folder(folder) else ()
         return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
 
-    def persons_files(self, robot: str, noted: Notes) -> dict[str, bytes]:
-        """Return the files among the saved versions of conflicts that a person wrote or changed, by path."""
-        known = {path: facts[0] for path, facts in noted.proposals.items()} | dict(noted.versions)
-        return {path: text for path, text in self.conflict_files(robot).items() if digest(text) != known.get(path)}
-
-    def save_conflicts(self, robot: str, contents: Mapping[str, bytes], kept: Collection[str] = ()) -> list[FileChange]:
+    def save_conflicts(self, robot: str, contents: Mapping[str, bytes]) -> list[FileChange]:
         """Return the writes of versions in the robot's folder, by path.
 
-        All other files in the folder are deleted, except `kept` files.
+        Other files are deleted if their names say what they hold; all else in the folder is a person's.
         """
-        folder = self.conflicts(robot)
-        wanted = dict.fromkeys(sorted(self.conflict_files(robot).keys() - set(kept))) | dict(contents)
-        return [change for path, content in wanted.items() for change in self.save(folder / path, content)]
+        folder, existing = self.conflicts(robot), self.conflict_files(robot)
+        persons = {path for path, text in existing.items() if text.strip() and path != saved_name(path, text)}
+        wanted = dict.fromkeys(sorted(existing)) | dict(contents)
+        kept = (path for path in wanted if path not in persons)
+        return [change for path in kept for change in self.save(folder / path, wanted[path])]
 
     def remove(self, robot: str) -> list[FileChange]:
         """Return the deletions of all recorded state of a robot; files of a person's among its conflicts stay."""
         files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
-        persons = self.persons_files(robot, self.notes(robot))
         changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
-        return [*self.save_conflicts(robot, {}, persons), *changes]
+        return [*self.save_conflicts(robot, {}), *changes]
 
     def for_git(self) -> list[FileChange]:
         """Return the writes of missing `.gitignore` and `.gitattributes`; existing files stay as they are."""

@@ -18,7 +18,6 @@ from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import hash_of, option_values
 from urdfsync.engine.inspect.package_files import bare_hash, encode, text_hash
 from urdfsync.engine.sources.source import expansion_hash
-from urdfsync.engine.stage.saved_conflicts import SavedConflicts
 from urdfsync.matching import Matching
 from urdfsync.state.notes import Notes, Use
 from urdfsync.state.record import Open, Record, as_recorded, edit_key, unite
@@ -147,12 +146,11 @@ def notes_after(
     decision: Decision,
     records: Iterable[Record],
     saved: Iterable[Aside],
-    conflicts: SavedConflicts,
     uses: Mapping[str, Use],
 ) -> Notes:
     """Return this machine's notes with the results of this build; `records` are the new records.
 
-    A dry run writes no record. So it notes no edits of another model than the recorded one, and no saved versions.
+    A dry run writes no record. So it notes no edits of another model than the recorded one.
     """
     old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
     recorded, texts = {*inputs.last.files.values(), *unite([*records]).files.values()}, generation.package.notes()
@@ -166,8 +164,6 @@ def notes_after(
         imports=frozenset(hash_of(entry) for key, entry in imports.imports.items() if key in made_here),
         expansion=expansion_hash(expanded) if expanded and inputs.source.is_made_here else "",
         written=frozenset(made | (set(old.written) & recorded)),
-        proposals=old.proposals if is_dry else conflicts.noted,
-        versions=old.versions if is_dry else conflicts.written,
         edits={**old.edits, **seen_edits(inputs, decision), **({} if is_dry else seen_merges(inputs, decision))},
         uses=old.uses if is_dry else uses,
     )

@@ -73,7 +73,6 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
     writes = Writes(before=(*needed, *copies), files=tuple(files.values()), record=tuple(state))
     uses = find_uses(inputs, generation, decision)
     findings = [*find_findings(inputs, generation, decision, uses, reads), *tell_aside(inputs, actions, index, texts)]
-    findings += conflicts.diagnostics
     outlook = Outlook(
         actions,
         tuple(sorted(findings, key=lambda found: (not found.is_new, found.file, found.line))),
@@ -90,7 +89,7 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision, reads: Rea
     )
     notes = None
     if records:
-        notes = notes_after(inputs, generation, decision, records, index.values(), conflicts, uses)
+        notes = notes_after(inputs, generation, decision, records, index.values(), uses)
         if notes == inputs.last.notes and not (inputs.former_name or options.choices):
             notes = None
     return Plan(outlook, store.hashes(), decision.shared, writes, _emptied(inputs, writes.in_order()), notes)
