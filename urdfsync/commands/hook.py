@@ -139,7 +139,7 @@ def _find_rejections(commit: Commit, file: Path, options: BuildOptions, is_writi
     judged = [
         robot
         for robot in judged
-        if _is_touched(commit, settings.entries, *robot.folders) or _is_touched(commit, robot.result.reads.entries)
+        if _is_touched(commit, settings.entries, *robot.folders) or _is_touched(commit, robot.result.reads)
     ]
     names, here, built = {one.robot.name for one in judged}, dict[str, Result](), dict[str, Result]()
     with contextlib.suppress(UrdfsyncError):  # the working tree may have another fault than the commit
@@ -260,12 +260,12 @@ class _OutOfStepRobot:
     def _own_places(self, here: Result) -> _Places:
         """Return all that a build in the working tree has read."""
         top = self._commit.repository.top
-        return _Places(Clone(top, top), here.reads.entries)
+        return _Places(Clone(top, top), here.reads)
 
     def _find_missing(self, own: _Places, index: git.Index) -> set[str]:
         """Return the files to add to the commit: those that differ in the index, and that a build depends on."""
         top = Path(self._commit.repository.top)
-        cloned = _Places(self._commit.clone, self.result.reads.entries)
+        cloned = _Places(self._commit.clone, self.result.reads)
         unstaged = dict.fromkeys(index.unstaged, PathChange.FILE)
         untracked = dict.fromkeys(index.untracked, PathChange.CONTENT)  # only those that the build reads
         found = {path for places in (own, cloned) for path in places.select(unstaged, self.folders)} | own.select(

@@ -14,9 +14,8 @@ import msgspec
 
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
-from urdfsync.dependencies.facts import Entry, Facts
+from urdfsync.dependencies.facts import Dependencies
 from urdfsync.dependencies.reads import Reads
-from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import (
     ConfigError,
     Diagnostic,
@@ -27,11 +26,11 @@ from urdfsync.diagnostics import (
     UrdfsyncError,
     findings_of,
 )
-from urdfsync.engine import remembered
 from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.remembered import RobotRecords
 from urdfsync.engine.result import Outlook, Result
 from urdfsync.engine.stage.writes import Plan, shared_change
 from urdfsync.files import shown
@@ -91,8 +90,8 @@ class _Built(NamedTuple):
     """The outlook of one robot whose plan was carried out, or its failure."""
 
     outlook: Outlook
-    reads: FactList
-    """Facts about all files that the build has read; written files have their new facts."""
+    reads: Dependencies
+    """All that the build has read; written files have their new facts."""
     warnings: Sequence[Diagnostic] = ()
     """Warnings about the output folder."""
     failure: Mapping[str, Any] = {}
@@ -104,7 +103,7 @@ class _Builder:
 
     def __init__(self, config: Config, options: BuildOptions, lock: Lock) -> None:
         self._config, self._options, self._lock = config, options, lock
-        self._keys = remembered.RecordKeys(config, options)
+        self._records = RobotRecords(config, options)
         self.pool: Pool | None = None
         """Plans the robots that are not remembered, if there are many."""
         self._state_folder = config.root / STATE_FOLDER
@@ -115,15 +114,14 @@ class _Builder:
 
     def recall(self, robots: Iterable[RobotConfig]) -> dict[str, _Built]:
         """Return what is remembered, by name of robot; robots whose package leaves something to do have none."""
-        known, seen = dict[str, _Built](), dict[Entry, Facts]()
+        known = dict[str, _Built]()
         if self._transactions.is_pending():
             return known
         for robot in robots:
             if not robot.output.is_relative_to(self._config.root):
                 continue  # it matters who trusts the folder
             with contextlib.suppress(UrdfsyncError):  # its domain is missing, or broken: the build reports it
-                key = self._keys.key(robot)
-                if found := remembered.recall(self._config, robot, key, seen):
+                if found := self._records.recall(robot):
                     known[robot.name] = _Built(*found)
         return known
 
@@ -143,7 +141,7 @@ class _Builder:
                 "unfinished": isinstance(error, UnfinishedError),
                 "source_error": error if isinstance(error, SourceError) else None,
             }
-            return _Built(Outlook(diagnostics=findings_of(error)), FactList.of(self._reads), failure=failure)
+            return _Built(Outlook(diagnostics=findings_of(error)), self._reads.entries, failure=failure)
 
     def _plan_and_write(self, robot: RobotConfig) -> _Built:
         """Plan, and write unless the run is dry. Repeat if another build or a save made the plan outdated."""
@@ -156,7 +154,7 @@ class _Builder:
                 else:
                     plan = plan_robot(self._config, robot, self._options, self._reads)
             if not self._options.removes and (refused := _refuse(robot, plan.outlook)) is not None:
-                return _Built(refused, FactList.of(self._reads), failure={"failed": True})
+                return _Built(refused, self._reads.entries, failure={"failed": True})
             if self._options.dry:
                 if self._is_current(plan):
                     return self._finish(robot, plan, {})
@@ -186,11 +184,11 @@ class _Builder:
         if plan.notes:
             written = {**written, **notes.save(self._state_folder, robot.name, plan.notes)}
         self._reads.renew(written)
-        facts = FactList.of(self._reads)
+        facts = self._reads.entries
         # without `renews`, a plan writes less than the next one may
         if self._reads.complete and self._options.renews and not (plan.writes or plan.outlook.writes):
             result = Result.of(self._config, robot, plan.outlook, dry=self._options.dry, reads=facts)
-            remembered.remember(self._config, robot, self._keys.key(robot), result)
+            self._records.remember(robot, result)
         return _Built(plan.outlook, facts)
 
     def _is_current(self, plan: Plan) -> bool:

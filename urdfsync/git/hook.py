@@ -87,7 +87,7 @@ def identify(index: bytes) -> str:
 
 def find_configurations(files: Iterable[str]) -> tuple[list[str], list[str]]:
     """Return the configurations among the files of a commit, and those that are missing beside recorded states."""
-    name, states = noop.CONFIGURATION, "/.urdfsync/robots/"
+    name, states = noop.FILE_NAME, "/.urdfsync/robots/"
     files = [f"/{path}" for path in files]
     found = {path[1:] for path in files if path.rpartition("/")[2] == name}
     of_states = {f"{path.rpartition(states)[0]}/{name}"[1:] for path in files if states in path}
