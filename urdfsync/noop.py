@@ -16,7 +16,7 @@ from urdfsync.dependencies.record import CONFIGURATION, ROBOT, Records
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 25 ms
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
     from typing import TextIO
 
 FILE_NAME = "urdfsync.toml"
@@ -69,36 +69,35 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str, int]] | No
     if command not in _OPTIONS or modes > 1 or (file := find_config(arguments)) is None:
         return None
     records = Records(state_folder(file))
-    keys = robot_keys(records, file)
-    if not keys.keys() >= set(named):
-        return None  # sources and folders name robots, too
-    lines = list[tuple[str, str, str, int]]()
-    for robot, key in keys.items():
+    told = recall(records, file, command, named)
+    # sources and folders name robots, too
+    if not told or not told.keys() >= set(named):
+        return None
+    if any(not records.told(robot).issuperset(keys) for robot, (_, _, _, *keys) in told.items()):
+        return None
+    return [(robot, line, end.removeprefix(NONE), len(keys)) for robot, (line, _, end, *keys) in told.items()]
+
+
+def recall(records: Records, config_file: str, command: str, named: Collection[str] = ()) -> dict[str, Sequence[str]]:
+    """Return the words of each robot's record, if all records hold, and have all that a command would say.
+
+    Returns nothing if the command has to find that out. `named` are the robots that matter; none for all.
+    """
+    told: dict[str, Sequence[str]] = {}
+    configuration = records.recall(f"{os.path.basename(config_file)}{CONFIGURATION}")
+    words = iter(configuration.words if configuration else ())
+    for robot, key in zip(words, words, strict=True):
         if not named or robot in named:
-            told = _words(records, robot, key, command)
-            if told is None or not records.told(robot).issuperset(told[3:]):
-                return None
-            lines.append((robot, told[0], told[2].removeprefix(NONE), len(told) - 3))
-    return lines or None
+            known = records.recall(f"{robot}{ROBOT}", key)
+            if not known or len(known.words) < 3 or command not in known.words[1].split():
+                return {}
+            told[robot] = known.words
+    return told
 
 
 def is_in_step(config_file: str) -> bool:
     """Return whether all robots of a configuration are in step; False if that has to be found out."""
-    records = Records(state_folder(config_file))
-    keys = robot_keys(records, config_file)
-    return bool(keys) and all(_words(records, robot, key, IN_STEP) for robot, key in keys.items())
-
-
-def robot_keys(records: Records, config_file: str) -> dict[str, str]:
-    """Return the key of each robot's record by name; empty if the configuration has to be read."""
-    known = records.recall(f"{os.path.basename(config_file)}{CONFIGURATION}")
-    return dict(zip(known.words[::2], known.words[1::2], strict=True)) if known else {}
-
-
-def _words(records: Records, robot: str, key: str, command: str) -> Sequence[str] | None:
-    """Return the words of a robot's record, if it holds and has all that a command would say; else None."""
-    known = records.recall(f"{robot}{ROBOT}", key)
-    return known.words if known and len(known.words) >= 3 and command in known.words[1].split() else None
+    return bool(recall(Records(state_folder(config_file)), config_file, IN_STEP))
 
 
 def state_folder(config_file: str) -> str:

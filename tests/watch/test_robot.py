@@ -11,7 +11,7 @@ import pytest
 
 from urdfsync import config
 from urdfsync.dependencies import facts
-from urdfsync.dependencies.reads import Reads, file_type, list_folder, read_file, read_variable, scan_modelica
+from urdfsync.dependencies.reads import Reads, file_type, list_folder, read_file, read_variable, scan_folder
 from urdfsync.files import Tree, digest
 from urdfsync.watch.robot import WatchedRobot
 
@@ -38,7 +38,7 @@ def read(folder: Path) -> Reads:
             assert read_file(folder / path)
         assert file_type(folder / "gone.stl") == 0
         assert list_folder(folder / "own")
-        assert scan_modelica(folder / "models")
+        assert scan_folder(folder / "models", facts.MODELICA)
         assert Tree(folder).read(folder / "Arm.mo")
         assert Tree(folder).read(folder / "New.mo") is None
         assert read_variable("HOME") is not None

@@ -62,8 +62,7 @@ def look(kind: str, path: str | os.PathLike[str]) -> Facts:
             return () if value is None else (len(value), *value.encode(errors="surrogateescape"))
         if kind == UNMERGED:
             return checksum(unmerged_paths(path))
-        with os.scandir(place(path)) as scanned:
-            return checksum(counting_entries(kind, scanned))
+        return scan(kind, path)[1]
     except OSError as error:
         return NOTHING if kind == PATH and error.errno in _ABSENT else (-(error.errno or 1),)
 
@@ -121,10 +120,13 @@ def stat_of(status: os.stat_result) -> Stat:
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
-def counting_entries(kind: str, scanned: Iterable[os.DirEntry[str]]) -> set[str]:
-    """Return the names of a folder's entries that count for a kind of listing."""
-    entries = {entry.name: entry for entry in scanned}
-    return counting(kind, entries, lambda name: entries[name].is_dir(follow_symlinks=False))
+def scan(kind: str, folder: str | os.PathLike[str]) -> tuple[list[os.DirEntry[str]], Facts]:
+    """Return the entries of a folder, and their facts for a kind of listing. Raises OSError."""
+    with os.scandir(place(folder)) as scanned:
+        entries = {entry.name: entry for entry in scanned}
+    return [*entries.values()], checksum(
+        counting(kind, entries, lambda name: entries[name].is_dir(follow_symlinks=False))
+    )
 
 
 def counting(kind: str, names: Iterable[str], is_folder: Callable[[str], bool]) -> set[str]:

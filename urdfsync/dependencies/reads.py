@@ -11,12 +11,11 @@ import contextlib
 import os
 import stat
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextvars import ContextVar, Token
 
 from urdfsync.dependencies.facts import (
     CONTENT,
-    MODELICA,
     NAMES,
     PATH,
     UNMERGED,
@@ -24,13 +23,13 @@ from urdfsync.dependencies.facts import (
     Dependencies,
     Facts,
     checksum,
-    counting_entries,
     is_young,
     look,
     read_unrecorded,
+    scan,
     unmerged_paths,
 )
-from urdfsync.dependencies.places import is_clone, place
+from urdfsync.dependencies.places import is_clone
 
 PARENTS = "urdfsync-parents"
 """A file in the `.git` of the hook's clone: the parents of its commit."""
@@ -67,10 +66,6 @@ class Reads:
             content = look(CONTENT, path)
             self.entries[CONTENT, path] = hash(content)
             self.complete &= content[0] >= 0
-
-    def files(self) -> list[str]:
-        """Return the paths of the files that were read, or looked for in vain."""
-        return [path for kind, path in self.entries if kind == PATH]
 
     def renew(self, written: Mapping[str, str | None]) -> None:
         """Take the present facts of files that the build has written, and of the folders around them.
@@ -185,28 +180,17 @@ def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     return [entry.name for entry in scan_folder(folder)]
 
 
-def scan_folder(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
-    """Return the entries of a folder, as `scan_modelica`; record all names. Raises OSError."""
-    return _scan(NAMES, folder)
+def scan_folder(folder: str | os.PathLike[str], kind: str = NAMES) -> list[os.DirEntry[str]]:
+    """Return the entries of a folder, in no order; record those that count (see `facts.LISTINGS`). Raises OSError.
 
-
-def scan_modelica(folder: str | os.PathLike[str], left_out: Iterable[str] = ()) -> list[os.DirEntry[str]]:
-    """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError.
-
-    Folders with a name in `left_out` may come and go: they are not recorded. Use the names of the entries: their paths
-    may lead into a clone.
+    Use the names of the entries: their paths may lead into a clone.
     """
-    return _scan("/".join((MODELICA, *left_out)), folder)
-
-
-def _scan(kind: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
     try:
-        with os.scandir(place(folder)) as scanned:
-            entries = list(scanned)
+        entries, facts = scan(kind, folder)
     except OSError as error:
         _record(kind, folder, (-(error.errno or 1),))
         raise
-    _record(kind, folder, checksum(counting_entries(kind, entries)))
+    _record(kind, folder, facts)
     return entries
 
 

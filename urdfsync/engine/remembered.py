@@ -92,8 +92,8 @@ class RobotRecords:
 
 def remember_configuration(config: Config, reads: Reads) -> None:
     """Remember a configuration without warnings whose robots were all built: then a no-op build need not read it."""
-    records = Records(config.root / STATE_FOLDER)
-    if noop.robot_keys(records, str(config.file)):
+    records, record = Records(config.root / STATE_FOLDER), f"{config.file.name}{CONFIGURATION}"
+    if records.recall(record):
         return  # the record still holds
     for robot in config.robots:
         is_plain = registry.is_own(robot.domain) and robot.output.is_relative_to(config.root)
@@ -106,7 +106,7 @@ def remember_configuration(config: Config, reads: Reads) -> None:
     if reads.complete and not strays:
         robots = RobotRecords(config, BuildOptions())
         words = [word for robot in config.robots for word in (robot.name, robots.key(robot))]
-        records.save(f"{config.file.name}{CONFIGURATION}", "", Record(reads.entries, words))
+        records.save(record, "", Record(reads.entries, words))
 
 
 def _lines(robot: RobotConfig) -> str:
