@@ -29,7 +29,6 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.remembered import remember_configuration
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.git import hook
 from urdfsync.git.clone import Commit, PathChange, export
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
@@ -99,7 +98,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
     """Return the configurations to check. Raises ConfigError if one is on disk, and the commit lacks it."""
-    top, lost = Path(commit.repository.top), hook.find_lost(commit.repository, commit.export)
+    top, lost = Path(commit.repository.top), commit.lost
     if given is not None:
         name = commit.clone.inside(os.path.join(os.path.realpath(given.parent), given.name))  # noqa: PTH118
         if name is None or not (name in commit.files or given.is_file()):
@@ -108,9 +107,7 @@ def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
     if lost:
         message, hint = "the commit lacks this configuration", _adding(lost, git.Index())
         raise ConfigError.of("not-staged", message, shown(top / lost[0]), hint=hint)
-    return (
-        [top / file for file in commit.export.configurations] if given is None else [top / (name or given.absolute())]
-    )
+    return [top / file for file in commit.configurations] if given is None else [top / (name or given.absolute())]
 
 
 def _find_rejections(commit: Commit, file: Path, options: BuildOptions, is_writing: bool) -> Iterator[Rejection]:
