@@ -7,7 +7,7 @@ until all robots are built.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import msgspec
@@ -15,7 +15,7 @@ import msgspec
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
 from urdfsync.dependencies.facts import Dependencies
-from urdfsync.dependencies.reads import Reads
+from urdfsync.dependencies.reads import Reads, include
 from urdfsync.diagnostics import (
     ConfigError,
     Diagnostic,
@@ -41,7 +41,7 @@ from urdfsync.state.store import Store
 from urdfsync.state.transaction import Transactions, UnfinishedError, is_interrupted
 
 if TYPE_CHECKING:
-    from urdfsync.engine.pool import Pool
+    from urdfsync.engine.pool import Planned
 
 WAITING = "waiting for"
 """Words of progress while another process builds; a description of the process follows."""
@@ -59,9 +59,10 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
         known = builder.recall(robots)
         changed = [robot for robot in robots if robot.name not in known]
         if len(changed) >= _LEAST_ROBOTS and (options.jobs or machine.cores()) > 1:
-            from urdfsync.engine.pool import start_pool  # multiprocessing takes 15 ms to import
+            from urdfsync.engine.pool import plan_ahead  # multiprocessing takes 15 ms to import
 
-            builder.pool = stack.enter_context(start_pool(config, changed, options))
+            builder.plans = plan_ahead(config, changed, options)
+            stack.callback(builder.plans.close)
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
             built = known.get(robot.name) or builder.build(robot)
@@ -104,8 +105,8 @@ class _Builder:
     def __init__(self, config: Config, options: BuildOptions, lock: Lock) -> None:
         self._config, self._options, self._lock = config, options, lock
         self._records = RobotRecords(config, options)
-        self.pool: Pool | None = None
-        """Plans the robots that are not remembered, if there are many."""
+        self.plans: Generator[tuple[RobotConfig, Planned]] | None = None
+        """The plans of the robots that are not remembered, if there are many."""
         self._state_folder = config.root / STATE_FOLDER
         outputs = {robot.output for robot in config.robots}
         self._transactions = Transactions(config.root, self._state_folder, outputs)
@@ -146,11 +147,15 @@ class _Builder:
     def _plan_and_write(self, robot: RobotConfig) -> _Built:
         """Plan, and write unless the run is dry. Repeat if another build or a save made the plan outdated."""
         saved = robot.folder
-        for _ in range(_ATTEMPTS):
+        for attempt in range(_ATTEMPTS):
             with Reads() as self._reads:
                 self._recover()
-                if self.pool:
-                    plan = self.pool.plan(robot, self._reads)
+                if self.plans and not attempt:
+                    planned, others = next(planned for other, planned in self.plans if other is robot)
+                    include(others)
+                    if isinstance(planned, Exception):
+                        raise planned
+                    plan = planned
                 else:
                     plan = plan_robot(self._config, robot, self._options, self._reads)
             if not self._options.removes and (refused := _refuse(robot, plan.outlook)) is not None:
