@@ -54,9 +54,8 @@ class RobotRecords:
         """Return all that decides about a robot and is no file. Raises ConfigError for a broken domain."""
         own = msgspec.structs.replace(robot, lines={}, ignore=frozenset(), refuse=frozenset())
         codes = sorted(robot.ignore), sorted(robot.refuse)  # sets have another order in each process
-        code = "" if registry.is_own(robot.domain) else registry.program(robot.domain)
-        # paths become bytes: names of files may not be UTF-8
-        return digest(msgspec.json.encode((own, codes, self._shared, code), enc_hook=os.fsencode))
+        parts = own, codes, self._shared, registry.program(robot.domain)
+        return digest(msgspec.json.encode(parts, enc_hook=os.fsencode))  # names of files may not be UTF-8
 
     def recall(self, robot: RobotConfig) -> tuple[Outlook, Dependencies] | None:
         """Return the remembered outlook for a robot, and all that it rests on.
