@@ -124,9 +124,8 @@ def scan(kind: str, folder: str | os.PathLike[str]) -> tuple[list[os.DirEntry[st
     """Return the entries of a folder, and their facts for a kind of listing. Raises OSError."""
     with os.scandir(place(folder)) as scanned:
         entries = {entry.name: entry for entry in scanned}
-    return [*entries.values()], checksum(
-        counting(kind, entries, lambda name: entries[name].is_dir(follow_symlinks=False))
-    )
+    names = counting(kind, entries, lambda name: entries[name].is_dir(follow_symlinks=False))
+    return [*entries.values()], checksum(names)
 
 
 def counting(kind: str, names: Iterable[str], is_folder: Callable[[str], bool]) -> set[str]:
