@@ -48,11 +48,14 @@ def test_what_appears_beside_the_code_does_not_matter(code: Path) -> None:
 
 
 def test_each_file_and_each_version_does(code: Path) -> None:
-    found = [identity()]
+    found, by_content = [identity()], program.contents_hash()
     (code / "engine/plan.py").write_text("second = 30\n")
     found.append(identity())
+    assert program.contents_hash() != by_content
+    by_content = program.contents_hash()
     (code.parent / "templates/link.mo.jinja").touch()
     found.append(identity())
+    assert program.contents_hash() == by_content
     (code / "engine/plan.py").rename(code / "engine/plans.py")
     found.append(identity())
     (code.parent / "jinja2-3.2.0.dist-info").mkdir()

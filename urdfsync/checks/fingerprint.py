@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 
 import msgspec
 
@@ -50,8 +49,7 @@ def result_key(
         places |= {str(path): path for path in libraries.standard_libraries()}
     try:
         return digest(
-            *(sys.platform, program.versions()),
-            [hashes.of(Path(place), "_data") for place in (*program.own(), *registry.code(robot.domain))],
+            *(sys.platform, program.contents_hash(*registry.code(robot.domain))),
             *(compilers.state(tool, hashes) for tool in tools),
             [(name, str(path), hashes.of(path)) for name, path in sorted(places.items())],
             # the compiler gets copies of these libraries without resources

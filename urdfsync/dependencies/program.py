@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from urdfsync.dependencies.facts import checksum
+from urdfsync.dependencies.facts import checksum, read_unrecorded
 from urdfsync.version import __version__
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of a no-op build
@@ -24,12 +24,23 @@ def identity(*others: str) -> str:
     It follows from names, sizes and times of code and templates. Files beside them, such as byte code, do not matter.
     """
     if others not in _identities:
-        files = (f"{entry.path} {entry.stat().st_size} {entry.stat().st_mtime_ns}" for entry in _files(*own(), *others))
-        _identities[others] = repr(checksum((versions(), *files)))
+        facts = ((path, os.stat(path)) for path in _files(*_own(), *others))
+        files = (f"{path} {status.st_size} {status.st_mtime_ns}" for path, status in facts)
+        _identities[others] = repr(checksum((_versions(), *files)))
     return _identities[others]
 
 
-def versions() -> str:
+def contents_hash(*others: str) -> str:
+    """Return a hash that is the same for the same program on each machine: of contents in place of sizes and times."""
+    from hashlib import sha256
+
+    hashes = (
+        f"{os.path.basename(path)} {sha256(read_unrecorded(path)).hexdigest()}" for path in _files(*_own(), *others)
+    )
+    return sha256(repr((_versions(), sorted(hashes))).encode(errors="surrogateescape")).hexdigest()
+
+
+def _versions() -> str:
     """Return the versions of urdfsync and of Python, with the names and versions of all installed packages."""
     packages = set[str]()  # the folders of their metadata
     for folder in sys.path:
@@ -40,29 +51,30 @@ def versions() -> str:
     return repr((__version__, sys.version, sys.byteorder, sorted(packages)))
 
 
-def own() -> tuple[str, str]:
+def _own() -> tuple[str, str]:
     """Return the folders of the code and of the templates: of a wheel, or of a clone."""
     inside = os.path.join(_PACKAGE, "_data", "templates")
     return _PACKAGE, inside if os.path.isdir(inside) else os.path.join(os.path.dirname(_PACKAGE), "templates")
 
 
-def _files(*folders: str) -> Iterator[os.DirEntry[str]]:
-    """Yield the files of code and templates below folders."""
-    waiting = list(folders)
+def _files(*places: str) -> Iterator[str]:
+    """Yield the paths of code and templates: of files, and below folders."""
+    waiting = list(places)
     while waiting:
+        place = waiting.pop()
+        if place.endswith(_SUFFIXES):
+            yield place
+            continue
         try:
-            with os.scandir(waiting.pop()) as scanned:
+            with os.scandir(place) as scanned:
                 entries = list(scanned)
         except OSError:
             continue  # templates may be elsewhere
-        for entry in entries:
-            # `_data` of a wheel also has the library and pages, which no build reads
-            if entry.name.startswith(".") or entry.name in ("__pycache__", "_data"):
-                continue
-            if entry.name.endswith(_SUFFIXES):
-                yield entry
-            elif entry.is_dir():
-                waiting.append(entry.path)
+        # `_data` of a wheel also has the library and pages, which no build reads
+        visible = (
+            each for each in entries if not each.name.startswith(".") and each.name not in ("__pycache__", "_data")
+        )
+        waiting += [each.path for each in visible if each.name.endswith(_SUFFIXES) or each.is_dir()]
 
 
 def user() -> str:
