@@ -34,9 +34,8 @@ def contents_hash(*others: str) -> str:
     """Return a hash that is the same for the same program on each machine: of contents in place of sizes and times."""
     from hashlib import sha256
 
-    hashes = (
-        f"{os.path.basename(path)} {sha256(read_unrecorded(path)).hexdigest()}" for path in _files(*_own(), *others)
-    )
+    files = _files(*_own(), *others)
+    hashes = (f"{os.path.basename(path)} {sha256(read_unrecorded(path)).hexdigest()}" for path in files)
     return sha256(repr((_versions(), sorted(hashes))).encode(errors="surrogateescape")).hexdigest()
 
 
@@ -70,11 +69,12 @@ def _files(*places: str) -> Iterator[str]:
                 entries = list(scanned)
         except OSError:
             continue  # templates may be elsewhere
-        # `_data` of a wheel also has the library and pages, which no build reads
-        visible = (
-            each for each in entries if not each.name.startswith(".") and each.name not in ("__pycache__", "_data")
-        )
-        waiting += [each.path for each in visible if each.name.endswith(_SUFFIXES) or each.is_dir()]
+        for entry in entries:
+            # `_data` of a wheel also has the library and pages, which no build reads
+            if entry.name.startswith(".") or entry.name in ("__pycache__", "_data"):
+                continue
+            if entry.name.endswith(_SUFFIXES) or entry.is_dir():
+                waiting.append(entry.path)
 
 
 def user() -> str:
