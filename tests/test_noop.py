@@ -24,10 +24,11 @@ from support.remembered import save, saved
 from support.screen import print_on_terminal
 
 from urdfsync import cli, noop
-from urdfsync.dependencies import facts, program, record
-from urdfsync.engine import remembered
+from urdfsync.dependencies import facts, program
+from urdfsync.dependencies.record import Record, Records
 from urdfsync.engine.inspect import last_build
 from urdfsync.engine.inspect.package_files import PackageFiles
+from urdfsync.engine.remembered import RobotRecords
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -101,7 +102,7 @@ SURROUNDINGS: dict[str, Callable[[pytest.MonkeyPatch], object]] = {
     "paths look different from here": lambda patch: patch.chdir("robots"),
     "folders of packages": lambda patch: patch.setenv("ROS_PACKAGE_PATH", str(Path.cwd())),
     "folders of libraries": lambda patch: patch.setenv("MODELICAPATH", str(Path.cwd())),
-    "another urdfsync": lambda patch: patch.setattr(program, "_identity", ["another"]),
+    "another urdfsync": lambda patch: patch.setattr(program, "_identities", {(): "another"}),
     "another user, who may not read all that": lambda patch: patch.setattr(os, "geteuid", lambda: 12345, raising=False),
     "a user of other groups": lambda patch: patch.setattr(os, "getgroups", lambda: [12345], raising=False),
 }
@@ -150,10 +151,12 @@ def test_the_result_of_a_table_of_10_000_rows_is_remembered(folder: Path) -> Non
     """It has 20,000 actions, in 9 MB."""
     result = os.urandom(9_000_000)
     time.sleep(0.1)
-    record.DependencyRecord("key", record.FactList(), ["in step"], result).save(".urdfsync", "motors.robot")
-    found = record.load(".urdfsync", "motors.robot")
+    records = Records(".urdfsync")
+    records.save("motors.robot", "key", Record({}, ["in step"], result))
+    found = records.recall("motors.robot", "key")
     assert found is not None
     assert found.result == result
+    assert records.recall("motors.robot", "another key") is None
 
 
 def test_packages_that_builds_check_have_to_be_checked(folder: Path) -> None:
@@ -282,11 +285,11 @@ def test_young_files_are_compared_by_content(folder: Path, path: str, monkeypatc
     for _ in range(2):  # the first one in a copy notes that it wrote this folder
         assert cli.main(BUILD) == 0
     before = Path(path).read_bytes()
-    assert remembered_robot("leg")
+    assert saved(*BUILD) is not None
     Path(path).write_bytes(before[:-2] + b"x" + before[-1:])
-    assert not remembered_robot("leg")
+    assert saved(*BUILD) is None
     Path(path).write_bytes(before)
-    assert remembered_robot("leg")
+    assert saved(*BUILD) is not None
 
 
 def test_once_its_files_are_old_stat_values_tell(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -295,30 +298,23 @@ def test_once_its_files_are_old_stat_values_tell(folder: Path, monkeypatch: pyte
         patch.setattr(facts, "YOUNG", 60_000_000_000)
         for _ in range(2):
             assert cli.main(BUILD) == 0
-        assert remembered_robot("leg")
         with monkeypatch.context() as counted:
-            counted.setattr(record, "hash_file", compared := mock.Mock(side_effect=facts.hash_file))
-            assert remembered_robot("leg")
+            counted.setattr(facts, "content_facts", compared := mock.Mock(side_effect=facts.content_facts))
+            assert saved(*BUILD) is not None
             assert compared.called
     time.sleep(0.1)
-    assert remembered_robot("leg")
-    monkeypatch.setattr(record, "hash_file", lambda path: pytest.fail(path))
-    assert remembered_robot("leg")
-
-
-def remembered_robot(robot: str) -> bool:
-    """Whether the record of a robot holds."""
-    found = record.load(".urdfsync", f"{robot}{noop.ROBOT}")
-    return found is not None and record.recall(".urdfsync", f"{robot}{noop.ROBOT}", found.key, {}) is not None
+    assert saved(*BUILD) is not None
+    monkeypatch.setattr(facts, "content_facts", lambda content: pytest.fail("a content is read"))
+    assert saved(*BUILD) is not None
 
 
 # Files that are no records
 
 
-FILES = [f"{DEPS}/{name}" for name in ("leg.robot", "urdfsync.toml.config", "program")]
+FILES = [f"{DEPS}/{name}" for name in ("leg.robot", "urdfsync.toml.config")]
 
 
-@pytest.mark.parametrize("file", FILES[:2])
+@pytest.mark.parametrize("file", FILES)
 def test_a_damaged_record_counts_as_none(folder: Path, file: str) -> None:
     save(*BUILD)
     content, status = Path(file).read_bytes(), Path(file).stat()
@@ -343,7 +339,7 @@ def test_a_damaged_result_is_made_again(folder: Path) -> None:
         assert cli.main(["build", "--format", "json"]) == 0
 
 
-@pytest.mark.parametrize("file", FILES[:2])
+@pytest.mark.parametrize("file", FILES)
 def test_a_copy_counts_as_none(folder: Path, file: str) -> None:
     save(*BUILD)
     shutil.copy2(file, "copy")
@@ -359,9 +355,7 @@ def test_a_file_of_nothing_but_separators_is_no_record(folder: Path) -> None:
     assert saved(*BUILD) is None
 
 
-@pytest.mark.parametrize(
-    "name", ["leg.robot", ".leg.robot.urdfsync-tmp", "urdfsync.toml.config", "leg.told", "program"]
-)
+@pytest.mark.parametrize("name", ["leg.robot", ".leg.robot.urdfsync-tmp", "urdfsync.toml.config", "leg.told"])
 def test_no_link_is_followed_where_something_is_remembered(folder: Path, name: str) -> None:
     victim = folder.parent / "victim"
     victim.write_text("precious")
@@ -386,11 +380,9 @@ def test_nothing_is_remembered_where_the_time_of_a_change_can_be_set(
 ) -> None:
     time.sleep(0.1)  # so that it would be remembered
     with monkeypatch.context() as patch:
-        patch.setattr(record, "_folders_with_times", {})
-        patch.setattr(os, "fstat", lambda descriptor, original=os.fstat: _as_on_fat(original(descriptor)))
+        patch.setattr(os, "lstat", lambda path, original=os.lstat: _as_on_fat(original(path)))
         assert cli.main(BUILD) == 0
         assert not Path(DEPS, "leg.robot").exists()
-    monkeypatch.setattr(record, "_folders_with_times", {})
     save(*BUILD)
 
 
@@ -460,8 +452,8 @@ def test_record_and_plan_agree(
 @contextlib.contextmanager
 def _nothing_remembered() -> Iterator[None]:
     with (
-        mock.patch.object(remembered, "recall", return_value=None),
-        mock.patch.object(remembered, "remember"),
+        mock.patch.object(RobotRecords, "recall", return_value=None),
+        mock.patch.object(RobotRecords, "remember"),
     ):
         yield
 

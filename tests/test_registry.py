@@ -13,7 +13,8 @@ from urdfsync.dependencies.program import identity
 
 def test_the_code_of_a_domain_of_somebody_else_is_a_part_of_the_program(rc_domain: None, rc_site: Path) -> None:
     before = registry.program("rcnetwork")
-    assert before != identity("") == registry.program("urdf")
+    assert before != identity() == registry.program("urdf")
+    assert any(place.endswith("rc_domain.py") for place in registry.code("rcnetwork"))
 
 
 def test_a_domain_that_was_found_is_not_looked_for_again(rc_domain: None, monkeypatch: pytest.MonkeyPatch) -> None:

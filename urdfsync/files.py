@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from urdfsync.dependencies.facts import Facts, read_unrecorded
-from urdfsync.dependencies.reads import depend_on, file_type, note_content, read_file, read_stat, unrecorded, walk_files
+from urdfsync.dependencies.reads import depend_on, file_type, read_file, read_stat, unrecorded, walk_files
 from urdfsync.diagnostics import OutputError
 
 TEMPORARY = ".urdfsync-tmp"
@@ -155,9 +155,7 @@ class Tree:
             if not mode:
                 return None
             if stat.S_ISREG(mode):
-                content = read_unrecorded(path)
-                note_content(path, content)
-                return content
+                return read_unrecorded(path)
         except (FileNotFoundError, NotADirectoryError):
             return None  # somebody deleted the file meanwhile
         except OSError as error:

@@ -12,54 +12,25 @@ import os
 import sys
 
 from urdfsync import streams
-from urdfsync.dependencies import record
-from urdfsync.dependencies.record import DependencyRecord, FactList
+from urdfsync.dependencies.record import CONFIGURATION, ROBOT, Records
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 25 ms
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Collection, Sequence
     from typing import TextIO
 
-    from urdfsync.dependencies.facts import Entry, Facts
-    from urdfsync.dependencies.reads import Reads
-
-CONFIGURATION = "urdfsync.toml"
+FILE_NAME = "urdfsync.toml"
 NONE = "-"
 """Stands for no words in a record."""
 IN_STEP = "hook"
 """Says in a robot's record that the robot is in step, which is all that a hook wants to know."""
 MANY = 10
 """The greatest number of robots of which each has its line, even if there is nothing to tell about it."""
-ROBOT = ".robot"
-"""The ending of the names of robots' records."""
-_STATE = ".urdfsync"
 _OPTIONS = {"build": ("--check", "--dry-run", "-n"), "status": ()}
 """The options after which a command without any work says the same."""
+_QUIET = frozenset(("-q", "--quiet"))
 _STYLES = {"bold": "1", "dim": "2", "green": "32"}
 """What rich writes for these styles."""
-
-
-class CommandLine:
-    """A command line that this module understands."""
-
-    def __init__(self, arguments: Sequence[str]) -> None:
-        """Raises ValueError for any other command line."""
-        self.command, *rest = arguments or [""]
-        self.quiet, self.robots, self.mode = False, list[str](), ""
-        if self.command not in _OPTIONS:
-            raise ValueError(self.command)
-        words = iter(rest)
-        for word in words:
-            if word == "--config":
-                next(words, "")
-            elif word in ("-q", "--quiet"):
-                self.quiet = True
-            elif word in _OPTIONS[self.command] and not self.mode:
-                self.mode = word
-            elif not word.startswith("-"):
-                self.robots.append(word)
-            elif not word.startswith("--config="):
-                raise ValueError(word)
 
 
 def find_config(arguments: Sequence[str]) -> str | None:
@@ -73,7 +44,7 @@ def find_config(arguments: Sequence[str]) -> str | None:
             return os.path.join(folder, *arguments[number : number + 1])
         if argument.startswith("--config="):
             return os.path.join(folder, argument.removeprefix("--config="))
-    while not os.path.isfile(file := os.path.join(folder, CONFIGURATION)):
+    while not os.path.isfile(file := os.path.join(folder, FILE_NAME)):
         if folder == (folder := os.path.dirname(folder)):
             return None
     return file
@@ -84,51 +55,54 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str, int]] | No
 
     Returns None if the command has to run.
     """
-    try:
-        request, file = CommandLine(arguments), find_config(arguments)
-    except ValueError:
-        return None
-    if file is None:
-        return None
-    seen: dict[Entry, Facts] = {}
-    keys = robot_keys(file, seen)
-    if keys is None or not keys.keys() >= set(request.robots):
-        return None  # sources and folders name robots, too
-    chosen = [robot for robot in keys if not request.robots or robot in request.robots]
-    lines, folder = [], _state_folder(file)
-    for robot in chosen:
-        words = _words(folder, robot, keys[robot], request.command, seen)
-        if words is None or not record.findings_told(folder, robot).issuperset(words[3:]):
+    command, *rest = arguments or [""]
+    named, modes, words = list[str](), 0, iter(rest)
+    for word in words:
+        if word == "--config":
+            next(words, "")
+        elif not word.startswith("-"):
+            named.append(word)
+        elif word in _OPTIONS.get(command, ()):
+            modes += 1
+        elif word not in _QUIET and not word.startswith("--config="):
             return None
-        lines.append((robot, words[0], words[2].removeprefix(NONE), len(words) - 3))
-    return lines or None
+    if command not in _OPTIONS or modes > 1 or (file := find_config(arguments)) is None:
+        return None
+    records = Records(state_folder(file))
+    told = recall(records, file, command, named)
+    # sources and folders name robots, too
+    if not told or not told.keys() >= set(named):
+        return None
+    if any(not records.told(robot).issuperset(keys) for robot, (_, _, _, *keys) in told.items()):
+        return None
+    return [(robot, line, end.removeprefix(NONE), len(keys)) for robot, (line, _, end, *keys) in told.items()]
+
+
+def recall(records: Records, config_file: str, command: str, named: Collection[str] = ()) -> dict[str, Sequence[str]]:
+    """Return the words of each robot's record, if all records hold, and have all that a command would say.
+
+    Returns nothing if the command has to find that out. `named` are the robots that matter; none for all.
+    """
+    told: dict[str, Sequence[str]] = {}
+    configuration = records.recall(f"{os.path.basename(config_file)}{CONFIGURATION}")
+    words = iter(configuration.words if configuration else ())
+    for robot, key in zip(words, words, strict=True):
+        if not named or robot in named:
+            known = records.recall(f"{robot}{ROBOT}", key)
+            if not known or len(known.words) < 3 or command not in known.words[1].split():
+                return {}
+            told[robot] = known.words
+    return told
 
 
 def is_in_step(config_file: str) -> bool:
     """Return whether all robots of a configuration are in step; False if that has to be found out."""
-    seen: dict[Entry, Facts] = {}
-    keys, folder = robot_keys(config_file, seen), _state_folder(config_file)
-    return bool(keys) and all(_words(folder, robot, key, IN_STEP, seen) for robot, key in (keys or {}).items())
+    return bool(recall(Records(state_folder(config_file)), config_file, IN_STEP))
 
 
-def robot_keys(config_file: str, seen: dict[Entry, Facts]) -> dict[str, str] | None:
-    """Return what `remember` got: the key of each robot's record by name; None if the configuration has to be read."""
-    known = record.recall(_state_folder(config_file), _name(config_file), record.surroundings(), seen)
-    return dict(zip(known.words[::2], known.words[1::2], strict=True)) if known else None
-
-
-def _words(folder: str, robot: str, key: str, command: str, seen: dict[Entry, Facts]) -> Sequence[str] | None:
-    """Return the words of a robot's record, if it holds and has all that a command would say; else None."""
-    known = record.recall(folder, f"{robot}{ROBOT}", key, seen)
-    return known.words if known and len(known.words) >= 3 and command in known.words[1].split() else None
-
-
-def _state_folder(config_file: str) -> str:
-    return os.path.join(os.path.dirname(config_file), _STATE)
-
-
-def _name(config_file: str) -> str:
-    return f"{os.path.basename(config_file)}.config"
+def state_folder(config_file: str) -> str:
+    """Return the folder of the recorded state of a configuration."""
+    return os.path.join(os.path.dirname(config_file), ".urdfsync")
 
 
 def answer(arguments: Sequence[str]) -> str | None:
@@ -139,7 +113,7 @@ def answer(arguments: Sequence[str]) -> str | None:
     if sys.stdout is None or sys.stderr is None or (lines := find_lines(arguments)) is None:
         return None
     with streams.SafeStreams() as output:
-        if not CommandLine(arguments).quiet:
+        if _QUIET.isdisjoint(arguments):
             marks = [("✓ ", "green")] if streams.has_marks(output) else []
             for robot, summary, findings, _ in lines if len(lines) <= MANY else ():
                 _write(output, *marks, (robot, "bold"), (f": {summary}", ""))
@@ -173,11 +147,3 @@ def _write(stream: TextIO | streams.Stream, *parts: tuple[str, str]) -> None:
     texts = (f"\x1b[{styles[style]}m{text}\x1b[0m" if style in styles else text for text, style in parts)
     stream.write("".join(texts) + "\n")
     stream.flush()
-
-
-def remember(config_file: str, reads: Reads, keys: Mapping[str, str]) -> None:
-    """Remember what reading a configuration without warnings has read, and the keys of its robots' records."""
-    if reads.complete:
-        words = [word for entry in keys.items() for word in entry]
-        made = DependencyRecord(record.surroundings(), FactList.of(reads), words)
-        made.save(_state_folder(config_file), _name(config_file))

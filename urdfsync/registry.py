@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import cast
 
-from urdfsync.dependencies.program import code_files, contents_hash, identity
+from urdfsync.dependencies.program import identity
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Domain, Translator
 from urdfsync.extras import install_command
@@ -99,18 +99,21 @@ def is_own(name: str) -> bool:
     return name in _OWN
 
 
-def program(name: str, state_folder: Path | None = None) -> str:
-    """Return a hash of urdfsync, and of the code and templates of a domain; they are no inputs that builds record."""
-    own = identity(str(state_folder or ""))
+def code(name: str) -> list[str]:
+    """Return the folders, or the file, with the code and templates of a domain of somebody else; none of an own one."""
     if is_own(name):
-        return own
+        return []
     templates = domain(name).templates
     module = sys.modules[top_level(name)]
     file = module.__file__ or ""
     is_package = not file or os.path.basename(file) == "__init__.py"  # noqa: PTH119
     folders = [os.path.dirname(file)] if file else module.__path__  # noqa: PTH120
-    files = list(code_files(folders)) if is_package else [file]
-    return contents_hash([*files, *code_files([str(templates)] if templates else [])], own)
+    return [*(folders if is_package else [file]), *([str(templates)] if templates else [])]
+
+
+def program(name: str) -> str:
+    """Return the identity of urdfsync with a domain's code and templates; they are no inputs that builds record."""
+    return identity(*code(name))
 
 
 def _installed() -> dict[str, str]:

@@ -12,7 +12,7 @@ from unittest import mock
 import pytest
 from support.networks import RC_FOLDER, edit, set_keys
 
-from urdfsync import config, registry
+from urdfsync import config
 from urdfsync.checks.fingerprint import fingerprint
 from urdfsync.checks.results import CheckOptions
 from urdfsync.dependencies import program
@@ -73,7 +73,6 @@ def test_what_a_check_rests_on_changes_it(project: Path, change: Callable[[], No
 def test_so_do_another_tool_another_distribution_and_another_wish(
     project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(registry, "identity", lambda _: program._recall(""))  # a process knows its packages once
     found = [now(), now(physics=True)]
     (tmp_path / "site/numbers-2.0.dist-info").mkdir(parents=True)
     monkeypatch.syspath_prepend(tmp_path / "site")
@@ -99,7 +98,6 @@ def test_so_does_another_line_of_urdfsync_its_library_or_the_templates(
     """Whoever develops urdfsync does not change the version."""
     file = tmp_path / place / "__init__.py"
     file.parent.mkdir()
-    monkeypatch.setattr(registry, "identity", lambda _: program._recall(""))  # a process knows its code once
     before = now()
     for line in ("# one line\n", "# another line\n"):
         file.write_text(line)

@@ -11,7 +11,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import RECORD, configure, resistor, run, run_all
 
 from urdfsync.dependencies import reads
-from urdfsync.dependencies.facts import MODELICA, NAMES, NOTHING, PATH, VARIABLE, facts_of
+from urdfsync.dependencies.facts import MODELICA, NAMES, NOTHING, PATH, VARIABLE, changes, look
 
 
 def test_environment_variables_are_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -19,12 +19,12 @@ def test_environment_variables_are_recorded(monkeypatch: pytest.MonkeyPatch) -> 
     for value in (None, "", "0.5", "0.6"):
         if value is not None:
             monkeypatch.setenv("LENGTH", value)
-        before = facts_of(VARIABLE, "LENGTH")
+        before = look(VARIABLE, "LENGTH")
         with reads.Reads() as found:
             assert reads.read_variable("LENGTH") == value
-        assert found.entries == {(VARIABLE, "LENGTH"): before}
+        assert found.entries == {(VARIABLE, "LENGTH"): hash(before)}
         monkeypatch.setenv("LENGTH", "another")
-        assert facts_of(VARIABLE, "LENGTH") != before
+        assert look(VARIABLE, "LENGTH") != before
 
 
 def test_what_changes_or_fails_meanwhile_makes_the_record_incomplete(tmp_path: Path) -> None:
@@ -51,19 +51,19 @@ def test_a_plan_lists_what_it_has_read(project: Path) -> None:
     (project / "own").mkdir()
     (project / "Mine.mo").write_text("model Mine end Mine;")
     (project / "step.csv").unlink()
-    entries = set(run(dry=True).reads.entries)
+    entries = set(run(dry=True).reads)
     listed = ((PATH, "ladder.json"), (PATH, "Mine.mo"), (NAMES, "own"), (MODELICA, "."))
     assert {(kind, str((project / name).resolve())) for kind, name in listed} <= entries
     assert {(PATH, str(project / name)) for name in ("step.csv", "later/step.csv", "modelica")} <= entries
     run()
-    assert (PATH, str(project / RECORD)) in run(dry=True).reads.entries
+    assert (PATH, str(project / RECORD)) in run(dry=True).reads
 
 
 def test_an_error_carries_the_list_in_the_place_of_a_plan(project: Path) -> None:
     for content in (None, "{"):
         (project / "ladder.json").unlink() if content is None else (project / "ladder.json").write_text(content)
         (failed,) = run_all()
-        assert (PATH, str(project / "ladder.json")) in failed.reads.entries
+        assert (PATH, str(project / "ladder.json")) in failed.reads
 
 
 def test_so_does_an_error_of_xacro(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,8 +73,7 @@ def test_so_does_an_error_of_xacro(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     Path("urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf.xacro"\npackage = "Arm"\n')
     (failed,) = run_all()
     assert failed.failed
-    entries = failed.reads.entries
-    assert {(PATH, str(tmp_path / "urdf/gone.yaml")), (NAMES, str(tmp_path / "urdf/parts"))} <= set(entries)
+    assert {(PATH, str(tmp_path / "urdf/gone.yaml")), (NAMES, str(tmp_path / "urdf/parts"))} <= set(failed.reads)
 
 
 def test_a_build_lists_what_it_wrote_as_it_is_then(project: Path) -> None:
@@ -82,10 +81,9 @@ def test_a_build_lists_what_it_wrote_as_it_is_then(project: Path) -> None:
     resistor(150)
     result = run()
     assert result.writes
-    facts = result.reads
-    assert list(facts.changes(facts.look())) == []
+    assert list(changes(result.reads, {})) == []
     (project / RECORD).write_text("changed")
-    assert list(facts.changes(facts.look())) == [(PATH, str(project / RECORD))]
+    assert {path for _, path in changes(result.reads, {})} == {str(project / RECORD)}
 
 
 # Links
@@ -96,20 +94,20 @@ def test_a_link_changes_with_itself_and_with_its_target(tmp_path: Path) -> None:
     for target in (first, second):
         target.write_text("same")
     link.symlink_to(first)
-    before = facts_of(PATH, link)
+    before = look(PATH, link)
     first.write_text("other text")
-    changed = facts_of(PATH, link)
+    changed = look(PATH, link)
     link.unlink()
     link.symlink_to(second)
-    retargeted = facts_of(PATH, link)
+    retargeted = look(PATH, link)
     second.unlink()
-    assert len({before, changed, retargeted, facts_of(PATH, link)}) == 4
+    assert len({before, changed, retargeted, look(PATH, link)}) == 4
 
 
 def test_the_times_of_a_folder_are_no_fact(tmp_path: Path) -> None:
-    before = facts_of(PATH, tmp_path)
+    before = look(PATH, tmp_path)
     (tmp_path / "new").touch()
-    assert facts_of(PATH, tmp_path) == before != NOTHING == facts_of(PATH, tmp_path / "new/below")
+    assert look(PATH, tmp_path) == before != NOTHING == look(PATH, tmp_path / "new/below")
 
 
 # Git's index

@@ -102,7 +102,7 @@ def test_the_catalogue_is_a_dependency(project: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(facts, "YOUNG", 0)
     loaded = config.load(Path("urdfsync.toml"))
     (result,) = build(loaded, loaded.select(["arm"]), BuildOptions())
-    assert str(SERVOS.absolute()) in {str(path) for _, path in result.reads.entries}
+    assert str(SERVOS.absolute()) in {str(path) for _, path in result.reads}
     save("build", "arm")
     assert saved("build", "arm") is not None
     edit(SERVOS, "S41,410", "S41,430")

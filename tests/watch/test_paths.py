@@ -27,9 +27,9 @@ def test_what_is_read_or_missing_or_listed_is_watched(project: Path) -> None:
     (project / "one").mkdir()
     (project / "step.csv").unlink()
     loaded = config.load(project / "urdfsync.toml")
-    found = find_watched_folders(loaded, run(dry=True).reads.entries)
+    found = find_watched_folders(loaded, run(dry=True).reads)
     assert found.singles == {str(project / name) for name in ("", "one", "own", "own/sub")}
-    found = find_watched_folders(loaded, run().reads.entries)
+    found = find_watched_folders(loaded, run().reads)
     assert found.trees == {str(project / "modelica/Ladder")}
     assert {str(project / ".urdfsync" / name) for name in ("", "robots", "bases/ladder")} <= found.singles
 

@@ -11,10 +11,8 @@ import pytest
 
 from urdfsync import config
 from urdfsync.dependencies import facts
-from urdfsync.dependencies.facts import hash_content
-from urdfsync.dependencies.reads import Reads, file_type, list_folder, read_file, read_variable, scan_modelica
-from urdfsync.dependencies.record import FactList
-from urdfsync.files import Tree
+from urdfsync.dependencies.reads import Reads, file_type, list_folder, read_file, read_variable, scan_folder
+from urdfsync.files import Tree, digest
 from urdfsync.watch.robot import WatchedRobot
 
 
@@ -27,7 +25,7 @@ def robot(folder: Path, request: pytest.FixtureRequest, monkeypatch: pytest.Monk
         Path(path).write_text("old")
     text = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ntemplates = "own"\n'
     found = WatchedRobot(config.parse(text, folder / "urdfsync.toml", "urdfsync.toml").robots[0])
-    assert found.take(FactList.of(read(folder)), FactList())
+    assert found.take(read(folder).entries, {})
     assert found.look()
     assert not found.look()
     assert not found.has_changed
@@ -40,7 +38,7 @@ def read(folder: Path) -> Reads:
             assert read_file(folder / path)
         assert file_type(folder / "gone.stl") == 0
         assert list_folder(folder / "own")
-        assert scan_modelica(folder / "models")
+        assert scan_folder(folder / "models", facts.MODELICA)
         assert Tree(folder).read(folder / "Arm.mo")
         assert Tree(folder).read(folder / "New.mo") is None
         assert read_variable("HOME") is not None
@@ -73,7 +71,7 @@ def test_what_changed_since_it_was_read_has_changed(robot: WatchedRobot, folder:
     reads = read(folder)
     time.sleep(0.02)
     Path("arm.urdf").write_text("now")
-    assert not robot.take(FactList.of(reads), FactList()), "the entries are the same"
+    assert not robot.take(reads.entries, {}), "the entries are the same"
     robot.look()
     assert robot.changed_file == str(Path("arm.urdf").absolute())
 
@@ -82,8 +80,8 @@ def test_what_a_build_wrote_has_not(robot: WatchedRobot, folder: Path) -> None:
     reads = read(folder)
     for name in ("New.mo", "Arm.mo"):
         Path(name).write_text("written")
-    reads.renew({str(folder / name): hash_content(b"written") for name in ("New.mo", "Arm.mo")})
-    robot.take(FactList.of(reads), FactList())
+    reads.renew({str(folder / name): digest(b"written") for name in ("New.mo", "Arm.mo")})
+    robot.take(reads.entries, {})
     robot.look()
     assert not robot.has_changed
     Path("New.mo").write_text("WRITTEN")
@@ -93,7 +91,7 @@ def test_what_a_build_wrote_has_not(robot: WatchedRobot, folder: Path) -> None:
 
 def test_after_a_bug_the_robot_is_as_it_is(robot: WatchedRobot) -> None:
     Path("arm.urdf").write_text("new")
-    assert not robot.take(FactList(), FactList())
+    assert not robot.take({}, {})
     robot.look()
     assert not robot.has_changed
 
@@ -103,7 +101,7 @@ def test_a_young_file_changes_by_its_content(
 ) -> None:
     monkeypatch.setattr(facts, "YOUNG", 10**19)
     monkeypatch.setattr(facts, "stat_of", lambda status: (status.st_mode, 0, 0, status.st_size, 1, 1))
-    robot.take(FactList.of(read(folder)), FactList())
+    robot.take(read(folder).entries, {})
     robot.look()
     assert not robot.has_changed
     Path("arm.urdf").write_text("new")

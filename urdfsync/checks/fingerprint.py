@@ -14,6 +14,7 @@ from urdfsync.checks.compilers.compiler import Tool
 from urdfsync.checks.contents import RESOURCES, Hashes, package_texts
 from urdfsync.checks.results import CheckOptions
 from urdfsync.config import Config, RobotConfig, find_own_library
+from urdfsync.dependencies import program
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources import source
@@ -48,7 +49,7 @@ def result_key(
         places |= {str(path): path for path in libraries.standard_libraries()}
     try:
         return digest(
-            *(sys.platform, registry.program(robot.domain)),
+            *(sys.platform, program.contents_hash(*registry.code(robot.domain))),
             *(compilers.state(tool, hashes) for tool in tools),
             [(name, str(path), hashes.of(path)) for name, path in sorted(places.items())],
             # the compiler gets copies of these libraries without resources

@@ -29,7 +29,6 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.remembered import remember_configuration
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
-from urdfsync.git import hook
 from urdfsync.git.clone import Commit, PathChange, export
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
@@ -99,7 +98,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
     """Return the configurations to check. Raises ConfigError if one is on disk, and the commit lacks it."""
-    top, lost = Path(commit.repository.top), hook.find_lost(commit.repository, commit.export)
+    top, lost = Path(commit.repository.top), commit.lost
     if given is not None:
         name = commit.clone.inside(os.path.join(os.path.realpath(given.parent), given.name))  # noqa: PTH118
         if name is None or not (name in commit.files or given.is_file()):
@@ -108,9 +107,7 @@ def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
     if lost:
         message, hint = "the commit lacks this configuration", _adding(lost, git.Index())
         raise ConfigError.of("not-staged", message, shown(top / lost[0]), hint=hint)
-    return (
-        [top / file for file in commit.export.configurations] if given is None else [top / (name or given.absolute())]
-    )
+    return [top / file for file in commit.configurations] if given is None else [top / (name or given.absolute())]
 
 
 def _find_rejections(commit: Commit, file: Path, options: BuildOptions, is_writing: bool) -> Iterator[Rejection]:
@@ -139,7 +136,7 @@ def _find_rejections(commit: Commit, file: Path, options: BuildOptions, is_writi
     judged = [
         robot
         for robot in judged
-        if _is_touched(commit, settings.entries, *robot.folders) or _is_touched(commit, robot.result.reads.entries)
+        if _is_touched(commit, settings.entries, *robot.folders) or _is_touched(commit, robot.result.reads)
     ]
     names, here, built = {one.robot.name for one in judged}, dict[str, Result](), dict[str, Result]()
     with contextlib.suppress(UrdfsyncError):  # the working tree may have another fault than the commit
@@ -260,12 +257,12 @@ class _OutOfStepRobot:
     def _own_places(self, here: Result) -> _Places:
         """Return all that a build in the working tree has read."""
         top = self._commit.repository.top
-        return _Places(Clone(top, top), here.reads.entries)
+        return _Places(Clone(top, top), here.reads)
 
     def _find_missing(self, own: _Places, index: git.Index) -> set[str]:
         """Return the files to add to the commit: those that differ in the index, and that a build depends on."""
         top = Path(self._commit.repository.top)
-        cloned = _Places(self._commit.clone, self.result.reads.entries)
+        cloned = _Places(self._commit.clone, self.result.reads)
         unstaged = dict.fromkeys(index.unstaged, PathChange.FILE)
         untracked = dict.fromkeys(index.untracked, PathChange.CONTENT)  # only those that the build reads
         found = {path for places in (own, cloned) for path in places.select(unstaged, self.folders)} | own.select(

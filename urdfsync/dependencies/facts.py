@@ -1,4 +1,4 @@
-"""Facts that show a change: of a path, of the names in a folder, of an environment variable.
+"""Facts that show a change: of a path, of a content, of the names in a folder, of an environment variable.
 
 A no-op build looks at each recorded fact through this module, so it imports hardly anything. The hook lets it look at a
 clone (see `places`).
@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 
 Facts = tuple[int, ...]
 """Integers that differ after a change; a negative number is that of an error of the system."""
+Entry = tuple[str, str]
+"""A kind of fact, and the path or the variable's name."""
+Dependencies = dict[Entry, int]
+"""All that a piece of work has read: the hash of the facts of each entry. Python gives tuples of integers the same hash
+in each process."""
 Stat = tuple[int, int, int, int, int, int]
 """Mode, inode, device, size in bytes, and the times (ns) of the last changes of content and of status."""
 
@@ -31,6 +36,8 @@ _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 
 PATH = "path"
 """The fact of a path: the `Stat` of a regular file, the type of anything else; for a link, both of link and target."""
+CONTENT = "content"
+"""The fact of a file that was young when it was read: the hash of its content."""
 NAMES, MODELICA = "names", "modelica"
 """The fact of a folder: all names in it, or the names of visible folders and Modelica files. After `MODELICA` and a
 slash, a kind may have the names of folders that do not count, with a slash between two of them."""
@@ -39,65 +46,41 @@ VARIABLE = "variable"
 """The fact of an environment variable: its value."""
 UNMERGED = "unmerged"
 """The fact of git's index: its unmerged files. Other changes of the index change no result."""
-Entry = tuple[str, str]
-"""A kind of fact, and the path or the variable's name."""
 NOTHING = (0,)
 """The facts of a path without a file."""
-
-
-def facts_of(kind: str, path: str | os.PathLike[str]) -> Facts:
-    """Return the facts now. Raises OSError if the path can't be accessed."""
-    if kind == PATH:
-        return path_facts(path)
-    if kind == VARIABLE:
-        value = os.environ.get(os.fspath(path))
-        return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
-    if kind == UNMERGED:
-        return checksum(unmerged_paths(path))
-    with os.scandir(place(path)) as scanned:
-        return checksum(counting_entries(kind, scanned))
 
 
 def look(kind: str, path: str | os.PathLike[str]) -> Facts:
     """Return the facts now, or the negative number of the system's error."""
     try:
-        return path_facts(path) if kind == PATH else facts_of(kind, path)  # a fleet has 30,000 paths
+        if kind == PATH:
+            return _path_facts(path)
+        if kind == CONTENT:
+            return content_facts(read_unrecorded(path))
+        if kind == VARIABLE:
+            value = os.environ.get(os.fspath(path))
+            return () if value is None else (len(value), *value.encode(errors="surrogateescape"))
+        if kind == UNMERGED:
+            return checksum(unmerged_paths(path))
+        return scan(kind, path)[1]
     except OSError as error:
-        return failed(error)
+        return NOTHING if kind == PATH and error.errno in _ABSENT else (-(error.errno or 1),)
 
 
-def path_facts(path: str | os.PathLike[str]) -> Facts:
-    """Return the facts of a path now. Raises OSError if the path can't be accessed."""
-    try:
-        status = os.lstat(place(path))
-        if stat.S_ISREG(status.st_mode):
-            return stat_of(status)
-        if not stat.S_ISLNK(status.st_mode):
-            return (stat.S_IFMT(status.st_mode),)  # the times of a folder change with each file in it
-    except OSError as error:
-        if error.errno in _ABSENT:
-            return NOTHING
-        error.filename = os.fspath(path)
-        raise
+def _path_facts(path: str | os.PathLike[str]) -> Facts:
+    status = os.lstat(place(path))
+    if stat.S_ISREG(status.st_mode):
+        return stat_of(status)
+    if not stat.S_ISLNK(status.st_mode):
+        return (stat.S_IFMT(status.st_mode),)  # the times of a folder change with each file in it
     try:
         target = os.stat(place(path))
     except OSError as error:
         if error.errno in _ABSENT:
             return (*stat_of(status), 0)
-        error.filename = os.fspath(path)
         raise
     is_file = stat.S_ISREG(target.st_mode)
     return (*stat_of(status), *(stat_of(target) if is_file else (stat.S_IFMT(target.st_mode),)))
-
-
-def file_type(facts: Facts, *, follow: bool = True) -> int:
-    """Return the file type (see `stat.S_IFMT`) in a path's facts: of a link's target, or of the link itself."""
-    return stat.S_IFMT(facts[6] if follow and len(facts) > 6 else facts[0])
-
-
-def is_file(facts: Facts) -> bool:
-    """Whether a path's facts are those of a regular file, or of a link to one."""
-    return facts[0] > 0 and file_type(facts) == stat.S_IFREG
 
 
 def is_young(facts: Facts, now: int) -> bool:
@@ -108,9 +91,28 @@ def is_young(facts: Facts, now: int) -> bool:
     return max(facts[4:6] + facts[10:12], default=0) > now - YOUNG
 
 
-def failed(error: OSError) -> Facts:
-    """Return the facts about a path that the system can't read."""
-    return (-(error.errno or 1),)
+def changes(known: Dependencies, seen: dict[Entry, Facts]) -> Iterator[Entry]:
+    """Yield the entries that have other facts now.
+
+    `seen` has listings that were looked at just now, and gets the others: robots of one package read the same folders,
+    and a fleet of 1,000 would list 1,000 names 1,000 times.
+    """
+    for entry, fact in known.items():
+        kind, path = entry
+        if kind == PATH:
+            facts = look(kind, path)
+        else:
+            facts = seen[entry] = seen.get(entry) or look(kind, path)
+        if hash(facts) != fact:
+            yield entry
+
+
+def aged(known: Dependencies, now: int) -> Dependencies:
+    """Return the dependencies without contents once all these files are old; else the same."""
+    contents = [path for kind, path in known if kind == CONTENT]
+    if not contents or any(is_young(look(PATH, path), now) for path in contents):
+        return known
+    return {entry: fact for entry, fact in known.items() if entry[0] != CONTENT}
 
 
 def stat_of(status: os.stat_result) -> Stat:
@@ -118,10 +120,12 @@ def stat_of(status: os.stat_result) -> Stat:
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
-def counting_entries(kind: str, scanned: Iterable[os.DirEntry[str]]) -> set[str]:
-    """Return the names of a folder's entries that count for a kind of listing."""
-    entries = {entry.name: entry for entry in scanned}
-    return counting(kind, entries, lambda name: entries[name].is_dir(follow_symlinks=False))
+def scan(kind: str, folder: str | os.PathLike[str]) -> tuple[list[os.DirEntry[str]], Facts]:
+    """Return the entries of a folder, and their facts for a kind of listing. Raises OSError."""
+    with os.scandir(place(folder)) as scanned:
+        entries = {entry.name: entry for entry in scanned}
+    names = counting(kind, entries, lambda name: entries[name].is_dir(follow_symlinks=False))
+    return [*entries.values()], checksum(names)
 
 
 def counting(kind: str, names: Iterable[str], is_folder: Callable[[str], bool]) -> set[str]:
@@ -141,15 +145,14 @@ def unmerged_paths(index: str | os.PathLike[str]) -> set[str]:
         content = read_unrecorded(index)
     except OSError:
         return set()
-    key = len(content), hash(content)
-    if key not in _unmerged:  # a command asks some times, and an index has all files of the repository
+    if content not in _unmerged:  # a command asks some times, and an index has all files of the repository
         _unmerged.clear()
-        _unmerged[key] = frozenset(_find_unmerged(content))
-    return set(_unmerged[key])
+        _unmerged[content] = frozenset(_find_unmerged(content))
+    return set(_unmerged[content])
 
 
-_unmerged: dict[tuple[int, int], frozenset[str]] = {}
-"""The size and hash of the last index, and what git could not merge in it."""
+_unmerged: dict[bytes, frozenset[str]] = {}
+"""The last index, and what git could not merge in it."""
 
 
 def _find_unmerged(content: bytes) -> Iterator[str]:
@@ -183,16 +186,11 @@ def checksum(names: Iterable[str]) -> Facts:
     return len(ordered), hash(int.from_bytes("/".join(ordered).encode(errors="surrogateescape")))
 
 
-def hash_file(path: str) -> str:
-    """Return the hash of a file's content now. Raises OSError."""
-    return hash_content(read_unrecorded(path))
-
-
-def hash_content(content: bytes) -> str:
-    """Return the hash of a content."""
+def content_facts(content: bytes) -> Facts:
+    """Return the facts of a content: its SHA-256."""
     from hashlib import sha256  # takes 3 ms; a record of old files needs no hash
 
-    return sha256(content).hexdigest()
+    return (int.from_bytes(sha256(content).digest()),)
 
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:

@@ -13,28 +13,25 @@ from urdfsync.dependencies.facts import MAX_FILE
 _READ = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 
+_AGE = 10_000_000_000
+"""Nanoseconds by which a file is dated back: then its last change of status (`st_ctime`) is later, unless the file
+system lets users set this time, too, as FAT and sshfs."""
 
-def _first_line(status: os.stat_result) -> bytes:
-    return f"urdfsync {status.st_ino} {status.st_mtime_ns}\n".encode()
+
+def _first_line(inode: int, time: int) -> bytes:
+    return f"urdfsync {inode} {time}\n".encode()
 
 
 def read(path: str | os.PathLike[str]) -> bytes | None:
     """Return the content below the first line; None for a missing or unreadable file, a link, or a copy."""
-    whole = read_whole(path)
-    return None if whole is None else whole.partition(b"\n")[2]
-
-
-def read_whole(path: str | os.PathLike[str]) -> bytes | None:
-    """Return the content with the first line; None as in `read`."""
     try:
         descriptor = os.open(path, _READ)  # without O_NONBLOCK, opening a pipe would wait for a writer
         with open(descriptor, "rb", buffering=0) as file:
             status = os.fstat(descriptor)
             if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
                 return None
-            first = _first_line(status)
-            begin = file.read(len(first))
-            return begin + file.read() if begin == first else None
+            first = _first_line(status.st_ino, status.st_mtime_ns)
+            return file.read() if file.read(len(first)) == first else None
     except OSError:
         return None
 
@@ -44,19 +41,21 @@ def write(path: str | os.PathLike[str], content: bytes) -> None:
     descriptor = os.open(path, _CREATE, 0o666)
     try:
         status = os.fstat(descriptor)
-        content = _first_line(status) + content
+        time = status.st_mtime_ns - _AGE
+        content = _first_line(status.st_ino, time) + content
         while content:
             content = content[os.write(descriptor, content) :]
     finally:
         os.close(descriptor)
     follows = os.utime not in os.supports_follow_symlinks  # some systems always follow symbolic links
-    os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing changed the time
+    os.utime(path, ns=(time, time), follow_symlinks=follows)
 
 
-def replace(path: str, content: bytes) -> None:
+def replace(path: str, content: bytes, *, needs_times: bool = False) -> None:
     """Write a file that is safe to lose, in the place of an older one; if that fails, there is no new file.
 
     The folder may be missing; its parent must exist. No link is followed: a repository may have committed one.
+    With `needs_times`, nothing is written where users can set all times of files: there, stat values prove nothing.
     """
     folder, name = os.path.split(path)
     temporary = os.path.join(folder, f".{name}.urdfsync-tmp")
@@ -68,6 +67,10 @@ def replace(path: str, content: bytes) -> None:
         if os.path.lexists(temporary):
             os.unlink(temporary)  # a killed process left this file
         write(temporary, content)
-        os.replace(temporary, path)
+        status = os.lstat(temporary)
+        if needs_times and (os.name == "nt" or status.st_ctime_ns <= status.st_mtime_ns):
+            os.unlink(temporary)
+        else:
+            os.replace(temporary, path)
     except (OSError, ValueError):
         return  # the next command does the work again

@@ -11,30 +11,25 @@ import contextlib
 import os
 import stat
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextvars import ContextVar, Token
 
 from urdfsync.dependencies.facts import (
-    MODELICA,
+    CONTENT,
     NAMES,
     PATH,
     UNMERGED,
     VARIABLE,
-    Entry,
+    Dependencies,
     Facts,
     checksum,
-    counting_entries,
-    facts_of,
-    failed,
-    hash_content,
     is_young,
     look,
     read_unrecorded,
+    scan,
     unmerged_paths,
 )
-from urdfsync.dependencies.facts import file_type as type_in
-from urdfsync.dependencies.facts import is_file as has_file
-from urdfsync.dependencies.places import is_clone, place
+from urdfsync.dependencies.places import is_clone
 
 PARENTS = "urdfsync-parents"
 """A file in the `.git` of the hook's clone: the parents of its commit."""
@@ -45,9 +40,7 @@ class Reads:
 
     def __init__(self) -> None:
         self._token: Token[Reads | None] | None = None
-        self.entries: dict[Entry, Facts] = {}
-        self.hashes: dict[Entry, str] = {}
-        """Hash of the content of each file that was young when it was read; empty if unknown."""
+        self.entries: Dependencies = {}
         self.complete = True
         """Whether the list has all reads, and no path changed between two reads. Otherwise nothing is remembered."""
 
@@ -62,27 +55,22 @@ class Reads:
         include(self)
 
     def add(self, kind: str, path: str | os.PathLike[str], facts: Facts) -> None:
-        """Record the facts about a path, before its content is read."""
-        entry = kind, os.fspath(path)
-        if self.entries.setdefault(entry, facts) != facts:
+        """Record the facts about a path, before its content is read. A young file also has the fact of its content."""
+        path = os.fspath(path)
+        if kind != VARIABLE and not os.path.isabs(path):
+            path = os.path.join(os.getcwd(), path)
+        fact = hash(facts)
+        if self.entries.setdefault((kind, path), fact) != fact:
             self.complete = False  # the path changed between two reads
-        elif kind == PATH and is_young(facts, time.time_ns()):
-            self.hashes.setdefault(entry, "")
-
-    def add_hash(self, entry: Entry, sha256: str) -> None:
-        """Record the hash of a young file."""
-        if self.hashes.get(entry) and self.hashes[entry] != sha256:
-            self.complete = False  # the file changed between two reads, and its stat values did not
-        self.hashes[entry] = self.hashes.get(entry) or sha256
-
-    def files(self) -> list[str]:
-        """Return the paths of the files that were read, or looked for in vain."""
-        return [path for kind, path in self.entries if kind == PATH]
+        elif kind == PATH and is_young(facts, time.time_ns()) and (CONTENT, path) not in self.entries:
+            content = look(CONTENT, path)
+            self.entries[CONTENT, path] = hash(content)
+            self.complete &= content[0] >= 0
 
     def renew(self, written: Mapping[str, str | None]) -> None:
         """Take the present facts of files that the build has written, and of the folders around them.
 
-        `written` has the hash of each file by path, None for a deleted file.
+        `written` has the SHA-256 (hex) of each file by path; None for a deleted file, or one that nobody else writes.
         """
         around = set[str]()
         for folder in written:
@@ -90,8 +78,9 @@ class Reads:
                 around.add(folder)
         for kind, path in [*((PATH, path) for path in written), *self.entries]:
             if path in written or path in around:
-                self.entries[kind, path] = look(kind, path)
-        self.hashes |= {(PATH, path): sha256 or "" for path, sha256 in written.items()}
+                self.entries[kind, path] = hash(look(kind, path))
+        for path, sha256 in written.items():  # somebody may have saved the file meanwhile
+            self.entries[CONTENT, path] = hash((int(sha256, 16),) if sha256 else look(CONTENT, path))
 
 
 _current: ContextVar[Reads | None] = ContextVar("reads", default=None)
@@ -129,22 +118,8 @@ def include(other: Reads) -> None:
     """Add another list, such as that of another process."""
     if (reads := _current.get()) is not None:
         reads.complete &= other.complete
-        for entry, facts in other.entries.items():
-            reads.complete &= reads.entries.setdefault(entry, facts) == facts
-        for entry, sha256 in other.hashes.items():
-            reads.add_hash(entry, sha256)
-
-
-def _look(kind: str, path: str | os.PathLike[str]) -> Facts:
-    """Return the facts about a path now, and record them. Raises OSError if the path can't be accessed."""
-    try:
-        facts = facts_of(kind, path)
-    except OSError as error:
-        _record(kind, path, failed(error))
-        cannot_record()
-        raise
-    _record(kind, path, facts)
-    return facts
+        for entry, fact in other.entries.items():
+            reads.complete &= reads.entries.setdefault(entry, fact) == fact
 
 
 def _record(kind: str, path: str | os.PathLike[str], facts: Facts) -> None:
@@ -152,14 +127,28 @@ def _record(kind: str, path: str | os.PathLike[str], facts: Facts) -> None:
         reads.add(kind, path, facts)
 
 
+def read_stat(path: str | os.PathLike[str]) -> Facts:
+    """Return the facts of a path (see `facts.PATH`); `(0,)` for none. Call it before reading. Raises OSError."""
+    facts = look(PATH, path)
+    _record(PATH, path, facts)
+    if facts[0] < 0:
+        cannot_record()
+        raise OSError(-facts[0], os.strerror(-facts[0]), os.fspath(path))
+    return facts
+
+
 def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
-    """Return the file type (see `stat.S_IFMT`) at a path; 0 for none. Raises OSError if the path can't be accessed."""
-    return type_in(_look(PATH, path), follow=follow)
+    """Return the file type (see `stat.S_IFMT`) at a path; 0 for none. Raises OSError if the path can't be accessed.
+
+    The type of a link is that of its target, unless `follow` is false.
+    """
+    facts = read_stat(path)
+    return stat.S_IFMT(facts[6] if follow and len(facts) > 6 else facts[0])
 
 
 def is_file(path: str | os.PathLike[str]) -> bool:
     """Whether a regular file, or a link to such a file, is at a path. Raises OSError if that is unknown."""
-    return has_file(_look(PATH, path))
+    return file_type(path) == stat.S_IFREG
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
@@ -169,23 +158,14 @@ def is_folder(path: str | os.PathLike[str]) -> bool:
 
 def read_variable(name: str) -> str | None:
     """Return the value of an environment variable; None if it is not set."""
-    _look(VARIABLE, name)
+    _record(VARIABLE, name, look(VARIABLE, name))
     return os.environ.get(name)
 
 
 def read_file(path: str | os.PathLike[str]) -> bytes:
     """Read a regular file of at most `MAX_FILE` bytes. Raises OSError, also for any other kind of file."""
     depend_on(path)
-    content = read_unrecorded(path)
-    note_content(path, content)
-    return content
-
-
-def note_content(path: str | os.PathLike[str], content: bytes) -> None:
-    """Record the hash of a young file: its stat values may not show the next change."""
-    reads, entry = _current.get(), (PATH, os.fspath(path))
-    if reads is not None and entry in reads.hashes:
-        reads.add_hash(entry, hash_content(content))
+    return read_unrecorded(path)
 
 
 def find_unmerged(index: str | os.PathLike[str]) -> set[str]:
@@ -195,48 +175,30 @@ def find_unmerged(index: str | os.PathLike[str]) -> set[str]:
     return found
 
 
-def read_stat(path: str | os.PathLike[str]) -> Facts:
-    """Return the facts of a path (see `facts.PATH`); `(0,)` for none. Call it before reading. Raises OSError."""
-    return _look(PATH, path)
-
-
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:
     """Return the names in a folder, in no order. Raises OSError."""
     return [entry.name for entry in scan_folder(folder)]
 
 
-def scan_folder(folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
-    """Return the entries of a folder, as `scan_modelica`; record all names. Raises OSError."""
-    return _scan(NAMES, folder)
+def scan_folder(folder: str | os.PathLike[str], kind: str = NAMES) -> list[os.DirEntry[str]]:
+    """Return the entries of a folder, in no order; record those that count (see `facts.LISTINGS`). Raises OSError.
 
-
-def scan_modelica(folder: str | os.PathLike[str], left_out: Iterable[str] = ()) -> list[os.DirEntry[str]]:
-    """Return the entries of a folder, in no order; record its folders and Modelica files. Raises OSError.
-
-    Folders with a name in `left_out` may come and go: they are not recorded. Use the names of the entries: their paths
-    may lead into a clone.
+    Use the names of the entries: their paths may lead into a clone.
     """
-    return _scan("/".join((MODELICA, *left_out)), folder)
-
-
-def _scan(kind: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
     try:
-        with os.scandir(place(folder)) as scanned:
-            entries = list(scanned)
+        entries, facts = scan(kind, folder)
     except OSError as error:
-        _record(kind, folder, failed(error))
+        _record(kind, folder, (-(error.errno or 1),))
         raise
-    _record(kind, folder, checksum(counting_entries(kind, entries)))
+    _record(kind, folder, facts)
     return entries
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:
     """Record a file before other code reads it."""
     if _current.get() is not None:
-        try:
-            _look(PATH, path)
-        except OSError:
-            return  # the reader meets the same error, and reports it
+        with contextlib.suppress(OSError):  # the reader meets the same error, and reports it
+            read_stat(path)
 
 
 def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
@@ -249,8 +211,7 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
         except OSError:
             continue  # the folder is missing or unreadable
         for path in [f"{current}{os.sep}{name}" for name in names]:
-            facts = _look(PATH, path)
-            if has_file(facts):
+            if is_file(path):
                 yield path
-            elif type_in(facts, follow=False) == stat.S_IFDIR:
+            elif file_type(path, follow=False) == stat.S_IFDIR:
                 waiting.append(path)

@@ -7,16 +7,15 @@ until all robots are built.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import msgspec
 
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
-from urdfsync.dependencies.facts import Entry, Facts
-from urdfsync.dependencies.reads import Reads
-from urdfsync.dependencies.record import FactList
+from urdfsync.dependencies.facts import Dependencies
+from urdfsync.dependencies.reads import Reads, include
 from urdfsync.diagnostics import (
     ConfigError,
     Diagnostic,
@@ -27,11 +26,11 @@ from urdfsync.diagnostics import (
     UrdfsyncError,
     findings_of,
 )
-from urdfsync.engine import remembered
 from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import plan_robot
+from urdfsync.engine.remembered import RobotRecords
 from urdfsync.engine.result import Outlook, Result
 from urdfsync.engine.stage.writes import Plan, shared_change
 from urdfsync.files import shown
@@ -42,7 +41,7 @@ from urdfsync.state.store import Store
 from urdfsync.state.transaction import Transactions, UnfinishedError, is_interrupted
 
 if TYPE_CHECKING:
-    from urdfsync.engine.pool import Pool
+    from urdfsync.engine.pool import Planned
 
 WAITING = "waiting for"
 """Words of progress while another process builds; a description of the process follows."""
@@ -60,9 +59,10 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
         known = builder.recall(robots)
         changed = [robot for robot in robots if robot.name not in known]
         if len(changed) >= _LEAST_ROBOTS and (options.jobs or machine.cores()) > 1:
-            from urdfsync.engine.pool import start_pool  # multiprocessing takes 15 ms to import
+            from urdfsync.engine.pool import plan_ahead  # multiprocessing takes 15 ms to import
 
-            builder.pool = stack.enter_context(start_pool(config, changed, options))
+            builder.plans = plan_ahead(config, changed, options)
+            stack.callback(builder.plans.close)
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
             built = known.get(robot.name) or builder.build(robot)
@@ -91,8 +91,8 @@ class _Built(NamedTuple):
     """The outlook of one robot whose plan was carried out, or its failure."""
 
     outlook: Outlook
-    reads: FactList
-    """Facts about all files that the build has read; written files have their new facts."""
+    reads: Dependencies
+    """All that the build has read; written files have their new facts."""
     warnings: Sequence[Diagnostic] = ()
     """Warnings about the output folder."""
     failure: Mapping[str, Any] = {}
@@ -104,9 +104,9 @@ class _Builder:
 
     def __init__(self, config: Config, options: BuildOptions, lock: Lock) -> None:
         self._config, self._options, self._lock = config, options, lock
-        self._keys = remembered.RecordKeys(config, options)
-        self.pool: Pool | None = None
-        """Plans the robots that are not remembered, if there are many."""
+        self._records = RobotRecords(config, options)
+        self.plans: Generator[tuple[RobotConfig, Planned]] | None = None
+        """The plans of the robots that are not remembered, if there are many."""
         self._state_folder = config.root / STATE_FOLDER
         outputs = {robot.output for robot in config.robots}
         self._transactions = Transactions(config.root, self._state_folder, outputs)
@@ -115,15 +115,14 @@ class _Builder:
 
     def recall(self, robots: Iterable[RobotConfig]) -> dict[str, _Built]:
         """Return what is remembered, by name of robot; robots whose package leaves something to do have none."""
-        known, seen = dict[str, _Built](), dict[Entry, Facts]()
+        known = dict[str, _Built]()
         if self._transactions.is_pending():
             return known
         for robot in robots:
             if not robot.output.is_relative_to(self._config.root):
                 continue  # it matters who trusts the folder
             with contextlib.suppress(UrdfsyncError):  # its domain is missing, or broken: the build reports it
-                key = self._keys.key(robot)
-                if found := remembered.recall(self._config, robot, key, seen):
+                if found := self._records.recall(robot):
                     known[robot.name] = _Built(*found)
         return known
 
@@ -143,20 +142,24 @@ class _Builder:
                 "unfinished": isinstance(error, UnfinishedError),
                 "source_error": error if isinstance(error, SourceError) else None,
             }
-            return _Built(Outlook(diagnostics=findings_of(error)), FactList.of(self._reads), failure=failure)
+            return _Built(Outlook(diagnostics=findings_of(error)), self._reads.entries, failure=failure)
 
     def _plan_and_write(self, robot: RobotConfig) -> _Built:
         """Plan, and write unless the run is dry. Repeat if another build or a save made the plan outdated."""
         saved = robot.folder
-        for _ in range(_ATTEMPTS):
+        for attempt in range(_ATTEMPTS):
             with Reads() as self._reads:
                 self._recover()
-                if self.pool:
-                    plan = self.pool.plan(robot, self._reads)
+                if self.plans and not attempt:
+                    planned, others = next(planned for other, planned in self.plans if other is robot)
+                    include(others)
+                    if isinstance(planned, Exception):
+                        raise planned
+                    plan = planned
                 else:
                     plan = plan_robot(self._config, robot, self._options, self._reads)
             if not self._options.removes and (refused := _refuse(robot, plan.outlook)) is not None:
-                return _Built(refused, FactList.of(self._reads), failure={"failed": True})
+                return _Built(refused, self._reads.entries, failure={"failed": True})
             if self._options.dry:
                 if self._is_current(plan):
                     return self._finish(robot, plan, {})
@@ -186,11 +189,11 @@ class _Builder:
         if plan.notes:
             written = {**written, **notes.save(self._state_folder, robot.name, plan.notes)}
         self._reads.renew(written)
-        facts = FactList.of(self._reads)
+        facts = self._reads.entries
         # without `renews`, a plan writes less than the next one may
         if self._reads.complete and self._options.renews and not (plan.writes or plan.outlook.writes):
             result = Result.of(self._config, robot, plan.outlook, dry=self._options.dry, reads=facts)
-            remembered.remember(self._config, robot, self._keys.key(robot), result)
+            self._records.remember(robot, result)
         return _Built(plan.outlook, facts)
 
     def _is_current(self, plan: Plan) -> bool:

@@ -1,6 +1,6 @@
 """Remembers the result of a robot's last complete build that had nothing to do, with all that this build has read.
 
-Builds, dry runs, `status`, `diff`, the hooks and the daemon ask `recall` before they plan a robot.
+Builds, dry runs, `status`, `diff`, the hooks and the daemon ask it before they plan a robot.
 """
 
 from __future__ import annotations
@@ -13,11 +13,10 @@ import msgspec
 from urdfsync import noop, registry
 from urdfsync.changes import Changes
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies import record
-from urdfsync.dependencies.facts import Entry, Facts
+from urdfsync.dependencies.facts import Dependencies
 from urdfsync.dependencies.places import is_clone
 from urdfsync.dependencies.reads import Reads, depend_on
-from urdfsync.dependencies.record import DependencyRecord, FactList
+from urdfsync.dependencies.record import CONFIGURATION, ROBOT, Record, Records
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
 from urdfsync.engine.inspect.inputs import read_stray_states
@@ -41,82 +40,72 @@ class _Stored(msgspec.Struct, frozen=True, array_like=True):
     """Hash of the robot's lines in the configuration if `diagnostics` state one; else empty."""
 
 
-class RecordKeys:
-    """The keys of the robots of one configuration: each holds all that decides about a robot and is no file."""
+class RobotRecords:
+    """The records of the robots of one configuration, for one command."""
 
     def __init__(self, config: Config, options: BuildOptions) -> None:
+        self._config, self._records = config, Records(config.root / STATE_FOLDER)
+        self._asks_for_plan = bool(options.full or options.draw or options.choices or options.adopts or options.removes)
         folders = [(robot.name, str(robot.folder)) for robot in config.robots]
-        shared = repr(
-            (folders, options.merges, config.file, config.check, options.package_paths, record.surroundings())
-        )
+        shared = repr((folders, options.merges, config.file, config.check, options.package_paths))
         self._shared = digest(shared.encode(errors="surrogateescape"))
-        self._is_plain = not (options.full or options.draw or options.choices or options.adopts or options.removes)
 
     def key(self, robot: RobotConfig) -> str:
-        """Return the robot's key; empty if the options ask for a new plan. Raises ConfigError for a broken domain."""
-        if not self._is_plain:
-            return ""
+        """Return all that decides about a robot and is no file. Raises ConfigError for a broken domain."""
         own = msgspec.structs.replace(robot, lines={}, ignore=frozenset(), refuse=frozenset())
         codes = sorted(robot.ignore), sorted(robot.refuse)  # sets have another order in each process
-        code = "" if registry.is_own(robot.domain) else registry.program(robot.domain)
-        # paths become bytes: names of files may not be UTF-8
-        return digest(msgspec.json.encode((own, codes, self._shared, code), enc_hook=os.fsencode))
+        parts = own, codes, self._shared, registry.program(robot.domain)
+        return digest(msgspec.json.encode(parts, enc_hook=os.fsencode))  # names of files may not be UTF-8
 
+    def recall(self, robot: RobotConfig) -> tuple[Outlook, Dependencies] | None:
+        """Return the remembered outlook for a robot, and all that it rests on.
 
-def recall(config: Config, robot: RobotConfig, key: str, seen: dict[Entry, Facts]) -> tuple[Outlook, FactList] | None:
-    """Return the remembered outlook for a robot, and the facts of all that it rests on.
+        Returns None if anything has changed since, if nothing is remembered, or if the options ask for a new plan.
+        Raises ConfigError for a broken domain.
+        """
+        if self._asks_for_plan or (found := self._records.recall(f"{robot.name}{ROBOT}", self.key(robot))) is None:
+            return None
+        try:
+            stored = msgspec.msgpack.decode(found.result, type=_Stored)
+        except (msgspec.MsgspecError, UnicodeDecodeError):
+            return None
+        if stored.lines and stored.lines != _lines(robot):
+            return None
+        known = Actions(stored.actions), stored.diagnostics
+        return Outlook(*known, is_broken=stored.is_broken, changes=stored.changes), found.dependencies
 
-    Returns None if anything has changed since, or nothing is remembered.
-    `seen` has facts that were looked at just now, and gets the others.
-    """
-    folder, name = str(config.root / STATE_FOLDER), f"{robot.name}{noop.ROBOT}"
-    found = record.recall(folder, name, key, seen) if key else None
-    if found is None:
-        return None
-    try:
-        stored = msgspec.msgpack.decode(found.result, type=_Stored)
-    except (msgspec.MsgspecError, UnicodeDecodeError):
-        return None
-    if stored.lines and stored.lines != _lines(robot):
-        return None
-    known = Actions(stored.actions), stored.diagnostics
-    return Outlook(*known, is_broken=stored.is_broken, changes=stored.changes), found.facts
-
-
-def remember(config: Config, robot: RobotConfig, key: str, result: Result) -> None:
-    """Remember a result without writes; the list of its reads is complete."""
-    if not key or result.failed or result.stale or result.conflicts or result.settled:
-        return
-    stated = any(finding.file == shown(config.file) for finding in result.diagnostics)
-    stored = _Stored(
-        tuple(result.actions), result.diagnostics, result.is_broken, result.changes, _lines(robot) if stated else ""
-    )
-    findings = robot.without_ignored(result.diagnostics)
-    words = [result.summary, _quick_commands(result), still(findings) or noop.NONE, *map(finding_key, findings)]
-    try:
-        content = msgspec.msgpack.encode(stored)
-    except UnicodeEncodeError:  # a file's name is not UTF-8
-        return
-    folder = str(config.root / STATE_FOLDER)
-    DependencyRecord(key, result.reads, words, content).save(folder, f"{robot.name}{noop.ROBOT}")
+    def remember(self, robot: RobotConfig, result: Result) -> None:
+        """Remember a result without writes; the list of its reads is complete."""
+        if self._asks_for_plan or result.failed or result.stale or result.conflicts or result.settled:
+            return
+        stated = any(finding.file == shown(self._config.file) for finding in result.diagnostics)
+        lines, findings = _lines(robot) if stated else "", robot.without_ignored(result.diagnostics)
+        stored = _Stored(tuple(result.actions), result.diagnostics, result.is_broken, result.changes, lines)
+        words = [result.summary, _quick_commands(result), still(findings) or noop.NONE, *map(finding_key, findings)]
+        try:
+            content = msgspec.msgpack.encode(stored)
+        except UnicodeEncodeError:  # a file's name is not UTF-8
+            return
+        self._records.save(f"{robot.name}{ROBOT}", self.key(robot), Record(result.reads, words, content))
 
 
 def remember_configuration(config: Config, reads: Reads) -> None:
     """Remember a configuration without warnings whose robots were all built: then a no-op build need not read it."""
-    if noop.robot_keys(str(config.file), {}) is not None:
+    records, record = Records(config.root / STATE_FOLDER), f"{config.file.name}{CONFIGURATION}"
+    if records.recall(record):
         return  # the record still holds
     for robot in config.robots:
         is_plain = registry.is_own(robot.domain) and robot.output.is_relative_to(config.root)
         if (robot.on_build == "check" and not is_clone()) or not is_plain:
             return  # these builds do more than compare
-    folder = config.root / STATE_FOLDER
     with reads:
         for name in (PLANNED, DRAFT):
-            depend_on(folder / name)
+            depend_on(config.root / STATE_FOLDER / name)
         strays = read_stray_states(config)
-    if not strays:
-        keys = RecordKeys(config, BuildOptions())
-        noop.remember(str(config.file), reads, {robot.name: keys.key(robot) for robot in config.robots})
+    if reads.complete and not strays:
+        robots = RobotRecords(config, BuildOptions())
+        words = [word for robot in config.robots for word in (robot.name, robots.key(robot))]
+        records.save(record, "", Record(reads.entries, words))
 
 
 def _lines(robot: RobotConfig) -> str:

@@ -13,7 +13,7 @@ import msgspec
 
 from urdfsync.changes import Changes
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.record import FactList
+from urdfsync.dependencies.facts import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
 from urdfsync.engine.decide.conflicts import Conflict
@@ -157,8 +157,8 @@ class Result(Outlook, frozen=True, kw_only=True):
     """Whether this was a dry run: nothing was written."""
     checked: Checked | None = None
     """Result of the check after the build; None without a check. `diagnostics` includes the check's findings."""
-    reads: FactList = msgspec.field(default_factory=FactList)
-    """Facts about all files that the build has read; written files have their new facts."""
+    reads: Dependencies = {}
+    """All that the build has read; written files have their new facts."""
 
     @classmethod
     def of(cls, config: Config, robot: RobotConfig, outlook: Outlook, **others: Any) -> Self:

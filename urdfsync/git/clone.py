@@ -18,12 +18,12 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.dependencies import localfile
 from urdfsync.dependencies.places import Clone
 from urdfsync.dependencies.reads import PARENTS
 from urdfsync.diagnostics import SourceError
 from urdfsync.files import digest
 from urdfsync.git import GitError, Repository, hook, list_paths, run
-from urdfsync.git.hook import ExportedIndex
 from urdfsync.state.lock import Lock
 
 _FOLDER, _LINK, _SUBMODULE = "040000", "120000", "160000"
@@ -46,7 +46,9 @@ class Commit(msgspec.Struct, frozen=True):
 
     repository: Repository
     clone: Clone
-    export: ExportedIndex
+    configurations: Sequence[str]
+    lost: Sequence[str]
+    """The configurations on disk that the commit lacks, although it has their states."""
     files: frozenset[str]
     """All files, links and submodules of the commit. All paths are from the top."""
     changed: Mapping[str, PathChange] | None
@@ -67,11 +69,11 @@ def export(repository: Repository, wait: float) -> Iterator[Commit]:
 
 
 def _export(repository: Repository, folder: Path) -> Commit:
-    record, clone, index = hook.record_place(repository), str(folder / "clone"), folder / "index"
-    former = ExportedIndex.read(record)
-    Path(record).unlink(missing_ok=True)  # if this process is killed, the next hook begins anew
-    if former is None or len(_names(f"{clone}/.git/objects/17")) > _MOST_OBJECTS:
-        former = None
+    record, clone, index = folder / "exported", str(folder / "clone"), folder / "index"
+    former = (localfile.read(record) or b"").decode(errors="replace")
+    record.unlink(missing_ok=True)  # if this process is killed, the next hook begins anew
+    if not former or len(_names(f"{clone}/.git/objects/17")) > _MOST_OBJECTS:
+        former = ""
         _remove(clone)
     _prepare(clone, repository.objects)
     content = hook.read_index(repository)
@@ -82,7 +84,7 @@ def _export(repository: Repository, folder: Path) -> Commit:
     attributes = [entry for entry in entries if entry[0].rpartition("/")[2] == ".gitattributes"]
     settings = run("config", "--list", clone=clone)
     conversions = digest(f"{attributes}{settings}{[*modules]}".encode(errors="surrogateescape"))
-    if former and former.conversions != conversions:  # git would rewrite only files with another content
+    if former and former != conversions:  # git would rewrite only files with another content
         for name in _names(clone):
             _remove(f"{clone}/{name if name != '.git' else '.git/index'}")
     run("read-tree", "-u", "--reset", tree, clone=clone)
@@ -91,10 +93,13 @@ def _export(repository: Repository, folder: Path) -> Commit:
     parents = [parent for name in ("HEAD", "MERGE_HEAD") for parent in _find_commits(repository, name)]
     _set_head(clone, tree, parents)
     is_complete = _export_submodules(clone, modules, repository.folder, repository.top)
-    export = ExportedIndex(hook.identify(content) if is_complete else "", conversions, *hook.find_configurations(names))
-    export.write(record)
+    localfile.replace(str(record), conversions.encode())
+    configurations, lost = hook.find_configurations(names)
+    if is_complete:
+        hook.remember(repository, content, configurations, lost)
+    lost = [path for path in lost if Path(repository.top, path).is_file()]
     changed = dict(_changes(clone, parents[0], tree)) if parents else None
-    return Commit(repository, view, export, frozenset(names), changed)
+    return Commit(repository, view, configurations, lost, frozenset(names), changed)
 
 
 def _write_tree(clone: str, index: Path) -> str:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
-
 from urdfsync import git, noop
-from urdfsync.dependencies import localfile
+from urdfsync.dependencies.facts import NOTHING, PATH
 from urdfsync.dependencies.places import Clone
+from urdfsync.dependencies.record import Record, Records
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 ms
 if TYPE_CHECKING:
@@ -14,34 +13,8 @@ if TYPE_CHECKING:
 
 _CHECKSUM = 20
 """The number of bytes at the end of an index that identify it, as a part of its checksum."""
-
-
-class ExportedIndex:
-    """What the hook's clone was exported from (see `git.clone`)."""
-
-    def __init__(self, index: str, conversions: str, configurations: Sequence[str], lost: Sequence[str]) -> None:
-        """`index` identifies the index; it is empty if a submodule was not at hand.
-
-        `conversions` is a hash of the submodules, and of the settings and attributes by which git converts files.
-        `lost` are the untracked configurations of tracked states. All paths are from the top.
-        """
-        self.index, self.conversions = index, conversions
-        self.configurations, self.lost = configurations, lost
-
-    @classmethod
-    def read(cls, file: str) -> ExportedIndex | None:
-        """Return the last export; None if there is none, or if an export is under way or was killed."""
-        try:
-            index, conversions, *lists = os.fsdecode(localfile.read(file) or b"").split("\0\0")
-            configurations, lost = ([path for path in text.split("\0") if path] for text in lists)
-        except ValueError:
-            return None
-        return cls(index, conversions, configurations, lost)
-
-    def write(self, file: str) -> None:
-        """Write the file of the last export."""
-        texts = self.index, self.conversions, "\0".join(self.configurations), "\0".join(self.lost)
-        localfile.replace(file, os.fsencode("\0\0".join(texts)))
+_EXPORT = "export"
+"""The name of the record of the clone: its key identifies the index, its words are the configurations."""
 
 
 def is_answered(arguments: list[str]) -> bool:
@@ -49,21 +22,22 @@ def is_answered(arguments: list[str]) -> bool:
     if arguments not in (["hook", "build"], ["hook", "check"]):
         return False
     repository = git.Repository()
-    export = ExportedIndex.read(record_place(repository))
-    is_merge = os.path.exists(f"{repository.folder}/MERGE_HEAD")  # other parents, perhaps without another index
-    if export is None or is_merge or export.index != identify(read_index(repository)):
+    place, key = f"{repository.folder}/urdfsync", _identify(read_index(repository))
+    if (export := Records(place).recall(_EXPORT, key)) is None:
         return False
-    with Clone(repository.top, f"{repository.folder}/urdfsync/clone"):
-        files = (f"{repository.top}/{path}" for path in export.configurations)
-        if find_lost(repository, export) or not all(map(noop.is_in_step, files)):
-            return False
-    after = ExportedIndex.read(record_place(repository))
-    return after is not None and after.index == export.index  # otherwise another hook changed the clone meanwhile
+    with Clone(repository.top, f"{place}/clone"):
+        is_in_step = all(noop.is_in_step(f"{repository.top}/{path}") for path in export.words)
+    return is_in_step and Records(place).recall(_EXPORT, key) is not None  # else another hook changed the clone
 
 
-def record_place(repository: git.Repository) -> str:
-    """Return the file of the last export."""
-    return f"{repository.folder}/urdfsync/exported"
+def remember(repository: git.Repository, index: bytes, configurations: Sequence[str], lost: Iterable[str]) -> None:
+    """Remember that the clone has the files of this index, until there is a merge or one of the `lost` files.
+
+    Another merge has other parents, perhaps without another index.
+    """
+    absent = f"{repository.folder}/MERGE_HEAD", *(f"{repository.top}/{path}" for path in lost)
+    dependencies = {(PATH, path): hash(NOTHING) for path in absent}
+    Records(f"{repository.folder}/urdfsync").save(_EXPORT, _identify(index), Record(dependencies, configurations))
 
 
 def read_index(repository: git.Repository) -> bytes:
@@ -75,7 +49,7 @@ def read_index(repository: git.Repository) -> bytes:
         return b""
 
 
-def identify(index: bytes) -> str:
+def _identify(index: bytes) -> str:
     """Return a text that identifies the content of an index."""
     checksum = index[-_CHECKSUM:]
     if not any(checksum):  # a setting of git's lets it write no checksum
@@ -87,13 +61,8 @@ def identify(index: bytes) -> str:
 
 def find_configurations(files: Iterable[str]) -> tuple[list[str], list[str]]:
     """Return the configurations among the files of a commit, and those that are missing beside recorded states."""
-    name, states = noop.CONFIGURATION, "/.urdfsync/robots/"
+    name, states = noop.FILE_NAME, "/.urdfsync/robots/"
     files = [f"/{path}" for path in files]
     found = {path[1:] for path in files if path.rpartition("/")[2] == name}
     of_states = {f"{path.rpartition(states)[0]}/{name}"[1:] for path in files if states in path}
     return sorted(found), sorted(of_states - found)
-
-
-def find_lost(repository: git.Repository, export: ExportedIndex) -> list[str]:
-    """Return the configurations on disk that the commit lacks, although it has their states."""
-    return [path for path in export.lost if os.path.isfile(f"{repository.top}/{path}")]

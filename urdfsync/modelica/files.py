@@ -9,7 +9,8 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
-from urdfsync.dependencies.reads import is_file, scan_modelica
+from urdfsync.dependencies.facts import MODELICA
+from urdfsync.dependencies.reads import is_file, scan_folder
 
 ClassName: TypeAlias = tuple[str, ...]
 PACKAGE_FILE = "package.mo"
@@ -60,7 +61,8 @@ def modelica_files(
             raise TooManyFoldersError
         inside: list[os.DirEntry[str]] = []
         with contextlib.suppress(OSError):
-            inside = sorted(scan_modelica(current, names_left_out.get(current, ())), key=lambda entry: entry.name)
+            kind = "/".join((MODELICA, *names_left_out.get(current, ())))
+            inside = sorted(scan_folder(current, kind), key=lambda entry: entry.name)
         if current not in tops and any(entry.name in others for entry in inside):
             continue
         for entry in inside:

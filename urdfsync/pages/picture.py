@@ -10,6 +10,7 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.checks import cache as caches
+from urdfsync.dependencies.program import contents_hash
 from urdfsync.dependencies.reads import read_file
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Import, Role, Target, Version
@@ -100,7 +101,7 @@ def picture(
     others = sorted(files.keys() & {shape.mesh for shape in shapes} - {*seen})
     cache, code, most, meshes = (
         caches.UserCache.default(),
-        registry.program(robot.domain),
+        contents_hash(*registry.code(robot.domain)),
         _MOST,
         dict[str, PageMesh | str](),
     )

@@ -41,7 +41,7 @@ class LimitedProcess:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
-        self._lock = threading.Lock()  # the workers of a Dask cluster are threads
+        self._lock = threading.Lock()  # scripts may call the API from several threads
 
     def command(self) -> tuple[Sequence[str], Mapping[str, str]]:
         """Return the command that starts the process, and variables of its environment."""

@@ -12,8 +12,7 @@ import msgspec
 
 from urdfsync.dependencies import localfile
 from urdfsync.dependencies.places import is_clone
-from urdfsync.dependencies.reads import depend_on, note_content
-from urdfsync.files import digest
+from urdfsync.dependencies.reads import depend_on
 
 
 class Use(msgspec.Struct, frozen=True):
@@ -48,10 +47,8 @@ def load(state_folder: Path, robot: str) -> Notes:
     """Return this machine's notes on a robot; empty notes if there are none."""
     file = place(state_folder, robot)
     depend_on(file)
-    content = localfile.read_whole(file) or b""
-    note_content(file, content)
     try:
-        notes = msgspec.json.decode(content.partition(b"\n")[2], type=Notes)
+        notes = msgspec.json.decode(localfile.read(file) or b"", type=Notes)
     except (ValueError, RecursionError):
         return Notes()
     if is_clone():  # of this machine's work, a clone may skip conversions, but it has no history
@@ -59,8 +56,8 @@ def load(state_folder: Path, robot: str) -> Notes:
     return notes
 
 
-def save(state_folder: Path, robot: str, notes: Notes) -> dict[str, str | None]:
-    """Write the notes on a robot, if there is a state folder; return the hash of the file by its path.
+def save(state_folder: Path, robot: str, notes: Notes) -> dict[str, None]:
+    """Write the notes on a robot, if there is a state folder; return the path of the file, as a key.
 
     If writing fails, the next build repeats the work. A clone has no notes.
     """
@@ -68,8 +65,7 @@ def save(state_folder: Path, robot: str, notes: Notes) -> dict[str, str | None]:
         return {}
     file = str(place(state_folder, robot))
     localfile.replace(file, msgspec.json.encode(notes, order="sorted"))
-    content = localfile.read_whole(file)
-    return {file: None if content is None else digest(content)}
+    return {file: None}
 
 
 def place(state_folder: Path, robot: str) -> Path:

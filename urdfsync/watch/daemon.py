@@ -23,9 +23,8 @@ import msgspec
 
 from urdfsync import config
 from urdfsync.config import STATE_FOLDER, Config, warnings
-from urdfsync.dependencies.facts import LISTINGS, Entry, look
+from urdfsync.dependencies.facts import LISTINGS, Dependencies, Entry, changes, look
 from urdfsync.dependencies.reads import Reads, read_file
-from urdfsync.dependencies.record import FactList
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.build import WAITING, build
 from urdfsync.engine.options import BuildOptions
@@ -191,15 +190,15 @@ class Daemon:
         self._note(tuple(warnings.find_warnings(loaded, robots)))
         self._watch_folders()
 
-    def _read_config(self) -> FactList:
+    def _read_config(self) -> Dependencies:
         """Return the facts about the configuration's file."""
         with Reads() as reads, contextlib.suppress(OSError):  # `load` reports the error
             read_file(self._options.file.absolute())
-        return FactList.of(reads)
+        return reads.entries
 
     def _reload_config(self) -> bool:
         """Read the configuration again if it has changed; while it is invalid, keep the last valid one."""
-        if not any(self._config_facts.changes(self._config_facts.look())):
+        if not any(changes(self._config_facts, {})):
             return False
         self._config_facts = self._read_config()
         try:

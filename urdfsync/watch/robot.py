@@ -11,8 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies.facts import PATH, VARIABLE, Entry, Facts, is_young
-from urdfsync.dependencies.record import FactList
+from urdfsync.dependencies.facts import CONTENT, PATH, VARIABLE, Dependencies, Entry, Facts, aged, is_young, look
 from urdfsync.diagnostics import Diagnostic
 
 
@@ -20,11 +19,9 @@ class WatchedRobot(msgspec.Struct):
     """One configured robot, and the daemon's plans for it."""
 
     robot: RobotConfig
-    facts: FactList = msgspec.field(default_factory=FactList)
-    """Facts about all that the last build has read or written, and about the configuration."""
-    index: Mapping[Entry, int] = {}
-    """The number of each entry."""
-    seen: Sequence[Facts] = ()
+    dependencies: Dependencies = {}
+    """All that the last build has read or written, and the configuration."""
+    seen: Mapping[Entry, Facts] = {}
     """The facts at the last look."""
     changes: Sequence[Entry] = ()
     """What has changed between the last build and the last look."""
@@ -32,7 +29,7 @@ class WatchedRobot(msgspec.Struct):
     """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
     is_told: bool = False
     """Whether `Settling` was reported; the daemon's own writes cause no report."""
-    sample: Sequence[Facts] | None = None
+    sample: Mapping[Entry, Facts] | None = None
     """The facts at the look before the last; None if an event came since. Two equal looks: the robot has settled."""
     invalid_until: float = 0.0
     """The time until an invalid source becomes an error; 0 for a valid source, and once it is an error."""
@@ -54,33 +51,34 @@ class WatchedRobot(msgspec.Struct):
         """Look at the files at this time, and forget earlier looks."""
         self.due, self.is_told, self.sample, self.invalid_until = due, is_told, None, 0.0
 
-    def take(self, facts: FactList, config: FactList) -> bool:
+    def take(self, reads: Dependencies, config: Dependencies) -> bool:
         """Take what a build has read; return whether the last build had other entries. Call `look` afterwards."""
-        before = set(self.facts.entries)
+        before = self.places
         # without entries, a bug ended the build: do not repeat the build
-        self.facts = facts.extended(config) if facts.entries else self.facts.renewed()
-        self.index, self.seen = {entry: number for number, entry in enumerate(self.facts.entries)}, ()
-        return before != set(self.facts.entries)
+        self.dependencies = {**reads, **config} if reads else {e: hash(look(*e)) for e in self.dependencies}
+        self.seen = {}
+        return before != self.places
 
     def has_seen(self, present: Mapping[Entry, Facts]) -> bool:
         """Return whether the last look found these facts. A file that is young now may have changed since."""
         now = time.time_ns()
-        own = {entry: self.index[entry] for entry in present.keys() & self.index.keys()}
-        is_same = all(self.seen[number : number + 1] == [present[entry]] for entry, number in own.items())
-        return is_same and not any(entry[0] == PATH and is_young(present[entry], now) for entry in own)
+        own = {entry: facts for entry, facts in present.items() if entry in self.dependencies}
+        is_same = all(self.seen.get(entry) == facts for entry, facts in own.items())
+        return is_same and not any(entry[0] == PATH and is_young(facts, now) for entry, facts in own.items())
 
     def look(self) -> bool:
         """Look at all entries; return whether one of them changed since the last look."""
-        before, self.seen = self.seen, list(self.facts.look())
-        self.changes = list(self.facts.changes(self.seen))
+        before, self.seen = self.seen, {entry: look(*entry) for entry in self.dependencies}
+        self.changes = [entry for entry, fact in self.dependencies.items() if hash(self.seen[entry]) != fact]
         if not self.changes:
-            self.facts = self.facts.aged()
+            self.dependencies = aged(self.dependencies, time.time_ns())
+            self.seen = {entry: self.seen[entry] for entry in self.dependencies}
         return self.seen != before
 
     @property
     def places(self) -> set[Entry]:
         """The entries in which events may come: a process keeps its environment."""
-        return {entry for entry in self.facts.entries if entry[0] != VARIABLE}
+        return {entry for entry in self.dependencies if entry[0] not in (CONTENT, VARIABLE)}
 
     @property
     def has_changed(self) -> bool:
@@ -91,5 +89,5 @@ class WatchedRobot(msgspec.Struct):
     def changed_file(self) -> str:
         """The changed file, an input before outputs; empty without a change to report, as of a list of names."""
         package = f"{self.robot.folder}{os.sep}"
-        paths = (path for kind, path in self.changes if kind == PATH)
+        paths = (path for kind, path in self.changes if kind in (PATH, CONTENT))
         return min(paths, key=lambda path: (path.startswith(package), path != str(self.robot.source), path), default="")

@@ -234,7 +234,7 @@ def test_a_change_of_another_file_is_a_change_of_the_mesh(painted: Path, execute
 def test_the_other_files_are_listed_as_read_too(painted: Path) -> None:
     loaded = config.load(painted / "urdfsync.toml")
     (result,) = build(loaded, loaded.robots, BuildOptions(dry=True))
-    read = {path for check, path in result.reads.entries if check == PATH}
+    read = {path for check, path in result.reads if check == PATH}
     assert {str(painted / "meshes" / name) for name in ("a.obj", "paint.mtl", "textures/wood.png")} <= read
 
 

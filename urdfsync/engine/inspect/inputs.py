@@ -181,7 +181,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         generator=generator,
         options=option_values(robot.options),
     )
-    program = digest(f"{registry.program(robot.domain, store.folder)} {templates.digest}".encode())
+    program = digest(f"{registry.program(robot.domain)} {templates.digest}".encode())
     if notes.program != program:  # another program wrote these texts and imports
         notes = msgspec.structs.replace(notes, texts={}, imports=frozenset())
     record = unite(records or [nothing])

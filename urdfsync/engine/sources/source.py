@@ -15,7 +15,7 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.config.trust import find_untrusted_command
-from urdfsync.dependencies.facts import PATH, facts_of, read_unrecorded
+from urdfsync.dependencies.facts import PATH, look, read_unrecorded
 from urdfsync.dependencies.places import real
 from urdfsync.dependencies.reads import (
     cannot_record,
@@ -316,7 +316,7 @@ def _check_templates(folder: Path) -> None:
         elif kind == stat.S_IFLNK and not Path(real(path)).is_relative_to(real(folder)):
             message = "the link leads out of the template folder"
             hint = "replace it by a copy of its target"
-        elif target == stat.S_IFREG and facts_of(PATH, path)[-3] > MAX_TEMPLATE:
+        elif target == stat.S_IFREG and look(PATH, path)[-3] > MAX_TEMPLATE:
             depend_on(path)
             message = f"the file has more than {MAX_TEMPLATE:,} bytes, which is too large for a template"
             hint = "move it out of the template folder"

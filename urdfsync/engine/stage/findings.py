@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from urdfsync.changes import Changes
+from urdfsync.dependencies.facts import PATH
 from urdfsync.dependencies.reads import Reads, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Snapshot
@@ -142,7 +143,7 @@ def _unmerged(inputs: Inputs, reads: Reads) -> Iterator[Diagnostic]:
     if not (unmerged := inputs.unmerged_paths):
         return
     found = {str(inputs.files.path(key)) for key in inputs.unmerged}
-    for path in (str(inputs.config.file), *reads.files()):
+    for path in (str(inputs.config.file), *(path for kind, path in reads.entries if kind == PATH)):
         real = os.path.realpath(path)
         if not path.endswith(".mo") and not unmerged.isdisjoint((real, *map(str, Path(real).parents))):
             found.add(path)
