@@ -19,6 +19,7 @@ import numpy as np
 
 from urdfsync.mjcf.document import MjcfDocument
 from urdfsync.mjcf.drives import Drives, JointActuator
+from urdfsync.mjcf.geoms import add_shapes, compare_shapes
 from urdfsync.mjcf.scene import WORLD, MujocoScene, read_scene
 from urdfsync.urdf.parse.xml import parse
 
@@ -62,10 +63,10 @@ def compare(document: MjcfDocument, text: str, body: str = "") -> tuple[int, tup
         scene.model.actuator_delay[:] = 0.0
     efforts = [*_efforts(scene, root), *_laws(scene, root)]
     _leave_out(scene)
-    model = _read_urdf(root, scene.links[scene.root] if scene.is_floating else "")
+    model = _read_urdf(root, document, scene.links[scene.root] if scene.is_floating else "")
     joints = list(_joints(scene, model))
     states = np.random.default_rng(0)
-    total, worst = 0, dict[str, tuple[float, str]]()
+    (total, shapes), worst = compare_shapes(scene, root, model), dict[str, tuple[float, str]]()
     motion = (each for _ in range(_STATES) for each in _motion(scene, model, joints, states))
     for numbers in (*efforts, *_constants(scene, model, joints, root), *motion):
         total += numbers.source.size
@@ -74,7 +75,7 @@ def compare(document: MjcfDocument, text: str, body: str = "") -> tuple[int, tup
         if not error <= _TOLERANCE:  # not a number is an error, too
             worst[numbers.quantity] = max(worst.get(numbers.quantity, (0.0, "")), (error, numbers.element))
     differences = (f"{quantity} of {element} differs by {error:.1e}" for quantity, (error, element) in worst.items())
-    return total, tuple(differences)
+    return total, (*differences, *shapes)
 
 
 def _leave_out(scene: MujocoScene) -> None:
@@ -99,8 +100,8 @@ def _leave_out(scene: MujocoScene) -> None:
     mujoco.mj_setConst(model, mujoco.MjData(model))
 
 
-def _read_urdf(root: Element, floating: str) -> Any:
-    """Return MuJoCo's model of a URDF without shapes; a joint moves its link `floating`, if there is one."""
+def _read_urdf(root: Element, document: MjcfDocument, floating: str) -> Any:
+    """Return MuJoCo's model of a URDF with its shapes; a joint moves its link `floating`, if there is one."""
     robot = copy.deepcopy(root)
     for part in [part for part in robot if part.tag not in ("link", "joint")]:
         robot.remove(part)
@@ -115,9 +116,18 @@ def _read_urdf(root: Element, floating: str) -> Any:
         joint = SubElement(robot, "joint", name=_FREE, type="floating")
         SubElement(joint, "parent", link=WORLD)
         SubElement(joint, "child", link=floating)
-    settings = {"fusestatic": "false", "balanceinertia": "false", "boundmass": _LEAST, "boundinertia": _LEAST}
+    settings = {
+        "inertiafromgeom": "false",
+        "discardvisual": "false",
+        "fusestatic": "false",
+        "balanceinertia": "false",
+        "boundmass": _LEAST,
+        "boundinertia": _LEAST,
+    }
     SubElement(SubElement(robot, "mujoco"), "compiler", settings)
-    return mujoco.MjSpec.from_string(tostring(robot, "unicode")).compile()
+    spec = mujoco.MjSpec.from_string(tostring(robot, "unicode"))
+    add_shapes(spec, root, document)
+    return spec.compile()
 
 
 def _joints(scene: MujocoScene, urdf: Any) -> Iterator[_Joint]:
