@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from support.mjcf_schema import NEEDS_ARMATURE
 from support.mjcfs import ARM, body, document, stl, urdf, world
 
 from urdfsync.mjcf.comparison import compare
@@ -24,14 +25,19 @@ ROBOTS = {
         '<joint name="f" type="free" armature="1"/><body><joint name="j"/><geom size="0.1"/></body>'
     ).replace(
         "</mujoco>",
-        '<actuator><motor joint="j" armature="2"/></actuator><option><flag gravity="disable"/></option></mujoco>',
+        '<actuator><motor joint="j"/></actuator><option><flag gravity="disable"/></option></mujoco>',
+    ),
+    "motor with armature": body('<joint name="j"/>').replace(
+        "</mujoco>", '<actuator><motor joint="j" armature="2"/></actuator></mujoco>'
     ),
     "ball with friction": body('<joint type="ball" frictionloss="1" stiffness="2"/>', '<size memory="3G"/>'),
     "massless": body('<joint/><body name="hand" pos="0 0 1" quat="1 1 0 0"/><site name="tip" pos="1 0 0"/>'),
 }
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=NEEDS_ARMATURE if "motor" in name else ()) for name in ROBOTS]
+)
 def test_a_translation_agrees_with_its_source(name: str) -> None:
     compared, differences = compare(document(ROBOTS[name]), urdf(ROBOTS[name]))
     assert compared > 50
@@ -117,18 +123,33 @@ def test_shapes_agree_with_their_source() -> None:
     compared, differences = compare(document(SHAPES, FILES), urdf(SHAPES, FILES))
     assert differences == ()
     without = SHAPES[: SHAPES.index("<geom")] + SHAPES[SHAPES.index("</body>") :]
-    assert compared - compare(document(without, FILES), urdf(without, FILES))[0] == 2 * (15 + 13 + 15 + 14 + 14 + 15) - 13 - 15
+    assert (
+        compared - compare(document(without, FILES), urdf(without, FILES))[0]
+        == 2 * (15 + 13 + 15 + 14 + 14 + 15) - 13 - 15
+    )
 
 
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('size="0.2 0.4 0.6"', 'size="0.2 0.4 0.3"', "visual of link part is a box of 0.2 0.4 0.3 at 0.5 2 3 turned by "),
-        ('sphere radius="0.25"', 'sphere radius="0.5"', "collision of link part is a sphere of 0.5 at -0.5 0 0 turned by "),
+        (
+            'size="0.2 0.4 0.6"',
+            'size="0.2 0.4 0.3"',
+            "visual of link part is a box of 0.2 0.4 0.3 at 0.5 2 3 turned by ",
+        ),
+        (
+            'sphere radius="0.25"',
+            'sphere radius="0.5"',
+            "collision of link part is a sphere of 0.5 at -0.5 0 0 turned by ",
+        ),
         ('radii="0.1 0.2 0.4"', 'radii="0.1 0.2 0.4000001"', "visual of link part is a ellipsoid of 0.1 0.2 0.4000001"),
         ('length="1.0"', 'length="0.5"', "visual of link part is a cylinder of 0.375 0.5 at -0.5 0 0 turned by "),
         ("cylinder radius", "capsule radius", "visual of link part is a capsule of 0.375 1 at -0.5 0 0 turned by "),
-        ('xyz="0.5 2.0 3.0"', 'xyz="0.5 2.0 3.00001"', "visual of link part is a box of 0.2 0.4 0.6 at 0.5 2 3.00001 turned by "),
+        (
+            'xyz="0.5 2.0 3.0"',
+            'xyz="0.5 2.0 3.00001"',
+            "visual of link part is a box of 0.2 0.4 0.6 at 0.5 2 3.00001 turned by ",
+        ),
         ('rpy="0.331', 'rpy="0.441', "visual of link part is a box of 0.2 0.4 0.6 at 0.5 2 3 turned by 0.44175"),
         ('scale="1.0 2.0 -1.0"', 'scale="1.0 2.0 -1.00001"', "visual of link part is a mesh of "),
         ('scale="1.0 2.0 -1.0"', 'scale="1.0 2.0 1.0"', "visual of link part is a mesh of "),

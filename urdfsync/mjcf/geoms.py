@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from urdfsync.mjcf.document import MjcfDocument
-from urdfsync.mjcf.scene import MujocoScene
+from urdfsync.mjcf.scene import WORLD, MujocoScene
 from urdfsync.urdf.kinematics.poses import angles
 
 _KINDS = {
@@ -27,6 +27,7 @@ _KINDS = {
     "mesh": (mujoco.mjtGeom.mjGEOM_MESH, (), ()),
 }
 """Kinds of shapes in URDF: MuJoCo's kind, the attributes of their sizes, and MuJoCo's sizes for a size of 1."""
+_TENSOR = "ixx", "iyy", "izz", "ixy", "ixz", "iyz"
 _TURNING = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_BALL)
 _SHOWN = 2
 """The last group of geoms that MuJoCo's viewers show: these are visuals."""
@@ -57,6 +58,17 @@ class _Shape(NamedTuple):
         return f"a {self.kind} of {sizes} at {place}" + (f" turned by {turn}" if turn else "")
 
 
+def set_inertias(spec: Any, root: Element) -> None:
+    """Give links their principal inertias as written: in URDF, MuJoCo before 3.17 loses the turn of `<origin>`."""
+    for link in root.iterfind("link[inertial]"):
+        inertia, origin = link.find("inertial/inertia"), link.find("inertial/origin")
+        values = [float(inertia.get(name, "nan")) for name in _TENSOR] if inertia is not None else [1.0] * 6
+        if link.get("name") != WORLD and origin is not None and not any(values[3:]):
+            body = spec.body(link.get("name"))
+            body.iquat, body.inertia = _quaternion(origin.get("rpy", "0 0 0")), values[:3]
+            body.fullinertia = np.full(6, np.nan)
+
+
 def add_shapes(spec: Any, root: Element, document: MjcfDocument) -> None:
     """Add the shapes of a URDF to MuJoCo's reading of its links; the name of each has its link and its number there."""
     names = {path: name for name, path in document.meshes.items()}
@@ -69,10 +81,10 @@ def add_shapes(spec: Any, root: Element, document: MjcfDocument) -> None:
             if geometry.tag not in _KINDS or mesh is None:
                 continue
             kind, attributes, factors = _KINDS[geometry.tag]
-            place, quaternion = {} if origin is None else origin.attrib, np.zeros(4)
-            mujoco.mju_euler2Quat(quaternion, _numbers(place.get("rpy", "0 0 0")), "XYZ")
-            geom = spec.body(link.get("name")).add_geom(name=f"{link.get('name')} {number}", type=kind, quat=quaternion)
-            geom.pos, geom.contype, geom.conaffinity = _numbers(place.get("xyz", "0 0 0")), 0, 0
+            place = {} if origin is None else origin.attrib
+            geom = spec.body(link.get("name")).add_geom(name=f"{link.get('name')} {number}", type=kind)
+            geom.pos, geom.quat = _numbers(place.get("xyz", "0 0 0")), _quaternion(place.get("rpy", "0 0 0"))
+            geom.contype, geom.conaffinity = 0, 0
             geom.size[: len(factors)] = factors * _numbers(" ".join(geometry.get(name, "") for name in attributes))
             if mesh:  # a shell has no volume that MuJoCo could refuse
                 geom.meshname = f"{geom.name} mesh"
@@ -117,6 +129,12 @@ def compare_shapes(scene: MujocoScene, root: Element, urdf: Any) -> tuple[int, l
 
 def _shapes(link: Element) -> list[Element]:
     return [*link.iterfind("visual"), *link.iterfind("collision")]
+
+
+def _quaternion(angles_of_urdf: str) -> Any:
+    quaternion = np.zeros(4)
+    mujoco.mju_euler2Quat(quaternion, _numbers(angles_of_urdf), "XYZ")
+    return quaternion
 
 
 def _numbers(text: str) -> Any:
