@@ -125,7 +125,7 @@ def test_shapes_agree_with_their_source() -> None:
     without = SHAPES[: SHAPES.index("<geom")] + SHAPES[SHAPES.index("</body>") :]
     assert (
         compared - compare(document(without, FILES), urdf(without, FILES))[0]
-        == 2 * (15 + 13 + 15 + 14 + 14 + 15) - 13 - 15
+        == 2 * (15 + 13 + 15 + 14 + 14 + 12) - 13 - 15
     )
 
 

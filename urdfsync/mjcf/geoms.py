@@ -7,7 +7,7 @@ in the frame of the link they stand where the file has them, so all corners are 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -31,31 +31,21 @@ _TENSOR = "ixx", "iyy", "izz", "ixy", "ixz", "iyz"
 _TURNING = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_BALL)
 _SHOWN = 2
 """The last group of geoms that MuJoCo's viewers show: these are visuals."""
-_PRIMITIVES = _KINDS.keys() - {"mesh"}
 _TOLERANCE, _OF_MESHES = 1e-9, 1e-6
 """The greatest errors, relative to the largest number: MuJoCo has corners of meshes in single precision."""
 
 
 class _Shape(NamedTuple):
-    kind: str
-    sizes: Any
-    """For a mesh, those of its bounding box."""
-    place: Any
-    """For a mesh, the middle of its bounding box."""
-    rest: Any
-    """Rotation, or the corners of a mesh."""
+    words: str
+    numbers: Any
+    """Sizes and pose, or the corners of a mesh."""
+    tolerance: float = _TOLERANCE
 
-    def error(self, other: _Shape) -> float:
-        """Return the difference of another shape, relative to the greatest number."""
-        if self.kind != other.kind or self.rest.shape != other.rest.shape:
-            return np.inf
-        first, second = (np.concatenate([np.ravel(part) for part in each[1:]]) for each in (self, other))
-        return float(np.abs(first - second).max() / np.abs(first).max())
-
-    def __str__(self) -> str:
-        sizes, place = (" ".join(f"{value:.7g}" for value in numbers) for numbers in (self.sizes, self.place))
-        turn = " ".join(f"{value:.7g}" for value in angles(self.rest)) if self.kind in _PRIMITIVES else ""
-        return f"a {self.kind} of {sizes} at {place}" + (f" turned by {turn}" if turn else "")
+    def is_like(self, other: _Shape) -> bool:
+        """Return whether another shape is the same."""
+        if self.words.split()[0] != other.words.split()[0] or self.numbers.shape != other.numbers.shape:
+            return False
+        return bool(np.abs(self.numbers - other.numbers).max() <= self.tolerance * np.abs(self.numbers).max())
 
 
 def set_inertias(spec: Any, root: Element) -> None:
@@ -93,36 +83,32 @@ def add_shapes(spec: Any, root: Element, document: MjcfDocument) -> None:
 
 
 def compare_shapes(scene: MujocoScene, root: Element, urdf: Any) -> tuple[int, list[str]]:
-    """Return how many numbers were compared, and a clause about the first shape that differs, if there is one.
-
-    The corners of a mesh count as one rotation.
-    """
-    total, faults, models = 0, list[str](), (scene.model, urdf)
-    source, other = map(mujoco.MjData, models)
-    for model, data in zip(models, (source, other), strict=True):
-        mujoco.mj_kinematics(model, data)
+    """Return how many numbers were compared, and a clause about the first shape that differs, if there is one."""
+    model, total, faults = scene.model, 0, list[str]()
+    source, other = mujoco.MjData(model), mujoco.MjData(urdf)
+    mujoco.mj_kinematics(model, source)
+    mujoco.mj_kinematics(urdf, other)
     shapes = {link.get("name"): _shapes(link) for link in root.iterfind("link")}
     for body in (body for body in scene.bodies if body or scene.root == 0):
-        link, same = scene.links[body], urdf.body(scene.links[body]).id
+        link, geoms = scene.links[body], list(_expected(scene, body))
         # the origin of a link is that of the last joint of its body
-        anchors = [source.xanchor[n] for n in scene.joints_of(body) if int(scene.model.jnt_type[n]) in _TURNING]
-        frames = ([source.xpos[body], *anchors][-1], source.xmat[body]), (other.xpos[same], other.xmat[same])
-        geoms = list(_expected(scene, body))
+        anchors = [source.xanchor[n] for n in scene.joints_of(body) if int(model.jnt_type[n]) in _TURNING]
+        origin, same = [source.xpos[body], *anchors][-1], other.body(link)
         if len(geoms) != len(shapes[link]):
             faults.append(f"link {link} has {len(shapes[link])} of {len(geoms)} shapes")
             continue
         for number, (geom, shape) in enumerate(zip(geoms, shapes[link], strict=True)):
-            expected, found = _shape(scene.model, source, geom, frames[0]), None
+            expected, found = _shape(model, source, geom, origin, source.xmat[body]), None
             if (twin := mujoco.mj_name2id(urdf, mujoco.mjtObj.mjOBJ_GEOM, f"{link} {number}")) >= 0:
-                found = _shape(urdf, other, twin, frames[1])
-            elif shape.find("geometry/mesh") is None and expected.kind not in _PRIMITIVES:
+                found = _shape(urdf, other, twin, same.xpos, same.xmat)
+            elif shape.find("geometry/mesh") is None and expected.words.split()[0] not in _KINDS.keys() - {"mesh"}:
                 continue  # the reader of the URDF tells that it leaves the shape out
-            total += expected.sizes.size + 3 + 9
-            if found is None or not expected.error(found) <= (_OF_MESHES if expected.kind == "mesh" else _TOLERANCE):
+            total += min(expected.numbers.size, 15)  # the corners of a mesh are no numbers of the URDF
+            if found is None or not expected.is_like(found):
                 file, line = scene.document.place(scene.line("geom", geom))
                 where = f"{os.path.relpath(file, os.path.dirname(scene.document.source))}:{line}"  # noqa: PTH120
-                words = f"the {shape.tag} of link {link} is {found or 'absent'}, and in MuJoCo {expected}"
-                faults.append(f"{words} ({where})")
+                words = f"is {f'a {found.words}' if found else 'absent'}, and in MuJoCo a {expected.words} ({where})"
+                faults.append(f"the {shape.tag} of link {link} {words}")
     more = f", and {len(faults) - 1} more differ" if faults[1:] else ""
     return total, [f"{faults[0]}{more}"] if faults else []
 
@@ -149,16 +135,23 @@ def _expected(scene: MujocoScene, body: int) -> Iterator[int]:
     yield from filter(scene.touches, geoms)
 
 
-def _shape(model: Any, data: Any, geom: int, frame: Sequence[Any]) -> _Shape:
-    """Return the shape of a geom in a frame, which has an origin and a rotation."""
-    kind, (origin, turn) = mujoco.mjtGeom(model.geom_type[geom]).name.removeprefix("mjGEOM_").lower(), frame
-    back = turn.reshape(3, 3).T
-    rotation, place = back @ data.geom_xmat[geom].reshape(3, 3), back @ (data.geom_xpos[geom] - origin)
+def _shape(model: Any, data: Any, geom: int, origin: Any, rotation: Any) -> _Shape:
+    """Return the shape of a geom in a frame."""
+    kind, back = mujoco.mjtGeom(model.geom_type[geom]).name.removeprefix("mjGEOM_").lower(), rotation.reshape(3, 3).T
+    turn, place = back @ data.geom_xmat[geom].reshape(3, 3), back @ (data.geom_xpos[geom] - origin)
     if kind == "mesh":
-        mesh = model.geom_dataid[geom]
-        first = model.mesh_vertadr[mesh]
-        corners = place + model.mesh_vert[first : first + model.mesh_vertnum[mesh]] @ rotation.T
+        mesh = model.mesh(model.geom_dataid[geom])
+        first = int(mesh.vertadr[0])
+        corners = place + model.mesh_vert[first : first + int(mesh.vertnum[0])] @ turn.T
         lowest, highest = corners.min(axis=0), corners.max(axis=0)
-        return _Shape(kind, highest - lowest, (highest + lowest) / 2, corners)
+        return _Shape(
+            f"mesh of {_words(highest - lowest)} around {_words((highest + lowest) / 2)}", corners, _OF_MESHES
+        )
     factors = _KINDS[kind][2] if kind in _KINDS else ()
-    return _Shape(kind, model.geom_size[geom][: len(factors)] / factors, place, rotation)
+    sizes = model.geom_size[geom][: len(factors)] / factors
+    words = f"{kind} of {_words(sizes)} at {_words(place)} turned by {_words(angles(turn))}"
+    return _Shape(words, np.concatenate([sizes, place, np.ravel(turn)]))
+
+
+def _words(numbers: Iterable[float]) -> str:
+    return " ".join(f"{value:.7g}" for value in numbers)
