@@ -151,7 +151,7 @@ def test_shapes_agree_with_their_source() -> None:
             "visual of link part is a box of 0.2 0.4 0.6 at 0.5 2 3.00001 turned by ",
         ),
         ('rpy="0.331', 'rpy="0.441', "visual of link part is a box of 0.2 0.4 0.6 at 0.5 2 3 turned by 0.44175"),
-        ('scale="1.0 2.0 -1.0"', 'scale="1.0 2.0 -1.00001"', "visual of link part is a mesh of "),
+        ('scale="1.0 2.0 -1.0"', 'scale="1.0 2.0 -1.0001"', "visual of link part is a mesh of "),
         ('scale="1.0 2.0 -1.0"', 'scale="1.0 2.0 1.0"', "visual of link part is a mesh of "),
         ('filename="m.stl"', 'filename="none.stl"', "visual of link part is absent, and in MuJoCo a mesh of "),
         ('<sphere radius="0.25"/>', "<cone/>", "collision of link part is absent, and in MuJoCo a sphere of 0.25 at "),

@@ -31,7 +31,7 @@ _TENSOR = "ixx", "iyy", "izz", "ixy", "ixz", "iyz"
 _TURNING = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_BALL)
 _SHOWN = 2
 """The last group of geoms that MuJoCo's viewers show: these are visuals."""
-_TOLERANCE, _OF_MESHES = 1e-9, 1e-6
+_TOLERANCE, _OF_MESHES = 1e-9, 1e-5
 """The greatest errors, relative to the largest number: MuJoCo has corners of meshes in single precision."""
 
 
