@@ -89,7 +89,7 @@ def _axis(frames: Frames, joint: Frame, tag: str) -> JointAxis:
     elif element is not None and (
         joint.scope.version < (1, 5) or (joint.scope.version < (1, 7) and document.flag(element, MODEL_AXES))
     ):
-        given_in = joint.scope.own
+        given_in = joint.scope
     if element is None:
         return JointAxis(None, (0.0, 0.0, 1.0), given_in)
     limit, dynamics = element.find("limit"), element.find("dynamics")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from urdfsync.sdf.frames import Frame, Frames, Scope
+from urdfsync.sdf.frames import Frame, Frames
 from urdfsync.sdf.joints import JointAxis, SdfJoint, read_joints
 from urdfsync.sdf.leftovers import add_leftovers
 from urdfsync.sdf.parts import add_link, add_sensor
@@ -15,21 +15,21 @@ from urdfsync.urdf.kinematics.poses import IDENTITY, moved
 from urdfsync.urdf.robot import Vector
 
 
-def translated(frames: Frames, model: Scope) -> UrdfElement:
+def translated(frames: Frames, model: Frame) -> UrdfElement:
     """Return the URDF of a model. Raises TranslationError."""
     for part in (part for scope in model.each() for part in scope.parts):
         frames.check(part)
     document, joints = frames.document, read_joints(frames, model.of_kind("joint"))
-    tree = find_tree(frames.world, list(model.of_kind("link")), joints, frames.link_of(model.own))
+    tree = find_tree(frames.world, list(model.of_kind("link")), joints, frames.link_of(model))
     urdf, is_fixed = Urdf(frames, model, tree), tree.root is frames.world
     if is_fixed:
-        urdf.root.add("link", document.places[model.element], name=urdf.links[frames.world])
+        urdf.root.add("link", document.places[model.content], name=urdf.links[frames.world])
     elif not document.flag(model.static_holder, "static"):
         urdf.root.add("free_root", document.places[tree.root.element], link=urdf.links[tree.root])
         if frames.pose(tree.root, frames.world) != IDENTITY:
-            poses = (holder.find("pose") for holder in (model.holder, model.element, tree.root.element))
-            place = next((pose for pose in poses if pose is not None), model.holder)
-            urdf.root.add("start-pose", document.places[place], name=model.own.name)
+            poses = (holder.find("pose") for holder in (model.element, model.content, tree.root.element))
+            place = next((pose for pose in poses if pose is not None), model.element)
+            urdf.root.add("start-pose", document.places[place], name=model.name)
     links = [*([] if is_fixed else [tree.root]), *(joint.child for joint in tree.joints)]
     for link in links:
         add_link(urdf, link)

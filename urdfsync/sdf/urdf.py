@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
-from urdfsync.sdf.frames import WORLD, Frame, Frames, Scope
+from urdfsync.sdf.frames import WORLD, Frame, Frames
 from urdfsync.sdf.joints import TAGS, SdfJoint
 from urdfsync.sdf.tree import JointTree
 from urdfsync.translation.writer import UrdfElement, free_name, rounded
@@ -41,9 +41,9 @@ class Urdf:
     its axis through the origin of its child. Its axes stay parallel to those of SDF.
     """
 
-    def __init__(self, frames: Frames, model: Scope, tree: JointTree) -> None:
+    def __init__(self, frames: Frames, model: Frame, tree: JointTree) -> None:
         self.frames, self.document = frames, frames.document
-        self.root = UrdfElement("robot", self.document.places[model.element], name=model.own.name, version="1.2")
+        self.root = UrdfElement("robot", self.document.places[model.content], name=model.name, version="1.2")
         self.taken = {WORLD, *(link.name for link in model.of_kind("link"))}
         self.links = {
             link: free_name("world_link", self.taken) if link.name == WORLD else link.name

@@ -11,7 +11,7 @@ import msgspec
 from urdfsync.engine.sources.exchange import Answer, Request, serve
 from urdfsync.engine.sources.ros_packages import Packages
 from urdfsync.sdf.document import SdfDocument
-from urdfsync.sdf.frames import Frames, Scope
+from urdfsync.sdf.frames import Frame, Frames
 from urdfsync.sdf.joints import FIXED
 from urdfsync.sdf.robot import translated
 from urdfsync.spelling import nearest
@@ -42,10 +42,10 @@ def translate(request: Request) -> Answer:
     return msgspec.structs.replace(made, packages=document.packages.places())
 
 
-def choose_model(frames: Frames, name: str) -> Scope:
+def choose_model(frames: Frames, name: str) -> Frame:
     """Return the model with a name; without one, the only model with a joint that moves. Raises TranslationError."""
-    document, top = frames.document, frames.top
-    models = {model.own.name: model for model in top.models}
+    document, top = frames.document, frames.world
+    models = {model.name: model for model in top.models}
     if name:
         if name not in models:
             near = nearest(name, list(models))
