@@ -51,41 +51,6 @@ class JointActuator(NamedTuple):
     """The law at the joint's side, by the names of `urdf.robot.Servo`; None if no `Servo` has it."""
 
 
-class _Limits:
-    """The limits of position, velocity and effort at a joint."""
-
-    def __init__(self) -> None:
-        self._limits = dict[str, tuple[float, float]]()
-
-    def add(self, quantity: str, limits: Any, scale: float, constant: float) -> None:
-        """Limit a quantity that is `scale` · the limited one + `constant`, after the limits before."""
-        first, second = (scale * float(limit) + constant for limit in limits)
-        least, most = min(first, second), max(first, second)
-        lower, upper = self._limits.get(quantity, (least, most))
-        self._limits[quantity] = min(max(lower, least), most), min(max(upper, least), most)
-
-    def greatest_effort(self) -> float | None:
-        """Return the greatest effort; None without a limit."""
-        return _greatest(self._limits["effort"]) if "effort" in self._limits else None
-
-    def numbers(self) -> dict[str, float]:
-        """Return the limits by their names."""
-        names = {quantity: (f"min_{quantity}", f"max_{quantity}") for quantity in self._limits}
-        return {
-            name: value
-            for quantity, limits in self._limits.items()
-            for name, value in zip(names[quantity], limits if quantity == "effort" else rounded(limits), strict=True)
-        }
-
-
-class OmittedPart(NamedTuple):
-    """A part that acts on the robot, and that no model has."""
-
-    what: str
-    name: str
-    line: int
-
-
 class Drives:
     """The couplings and motors of a robot's joints."""
 
@@ -93,7 +58,8 @@ class Drives:
         self.scene = scene
         bodies = {*scene.bodies}
         self.joints = [n for n in range(scene.model.njnt) if int(scene.model.jnt_bodyid[n]) in bodies]
-        self.left_out = list[OmittedPart]()
+        self.left_out = list[UrdfElement]()
+        """Parts that act on the robot, and that no model has."""
         self.followers = dict[int, Follower]()
         self._read_couplings()
         self.motors = defaultdict[int, list[JointActuator]](list)
@@ -106,8 +72,9 @@ class Drives:
                 self._read_motor(number)
 
     def leave_out(self, what: str, kind: str, number: int, name: str = "") -> None:
-        """Note an element that acts on the robot, and that no model has."""
-        self.left_out.append(OmittedPart(what, name or self.scene.name(kind, number), self.scene.line(kind, number)))
+        """Tell of an element that acts on the robot, and that no model has."""
+        name = name or self.scene.name(kind, number)
+        self.left_out.append(UrdfElement("left_out", self.scene.line(kind, number), name=name, what=what))
 
     def _has_axis(self, joint: int) -> bool:
         return joint in self.joints and int(self.scene.model.jnt_type[joint]) in _AXES  # numpy's are never `in`
@@ -126,10 +93,8 @@ class Drives:
             if is_linear and first not in self.followers and self.leader(second)[0] != first:
                 self.followers[first] = Follower(second, multiplier, offset)
             else:
-                self.leave_out("equality of joints", "equality", number, self._pair(first, second))
-
-    def _pair(self, *joints: int) -> str:
-        return " and ".join(self.scene.joints[joint] for joint in joints if joint >= 0)
+                names = " and ".join(self.scene.joints[joint] for joint in (first, second) if joint >= 0)
+                self.leave_out("equality of joints", "equality", number, names)
 
     def leader(self, joint: int) -> tuple[int, float]:
         """Return the joint that moves a joint by couplings, perhaps itself, and the multiplier."""
@@ -212,7 +177,14 @@ class Drives:
 
         `length` is the actuator's at position zero of the joint. The law is None if no `Servo` has it.
         """
-        model, limits = self.scene.model, _Limits()
+        model, limits = self.scene.model, dict[str, tuple[float, float]]()
+
+        def limit(quantity: str, ends: Any, scale: float, constant: float = 0.0) -> None:
+            """Limit a quantity that is `scale` · the limited one + `constant`, after the limits before."""
+            least, most = sorted(scale * float(end) + constant for end in ends)
+            lower, upper = limits.get(quantity, (least, most))
+            limits[quantity] = min(max(lower, least), most), min(max(upper, least), most)
+
         gain, (bias, stiffness, damping) = float(model.actuator_gainprm[number][0]), (0.0, 0.0, 0.0)
         if model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE:
             bias, stiffness, damping = map(float, model.actuator_biasprm[number][:3])
@@ -230,20 +202,22 @@ class Drives:
         at = self.scene.controls[number]
         if model.actuator_ctrllimited[at] and not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL:
             ctrl = model.actuator_ctrlrange[at]
-            limits.add(command if integrates else reference, ctrl, scale, 0.0 if integrates else constant)
+            limit(command if integrates else reference, ctrl, scale, 0.0 if integrates else constant)
         if model.actuator_actlimited[number]:
-            limits.add(reference, model.actuator_actrange[number], scale, constant)
+            limit(reference, model.actuator_actrange[number], scale, constant)
         if model.actuator_forcelimited[number]:
-            limits.add("effort", model.actuator_forcerange[number], gear, 0.0)
+            limit("effort", model.actuator_forcerange[number], gear)
         limited = [joint for joint, _ in pulls if model.jnt_actfrclimited[joint]]
         if limited and len(pulls) == 1:
-            limits.add("effort", model.jnt_actfrcrange[limited[0]], self.leader(limited[0])[1], 0.0)
+            limit("effort", model.jnt_actfrcrange[limited[0]], self.leader(limited[0])[1])
         is_servo = stiffness <= 0 and damping <= 0 and not (integrates and not stiffness)
         # each joint of a tendon cuts its own share of the effort
         is_servo = is_servo and (not limited or len(pulls) == 1)
-        servo |= limits.numbers()
+        for quantity, ends in limits.items():
+            words = f"min_{quantity}", f"max_{quantity}"
+            servo |= zip(words, ends if quantity == "effort" else rounded(ends), strict=True)
         is_servo = is_servo and all(map(math.isfinite, servo.values()))
-        return servo if is_servo else None, limits.greatest_effort()
+        return servo if is_servo else None, _greatest(limits["effort"]) if "effort" in limits else None
 
     def add_numbers(self, joint: UrdfElement, number: int, kind: str) -> None:
         """Add limits, losses and coupling of a joint to its element."""
@@ -279,7 +253,8 @@ class Drives:
 
     def add_control(self, robot: UrdfElement) -> None:
         """Add the motors, their gears, and the starts of joints. With any motor, a joint without one is passive."""
-        scene, starts = self.scene, self._starts()
+        scene = self.scene
+        starts = next((self.positions(key) for key in range(scene.model.nkey) if scene.name("key", key) == HOME), {})
         if not self.motors and not starts:
             return
         control = robot.add("ros2_control", name="MuJoCo", type="system")
@@ -303,11 +278,6 @@ class Drives:
                 gear.add("plugin", text="transmission_interface/SimpleTransmission")
                 joint = gear.add("joint", name=scene.joints[number])
                 joint.add("mechanical_reduction", text=repr(motors[0].gear))
-
-    def _starts(self) -> dict[int, float]:
-        """Return the positions of the joints at the key `home`."""
-        home = next((key for key in range(self.scene.model.nkey) if self.scene.name("key", key) == HOME), None)
-        return {} if home is None else self.positions(home)
 
     def positions(self, key: int) -> dict[int, float]:
         """Return the positions of the joints at a key."""

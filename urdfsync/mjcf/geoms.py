@@ -129,8 +129,7 @@ def _numbers(text: str) -> Any:
 
 def _expected(scene: MujocoScene, body: int) -> Iterator[int]:
     """Yield the geoms that are shapes of a link in the order of the URDF: those that are drawn, then the solid ones."""
-    first = int(scene.model.body_geomadr[body])
-    geoms = range(first, first + int(scene.model.body_geomnum[body]))
+    geoms = scene.geoms_of(body)
     yield from (geom for geom in geoms if scene.model.geom_group[geom] <= _SHOWN)
     yield from filter(scene.touches, geoms)
 

@@ -113,6 +113,11 @@ class MujocoScene:
             if not (self.is_floating and body == self.root):
                 yield joint
 
+    def geoms_of(self, body: int) -> range:
+        """Return the geoms of a body."""
+        first = int(self.model.body_geomadr[body])
+        return range(first, first + int(self.model.body_geomnum[body]))
+
     def ends(self, equality: int) -> tuple[int, ...]:
         """Return the bodies that an equality of bodies, sites or joints holds together."""
         model, is_of = self.model, int(self.model.eq_objtype[equality])

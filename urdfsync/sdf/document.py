@@ -13,7 +13,7 @@ from urdfsync.engine.sources.ros_packages import Packages
 from urdfsync.translation.files import Files, SourcePlace, TranslationError
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, pose, roll_pitch_yaw
 from urdfsync.urdf.parse.fields import parse_numbers, quoted
-from urdfsync.urdf.robot import Origin, Vector
+from urdfsync.urdf.robot import Origin
 
 SdfVersion = tuple[int, ...]
 _OLDEST, _NEWEST = (1, 3), (1, 12)
@@ -125,10 +125,6 @@ class SdfDocument:
     def number(self, element: Element | None, tag: str, default: float) -> float:
         """Return the number in the text of a child. Raises TranslationError."""
         return self.numbers(element, tag, (default,))[0]
-
-    def vector(self, element: Element | None, tag: str, default: Vector) -> Vector:
-        """Return the three numbers in the text of a child. Raises TranslationError."""
-        return self.numbers(element, tag, default)  # type: ignore[return-value] # as many as the default
 
     def flag(self, element: Element, tag: str, *, default: bool = False) -> bool:
         """Return the truth in the text of a child. Raises TranslationError."""

@@ -99,7 +99,7 @@ def _axis(frames: Frames, joint: Frame, tag: str) -> JointAxis:
     effort, velocity = (document.number(limit, name, -1) for name in ("effort", "velocity"))
     return JointAxis(
         element,
-        document.vector(element, "xyz", (0.0, 0.0, 1.0)),
+        document.numbers(element, "xyz", (0.0, 0.0, 1.0)),  # type: ignore[arg-type] # three numbers
         given_in,
         (max(lower, -_ENDLESS), min(upper, _ENDLESS)) if lower > -_ENDLESS or upper < _ENDLESS else None,
         effort if 0 <= effort < _ENDLESS else None,

@@ -43,7 +43,7 @@ def add_leftovers(urdf: Urdf, model: Frame, joints: Iterable[SdfJoint]) -> None:
         for path, usual in _ODE.items():
             if document.number(frame.element, f"physics/ode/{path}", usual) != usual:
                 urdf.leave_out(f"{path} of <physics>", frame.name, frame.element)
-    has_wind = any(document.vector(world, "wind/linear_velocity", _STILL))
+    has_wind = any(document.numbers(world, "wind/linear_velocity", _STILL))
     for scope in model.each():
         if document.flag(scope.static_holder, "static"):
             urdf.leave_out("static model", scope.name, scope.static_holder)
@@ -62,7 +62,7 @@ def add_leftovers(urdf: Urdf, model: Frame, joints: Iterable[SdfJoint]) -> None:
                 _note_unread(urdf, scope, part, scope.name)
     # before SDF 1.6, the gravity stood in <physics>
     for holder in (world, *(world.iterfind("physics") if urdf.frames.world.version < (1, 6) else ())):
-        gravity = document.vector(holder, "gravity", _DOWN)
+        gravity = document.numbers(holder, "gravity", _DOWN)
         if any(abs(value - usual) > _FEW for value, usual in zip(gravity, _DOWN, strict=True)):
             urdf.leave_out("gravity", " ".join(map("{:g}".format, gravity)), holder.find("gravity", holder))
     for part in world if world.tag == "world" else ():
