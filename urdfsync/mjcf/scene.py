@@ -13,7 +13,7 @@ import numpy as np
 from urdfsync.mjcf.document import MjcfDocument
 from urdfsync.spelling import nearest
 from urdfsync.translation.files import TranslationError
-from urdfsync.translation.writer import free_name
+from urdfsync.translation.writer import free_name, listed
 
 _BODY, _SITE = int(mujoco.mjtObj.mjOBJ_BODY), int(mujoco.mjtObj.mjOBJ_SITE)
 WORLD = "world"
@@ -146,7 +146,7 @@ class MujocoScene:
         if body:
             if body not in (names := {WORLD: 0, **names}):
                 near = nearest(body, list(names))
-                hint = f"perhaps {near!r} is meant" if near else f"choose one of {_listed(list(names))}"
+                hint = f"perhaps {near!r} is meant" if near else f"choose one of {listed(list(names))}"
                 raise TranslationError(f"there is no body {body!r} below the world", place, hint)
             return {names[body]}
         moved = model.body_rootid[model.jnt_bodyid]  # the topmost body of each joint
@@ -160,7 +160,7 @@ class MujocoScene:
         robots = self._join(candidates.values())
         if len(robots) > 1:
             firsts = [name for name, top in candidates.items() if top in map(min, robots)]
-            message, first = f"the model has {len(robots)} robots: {_listed(firsts)}", firsts[0]
+            message, first = f"the model has {len(robots)} robots: {listed(firsts)}", firsts[0]
             hint = (
                 f'choose one by `arguments = {{ body = "{first}" }}` (`init FILE body:={first}`), or all by "{WORLD}"'
             )
@@ -238,8 +238,3 @@ def _in_words(document: MjcfDocument, text: str) -> TranslationError:
         words = words.replace(f"'{name}'", path)
     hint = f"correct it: MuJoCo {mujoco.__version__} does not know it" if ": unrecognized" in text else ""
     return TranslationError(f"MuJoCo: {words}", document.place(_line_in(text)), hint)
-
-
-def _listed(names: Sequence[str]) -> str:
-    """Return names in quotes, the first eight of them."""
-    return ", ".join(map(repr, names[:8])) + (", …" if len(names) > 8 else "")

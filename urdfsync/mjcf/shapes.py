@@ -13,9 +13,11 @@ import mujoco
 import numpy as np
 
 from urdfsync.mjcf.scene import MujocoScene
-from urdfsync.mjcf.turns import Array, inverse, product, rpy, turned
+from urdfsync.mjcf.turns import Array, rpy, turned
 from urdfsync.translation.writer import UrdfElement, rounded
 
+_INVERSE = (1.0, -1.0, -1.0, -1.0)
+"""Factors that make the opposite turn of a quaternion."""
 _SHOWN = 2
 """The last group of geoms that viewers show."""
 _UNSET = (0.5, 0.5, 0.5, 1.0)
@@ -89,14 +91,15 @@ def _mesh(scene: MujocoScene, number: int, position: Any, quaternion: Any) -> tu
     pose of these axes in the mesh as the file, `refpos`, `refquat` and `scale` give it: scale·refquat⁻¹·(v - refpos).
     """
     model, mesh = scene.model, scene.spec.mesh(mujoco.mj_id2name(scene.model, mujoco.mjtObj.mjOBJ_MESH, number))
-    turn = product(quaternion, inverse(model.mesh_quat[number]))
+    turn, back = np.zeros(4), np.zeros(4)
+    mujoco.mju_mulQuat(turn, quaternion, model.mesh_quat[number] * _INVERSE)
     place = position - turned(turn, model.mesh_pos[number])
-    path, scale, back = scene.document.meshes.get(mesh.file, ""), np.asarray(mesh.scale), inverse(mesh.refquat)
-    is_turned, is_uniform = abs(back[0]) < np.linalg.norm(back), (scale == scale[0]).all() and scale[0] > 0
+    path, scale, length = scene.document.meshes.get(mesh.file, ""), np.asarray(mesh.scale), np.linalg.norm(mesh.refquat)
+    is_turned, is_uniform = abs(mesh.refquat[0]) < length, (scale == scale[0]).all() and scale[0] > 0
     if not path or (is_turned and not is_uniform):  # URDF scales before it turns
         return UrdfElement("turned-and-scaled-mesh" if path else "mesh-without-file", 0), position, quaternion
-    turn = product(turn, back / np.linalg.norm(back))
-    place = place - turned(turn, scale * mesh.refpos)
+    mujoco.mju_mulQuat(back, turn, mesh.refquat * _INVERSE / length)
+    place = place - turned(back, scale * mesh.refpos)
     folder = os.path.dirname(scene.document.source)  # noqa: PTH120
     filename = os.path.relpath(path, folder).replace(os.sep, "/")
-    return UrdfElement("mesh", 0, filename=filename, scale=tuple(scale)), place, turn
+    return UrdfElement("mesh", 0, filename=filename, scale=tuple(scale)), place, back

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from pathlib import Path
 
 import msgspec
@@ -17,7 +16,7 @@ from urdfsync.sdf.robot import translated
 from urdfsync.spelling import nearest
 from urdfsync.translation import program
 from urdfsync.translation.files import Files
-from urdfsync.translation.writer import write
+from urdfsync.translation.writer import listed, write
 
 
 def translate(request: Request) -> Answer:
@@ -49,7 +48,7 @@ def choose_model(frames: Frames, name: str) -> Frame:
     if name:
         if name not in models:
             near = nearest(name, list(models))
-            hint = f"perhaps {near!r} is meant" if near else f"choose one of {_listed(list(models))}"
+            hint = f"perhaps {near!r} is meant" if near else f"choose one of {listed(list(models))}"
             raise document.fault(top.element, f"there is no model {name!r}", hint)
         return models[name]
     moving = [
@@ -61,18 +60,13 @@ def choose_model(frames: Frames, name: str) -> Frame:
     if len(robots) == 1:
         return models[robots[0]]
     if robots:
-        message = f"the file has {len(robots)} robots: {_listed(robots)}"
+        message = f"the file has {len(robots)} robots: {listed(robots)}"
         hint = f'choose one by `arguments = {{ model = "{robots[0]}" }}` (`init FILE model:={robots[0]}`)'
         raise document.fault(top.element, message, hint)
     if frames.missing:
         raise frames.missing[0]
     what = "no model has a joint that moves" if len(models) > 1 else "the model has no joint: nothing in it moves"
     raise document.fault(top.element, what if models else "the file has no model", "name the file that has the robot")
-
-
-def _listed(names: Sequence[str]) -> str:
-    """Return names in quotes, the first eight of them."""
-    return ", ".join(map(repr, names[:8])) + (", …" if len(names) > 8 else "")
 
 
 def main() -> None:

@@ -13,8 +13,7 @@ from pathlib import Path
 
 from urdfsync.domain import Import, Target
 from urdfsync.domain.scene import Body, Hinge, PageMesh, PagePose, Scene, Shape
-from urdfsync.table.model import FROM, TO, Table, TableOptions, shown_unit
-from urdfsync.table.names import component_names
+from urdfsync.table.model import FROM, TO, Table, TableOptions, component_names, shown_unit
 
 _MOST = 500
 """The greatest number of elements of a picture."""
