@@ -81,7 +81,7 @@ def test_files_that_include_each_other_too_deep_are_told(folder: Path) -> None:
     for number in range(600):
         include = f"<include><uri>m{number + 1}.sdf</uri></include>"
         (folder / f"m{number}.sdf").write_text(sdf(f'<model name="m"><link name="part"/>{include}</model>'))
-    fault = "arm.sdf: error: its models or frames are nested too deep; correct it, then build again [sdf]"
+    fault = "arm.sdf: error: its parts are nested too deep; correct it, then build again [sdf]"
     assert told(folder, arm(more="<include><uri>m0.sdf</uri></include>")) == fault
 
 

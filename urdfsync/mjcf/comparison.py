@@ -182,9 +182,9 @@ class _Pushes:
             getattr(model, name)[number] = getattr(source, name)[number]
         for name in _LIMITS:
             getattr(model, name)[:] = getattr(source, name) if name in limits else 0
-        moved = {joint: drives.leader(joint)[1] for joint in drives.joints if drives.leader(joint)[0] == leader}
-        for joint, factor in moved.items():
-            data.joint(joint).qpos[:] = factor * position + drives.offset(joint)
+        moved = [(joint, *drives.leader(joint)[1:]) for joint in drives.joints if drives.leader(joint)[0] == leader]
+        for joint, factor, offset in moved:
+            data.joint(joint).qpos[:] = factor * position + offset
             data.joint(joint).qvel[:] = factor * speed
         data.ctrl[:] = activation = ctrl
         address, control = int(model.actuator_actadr[number]), self.scene.controls[number]
@@ -195,7 +195,7 @@ class _Pushes:
         data.act[:] = activation
         for step in (mujoco.mj_fwdPosition, mujoco.mj_fwdVelocity, mujoco.mj_fwdActuation):
             step(model, data)
-        effort = sum(factor * float(data.joint(joint).qfrc_actuator[0]) for joint, factor in moved.items())
+        effort = sum(factor * float(data.joint(joint).qfrc_actuator[0]) for joint, factor, _ in moved)
         return effort, float(data.act_dot[address]) if self.integrates(number) else 0.0
 
     def integrates(self, number: int) -> bool:

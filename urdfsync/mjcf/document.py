@@ -54,16 +54,18 @@ class MjcfDocument(NamedTuple):
         return self.places[line - 1 if 0 < line <= len(self.places) else 0]
 
 
-def read_document(source: str, files: Files) -> MjcfDocument:
-    """Read an MJCF with all files that it names. Raises TranslationError."""
-    document = MjcfDocument(source, "", [], {}, {}, {}, [])
-    return _read_model(source, files, document, ("", 0), ())
-
-
-def _read_model(
-    source: str, files: Files, shared: MjcfDocument, place: SourcePlace, around: tuple[str, ...]
+def read_document(
+    source: str,
+    files: Files,
+    main: MjcfDocument | None = None,
+    place: SourcePlace = ("", 0),
+    around: tuple[str, ...] = (),
 ) -> MjcfDocument:
-    """Return the document of a model; its meshes and models are added to those of `shared`."""
+    """Read an MJCF with all files that it names, or a model that `main` attaches at a place. Raises TranslationError.
+
+    Meshes and models of an attached model are added to those of `main`.
+    """
+    shared = main or MjcfDocument(source, "", [], {}, {}, {}, [])
     if source in around:
         raise TranslationError("the model attaches itself", place)
     root = files.parse(source, place)
@@ -142,7 +144,7 @@ def _name_files(root: Element, source: str, files: Files, shared: MjcfDocument, 
         elif element.tag == "model" and root.find("asset") is not None:
             path = os.path.normpath(os.path.join(folder, name))  # noqa: PTH118
             files.check_inside(path, place)
-            inner = _read_model(path, files, shared, place, around)
+            inner = read_document(path, files, shared, place, around)
             element.attrib.setdefault("name", PurePosixPath(name).stem)
             own = f"{len(shared.models)}.xml"
             shared.models[own] = inner.text

@@ -28,6 +28,7 @@ _AXES = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
 _SIZES = {int(mujoco.mjtJoint.mjJNT_BALL): 4, int(mujoco.mjtJoint.mjJNT_FREE): 7}
 """Numbers of a pose."""
 _OF_JOINT = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
+_BIASES = (mujoco.mjtBias.mjBIAS_NONE, mujoco.mjtBias.mjBIAS_AFFINE)
 _OF_SITE = (int(mujoco.mjtTrn.mjTRN_SITE), int(mujoco.mjtTrn.mjTRN_SLIDERCRANK))
 
 
@@ -90,28 +91,20 @@ class Drives:
                 continue
             offset, multiplier, *higher = map(float, model.eq_data[number][:5])
             is_linear = self._has_axis(first) and self._has_axis(second) and multiplier and not any(higher)
-            if is_linear and first not in self.followers and self.leader(second)[0] != first:
+            if is_linear and first not in self.followers and self.leader(second).leader != first:
                 self.followers[first] = Follower(second, multiplier, offset)
             else:
                 names = " and ".join(self.scene.joints[joint] for joint in (first, second) if joint >= 0)
                 self.leave_out("equality of joints", "equality", number, names)
 
-    def leader(self, joint: int) -> tuple[int, float]:
-        """Return the joint that moves a joint by couplings, perhaps itself, and the multiplier."""
-        multiplier = 1.0
-        while joint in self.followers:
-            multiplier *= self.followers[joint].multiplier
-            joint = self.followers[joint].leader
-        return joint, multiplier
-
-    def offset(self, joint: int) -> float:
-        """Return the position of a joint, as MuJoCo counts it, at which its leader is at zero."""
+    def leader(self, joint: int) -> Follower:
+        """Return the joint that moves a joint by couplings, perhaps itself; positions are as MuJoCo counts them."""
         offset, multiplier = float(self.scene.model.qpos0[self.scene.model.jnt_qposadr[joint]]), 1.0
         while joint in self.followers:
             joint, factor, constant = self.followers[joint]
             offset += multiplier * constant
             multiplier *= factor
-        return offset
+        return Follower(joint, multiplier, offset)
 
     def _read_motor(self, number: int) -> None:
         """Read an actuator: a motor of one joint, or of joints that move together; anything else is left out."""
@@ -132,14 +125,17 @@ class Drives:
             if kind in bodies and int(bodies[kind][target]) not in self.scene.bodies:
                 return
         for joint, factor in pulls:
-            leader, multiplier = self.leader(joint)
+            leader, multiplier, _ = self.leader(joint)
             moved[leader] = moved.get(leader, 0.0) + factor * multiplier
         command = self._command(number)
         if command is None or len(moved) != 1 or not self._has_axis(joint := next(iter(moved))):
             self.leave_out("actuator", "actuator", number)
             return
         own_gear = float(model.actuator_gear[self.scene.outputs[number]][0])
-        gear, length = own_gear * moved[joint], own_gear * sum(factor * self.offset(joint) for joint, factor in pulls)
+        gear, length = (
+            own_gear * moved[joint],
+            own_gear * sum(factor * self.leader(joint).offset for joint, factor in pulls),
+        )
         if not gear:
             self.leave_out("actuator without gear", "actuator", number)
             return
@@ -153,21 +149,21 @@ class Drives:
             if model.wrap_type[number] == mujoco.mjtWrap.mjWRAP_JOINT:
                 yield int(model.wrap_objid[number]), float(model.wrap_prm[number])
 
+    def _bias(self, number: int) -> tuple[float, ...]:
+        """Return the constant force of an actuator, and those for a unit of position and of speed."""
+        is_affine = self.scene.model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE
+        return tuple(map(float, self.scene.model.actuator_biasprm[number][:3])) if is_affine else (0.0, 0.0, 0.0)
+
     def _command(self, number: int) -> Command | None:
         """Return the quantity that an actuator commands; None for an actuator that is no motor, such as a muscle."""
-        model = self.scene.model
-        _, stiffness, damping = model.actuator_biasprm[number][:3]
-        if model.actuator_gaintype[number] != mujoco.mjtGain.mjGAIN_FIXED or model.actuator_plugin[number] >= 0:
+        model, (_, stiffness, damping) = self.scene.model, self._bias(number)
+        is_plain = model.actuator_gaintype[number] == mujoco.mjtGain.mjGAIN_FIXED and model.actuator_plugin[number] < 0
+        if not is_plain or int(model.actuator_biastype[number]) not in _BIASES:
             return None
         if hasattr(model, "actuator_ctrlnum") and model.actuator_ctrlnum[number] != 1:  # since MuJoCo 4
             return None
         if model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR:
-            is_fed_back = model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE and stiffness
-            return "velocity" if is_fed_back else None  # without feedback, the effort grows with time
-        if model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_NONE:
-            return "effort"
-        if model.actuator_biastype[number] != mujoco.mjtBias.mjBIAS_AFFINE:
-            return None
+            return "velocity" if stiffness else None  # without feedback, the effort grows with time
         return "position" if stiffness else "velocity" if damping else "effort"
 
     def _read_law(
@@ -185,9 +181,7 @@ class Drives:
             lower, upper = limits.get(quantity, (least, most))
             limits[quantity] = min(max(lower, least), most), min(max(upper, least), most)
 
-        gain, (bias, stiffness, damping) = float(model.actuator_gainprm[number][0]), (0.0, 0.0, 0.0)
-        if model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE:
-            bias, stiffness, damping = map(float, model.actuator_biasprm[number][:3])
+        gain, (bias, stiffness, damping) = float(model.actuator_gainprm[number][0]), self._bias(number)
         servo, scale, constant = dict[str, float](), gear * gain, gear * bias
         if stiffness:
             servo["position_gain"], scale = -stiffness * gear * gear, -gain / (stiffness * gear)
@@ -209,7 +203,7 @@ class Drives:
             limit("effort", model.actuator_forcerange[number], gear)
         limited = [joint for joint, _ in pulls if model.jnt_actfrclimited[joint]]
         if limited and len(pulls) == 1:
-            limit("effort", model.jnt_actfrcrange[limited[0]], self.leader(limited[0])[1])
+            limit("effort", model.jnt_actfrcrange[limited[0]], self.leader(limited[0]).multiplier)
         is_servo = stiffness <= 0 and damping <= 0 and not (integrates and not stiffness)
         # each joint of a tendon cuts its own share of the effort
         is_servo = is_servo and (not limited or len(pulls) == 1)

@@ -7,7 +7,7 @@ in the frame of the link they stand where the file has them, so all corners are 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -90,7 +90,9 @@ def compare_shapes(scene: MujocoScene, root: Element, urdf: Any) -> tuple[int, l
     mujoco.mj_kinematics(urdf, other)
     shapes = {link.get("name"): _shapes(link) for link in root.iterfind("link")}
     for body in (body for body in scene.bodies if body or scene.root == 0):
-        link, geoms = scene.links[body], list(_expected(scene, body))
+        link, own = scene.links[body], scene.geoms_of(body)
+        # those that are drawn, and then the solid ones, as in the URDF
+        geoms = [*(geom for geom in own if model.geom_group[geom] <= _SHOWN), *filter(scene.touches, own)]
         # the origin of a link is that of the last joint of its body
         anchors = [source.xanchor[n] for n in scene.joints_of(body) if int(model.jnt_type[n]) in _TURNING]
         origin, same = [source.xpos[body], *anchors][-1], other.body(link)
@@ -125,13 +127,6 @@ def _quaternion(angles_of_urdf: str) -> Any:
 
 def _numbers(text: str) -> Any:
     return np.array(text.split(), float)
-
-
-def _expected(scene: MujocoScene, body: int) -> Iterator[int]:
-    """Yield the geoms that are shapes of a link in the order of the URDF: those that are drawn, then the solid ones."""
-    geoms = scene.geoms_of(body)
-    yield from (geom for geom in geoms if scene.model.geom_group[geom] <= _SHOWN)
-    yield from filter(scene.touches, geoms)
 
 
 def _shape(model: Any, data: Any, geom: int, origin: Any, rotation: Any) -> _Shape:

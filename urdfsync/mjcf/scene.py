@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 
 import mujoco
@@ -58,10 +58,20 @@ class MujocoScene:
         """The bodies of the robot, parents first. Without a free joint, the world is the first of them."""
         if not self.is_floating:
             self.bodies = list(dict.fromkeys([0, *self.bodies]))
-        self.links = self._name_all("body", model.nbody, self._name_of_body)
-        """Names of all bodies."""
-        self.joints = self._name_all("joint", model.njnt, self._name_of_joint)
-        """Names of all joints."""
+        self.links = list[str]()
+        """Names of all bodies; one without a name counts among the bodies of its parent."""
+        given, parents = [self.name("body", number) for number in range(model.nbody)], list(model.body_parentid)
+        taken = {*given}
+        for number, parent in enumerate(parents):  # parents come before children
+            count = parents[1 : number + 1].count(parent)
+            self.links.append(given[number] or free_name(f"{self.links[parent]}_body{count}", taken))
+        self.joints = list[str]()
+        """Names of all joints; one without a name counts among the joints of its body."""
+        given = [self.name("joint", number) for number in range(model.njnt)]
+        taken = {*given}
+        for number, holder in enumerate(map(int, model.jnt_bodyid)):
+            suffix = number - model.body_jntadr[holder] + 1 if model.body_jntnum[holder] > 1 else ""
+            self.joints.append(given[number] or free_name(f"{self.links[holder]}_joint{suffix}", taken))
 
     @functools.cached_property
     def ground(self) -> list[int]:
@@ -166,24 +176,6 @@ class MujocoScene:
             )
             raise TranslationError(message, place, hint)
         return robots[0]
-
-    def _name_all(self, kind: str, count: int, made: Callable[[int, Sequence[str]], str]) -> Sequence[str]:
-        """Return the names of all elements of a kind; `made` names one by its place, after those before it."""
-        given = [self.name(kind, number) for number in range(count)]
-        taken, names = {*given}, list[str]()
-        for number in range(count):  # parents come before children
-            names.append(given[number] or free_name(made(number, names), taken))
-        return names
-
-    def _name_of_body(self, number: int, names: Sequence[str]) -> str:
-        parents = self.model.body_parentid
-        place = sum(parents[other] == parents[number] for other in range(1, number + 1))
-        return f"{names[parents[number]]}_body{place}"
-
-    def _name_of_joint(self, number: int, _: Sequence[str]) -> str:
-        body = self.model.jnt_bodyid[number]
-        place = number - self.model.body_jntadr[body] + 1
-        return f"{self.links[body]}_joint{place if self.model.body_jntnum[body] > 1 else ''}"
 
 
 def read_scene(document: MjcfDocument, body: str = "", *, with_meshes: bool = False) -> MujocoScene:

@@ -35,8 +35,7 @@ def translate(request: Request) -> Answer:
             return Answer(compared=compared, differences=differences)
         return Answer(*urdf.translated(document, body))
 
-    too_deep = "its elements are nested too deep"
-    return program.answer(request, files, "mjcf", ("body",), translate_or_compare, too_deep)
+    return program.answer(request, files, "mjcf", ("body",), translate_or_compare)
 
 
 def main() -> None:

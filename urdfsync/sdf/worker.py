@@ -36,8 +36,7 @@ def translate(request: Request) -> Answer:
         model = choose_model(frames, request.arguments.get("model", ""))
         return Answer(*write(translated(frames, model)))
 
-    too_deep = "its models or frames are nested too deep"
-    made = program.answer(request, files, "sdf", ("model",), translate_or_compare, too_deep)
+    made = program.answer(request, files, "sdf", ("model",), translate_or_compare)
     return msgspec.structs.replace(made, packages=document.packages.places())
 
 
