@@ -19,7 +19,7 @@ import numpy as np
 
 from urdfsync.mjcf.document import MjcfDocument
 from urdfsync.mjcf.drives import Drives
-from urdfsync.mjcf.geoms import add_shapes, compare_shapes, set_inertias
+from urdfsync.mjcf.geoms import compare_shapes, complete
 from urdfsync.mjcf.scene import WORLD, MujocoScene, read_scene
 from urdfsync.urdf.parse.xml import parse
 
@@ -123,8 +123,7 @@ def _read_urdf(root: Element, document: MjcfDocument, floating: str) -> Any:
     }
     SubElement(SubElement(robot, "mujoco"), "compiler", settings)
     spec = mujoco.MjSpec.from_string(tostring(robot, "unicode"))
-    set_inertias(spec, root)
-    add_shapes(spec, root, document)
+    complete(spec, root, document)
     return spec.compile()
 
 

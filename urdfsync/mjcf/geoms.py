@@ -48,34 +48,29 @@ class _Shape(NamedTuple):
         return bool(np.abs(self.numbers - other.numbers).max() <= self.tolerance * np.abs(self.numbers).max())
 
 
-def set_inertias(spec: Any, root: Element) -> None:
-    """Give links their principal inertias as written: in URDF, MuJoCo before 3.17 loses the turn of `<origin>`."""
-    for link in root.iterfind("link[inertial]"):
-        inertia, origin = link.find("inertial/inertia"), link.find("inertial/origin")
-        values = [float(inertia.get(name, "nan")) for name in _TENSOR] if inertia is not None else [1.0] * 6
-        if link.get("name") != WORLD and origin is not None and not any(values[3:]):
-            body = spec.body(link.get("name"))
-            body.iquat, body.inertia = _quaternion(origin.get("rpy", "0 0 0")), values[:3]
-            body.fullinertia = np.full(6, np.nan)
+def complete(spec: Any, root: Element, document: MjcfDocument) -> None:
+    """Add the shapes of a URDF to MuJoCo's reading of its links, each named by its link and its number there.
 
-
-def add_shapes(spec: Any, root: Element, document: MjcfDocument) -> None:
-    """Add the shapes of a URDF to MuJoCo's reading of its links; the name of each has its link and its number there."""
+    Principal inertias are set as written: in URDF, MuJoCo before 3.17 loses the turn of their `<origin>`.
+    """
     names = {path: name for name, path in document.meshes.items()}
     spec.assets = document.contents
     for link in root.iterfind("link"):
+        name, body = link.get("name"), spec.body(link.get("name"))
+        for inertial in link.iterfind("inertial"):
+            moments = [float(each.get(axes, "0")) for each in inertial.iterfind("inertia") for axes in _TENSOR]
+            if name != WORLD and moments and not any(moments[3:]):
+                body.iquat, body.inertia, body.fullinertia = _pose(inertial)[1], moments[:3], np.full(6, np.nan)
         for number, shape in enumerate(_shapes(link)):
-            (geometry,), origin = shape.iterfind("geometry/*"), shape.find("origin")
+            (geometry,) = shape.iterfind("geometry/*")
             file = os.path.join(document.source, "..", geometry.get("filename", ""))  # noqa: PTH118
             mesh = names.get(os.path.normpath(file)) if geometry.tag == "mesh" else ""
             if geometry.tag not in _KINDS or mesh is None:
                 continue
             kind, attributes, factors = _KINDS[geometry.tag]
-            place = {} if origin is None else origin.attrib
-            geom = spec.body(link.get("name")).add_geom(name=f"{link.get('name')} {number}", type=kind)
-            geom.pos, geom.quat = _numbers(place.get("xyz", "0 0 0")), _quaternion(place.get("rpy", "0 0 0"))
-            geom.contype, geom.conaffinity = 0, 0
-            geom.size[: len(factors)] = factors * _numbers(" ".join(geometry.get(name, "") for name in attributes))
+            geom = body.add_geom(name=f"{name} {number}", type=kind, contype=0, conaffinity=0)
+            geom.pos, geom.quat = _pose(shape)
+            geom.size[: len(factors)] = factors * _numbers(" ".join(geometry.get(each, "") for each in attributes))
             if mesh:  # a shell has no volume that MuJoCo could refuse
                 geom.meshname = f"{geom.name} mesh"
                 added = spec.add_mesh(name=geom.meshname, file=mesh, inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL)
@@ -119,10 +114,12 @@ def _shapes(link: Element) -> list[Element]:
     return [*link.iterfind("visual"), *link.iterfind("collision")]
 
 
-def _quaternion(angles_of_urdf: str) -> Any:
-    quaternion = np.zeros(4)
-    mujoco.mju_euler2Quat(quaternion, _numbers(angles_of_urdf), "XYZ")
-    return quaternion
+def _pose(holder: Element) -> tuple[Any, Any]:
+    """Return the position and the quaternion of an element's `<origin>`."""
+    origin, quaternion = holder.find("origin"), np.zeros(4)
+    place = {} if origin is None else origin.attrib
+    mujoco.mju_euler2Quat(quaternion, _numbers(place.get("rpy", "0 0 0")), "XYZ")
+    return _numbers(place.get("xyz", "0 0 0")), quaternion
 
 
 def _numbers(text: str) -> Any:
