@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import mujoco
 import pytest
+from support.mjcf_schema import NEEDS_ARMATURE
 from support.mjcfs import SOURCE, body, document, left_out, noted, read, reading, urdf, world
 
 from urdfsync.mjcf.urdf import translated
@@ -30,10 +31,11 @@ SITES = '<site name="s" pos="0 0 1"/><site name="t"/>'
             "contact without the ground",
         ),
         ("<joint/>", '<option density="1.2"/>', "density of option"),
-        (
+        pytest.param(
             '<joint name="j"/>',
             '<actuator><motor name="m" joint="j" armature="1"/></actuator>',
             "armature of actuator m",
+            marks=NEEDS_ARMATURE,
         ),
         (
             f"<joint/>{SITES}",

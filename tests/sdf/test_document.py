@@ -66,7 +66,7 @@ def test_each_element_has_a_place() -> None:
             ),
         )
     )
-    tip = frames.look_up(frames.top.models[0], "hand::tip", frames.top.element)
+    tip = frames.look_up(frames.world.models[0], "hand::tip", frames.world.element)
     assert frames.document.places[tip.element] == (f"{FOLDER}/hand.sdf", 3)
     assert {name.removeprefix(FOLDER) for name in files.hashes} == {"/arm.sdf", "/hand.sdf"}
     assert None not in files.hashes.values()

@@ -68,11 +68,21 @@ def test_models_that_are_nested_deep_are_told(folder: Path) -> None:
     assert "elements are nested 256 deep" in told(folder, arm(more=models))
 
 
-def test_a_long_chain_of_frames_is_told(folder: Path) -> None:
+def test_a_long_chain_of_frames_is_read(folder: Path) -> None:
     frame = '<frame name="f{}" attached_to="{}"><pose>0 0 1 0 0 0</pose></frame>'
-    frames = "".join(frame.format(number, f"f{number + 1}") for number in range(3000))
-    fault = "arm.sdf: error: its models or frames are nested too deep; correct it, then build again [sdf]"
-    assert told(folder, arm(more=frames + frame.format(3000, "part"))) == fault
+    frames = "".join(frame.format(number, f"f{number + 1}") for number in range(1500))
+    file = folder / "arm.sdf"
+    file.write_text(arm(more=frames + frame.format(1500, "part")))
+    made = expand(SourceFiles(folder, file, ()), {}, translator=translator(file))
+    assert '<origin xyz="0.0 0.0 1501.0"' in made.text
+
+
+def test_files_that_include_each_other_too_deep_are_told(folder: Path) -> None:
+    for number in range(600):
+        include = f"<include><uri>m{number + 1}.sdf</uri></include>"
+        (folder / f"m{number}.sdf").write_text(sdf(f'<model name="m"><link name="part"/>{include}</model>'))
+    fault = "arm.sdf: error: its parts are nested too deep; correct it, then build again [sdf]"
+    assert told(folder, arm(more="<include><uri>m0.sdf</uri></include>")) == fault
 
 
 def test_a_package_has_a_name_that_is_the_same_on_each_machine(folder: Path) -> None:

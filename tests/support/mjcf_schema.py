@@ -16,6 +16,7 @@ from xml.etree.ElementTree import Element, SubElement, fromstring
 
 import mujoco
 import numpy as np
+import pytest
 
 from support.mjcfs import FOLDER, SOURCE, stl
 from urdfsync.mjcf.document import read_document
@@ -47,6 +48,9 @@ def schema() -> Iterator[tuple[str, str]]:
             yield name, attribute
 
 
+IS_OLD = int(mujoco.__version__.partition(".")[0]) < 4
+"""Whether the installed MuJoCo is older than the one whose schema was walked."""
+NEEDS_ARMATURE = pytest.mark.skipif(("actuator/motor", "armature") not in {*schema()}, reason="of a newer MuJoCo")
 _OFF = 'contype="0" conaffinity="0"'
 _CHAIN = f"""
 <body name="b" pos="0 .1 .2" euler=".3 .2 .1"><joint name="a" axis="0 1 0" pos="0 0 .1" range="-.1 .1"/>

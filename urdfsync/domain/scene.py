@@ -131,7 +131,7 @@ class PageMesh(msgspec.Struct, frozen=True):
 
 
 class Pictures(Protocol):
-    """Gives pages the picture of a model; a domain's attribute `pictures`."""
+    """Gives pages the picture of a model; a domain's attribute `pictures`. Only meshes are asked for triangles."""
 
     def scene(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any

@@ -54,69 +54,61 @@ class MjcfDocument(NamedTuple):
         return self.places[line - 1 if 0 < line <= len(self.places) else 0]
 
 
-def read_document(source: str, files: Files) -> MjcfDocument:
-    """Read an MJCF with all files that it names. Raises TranslationError."""
-    document = MjcfDocument(source, "", [], {}, {}, {}, [])
-    return _read_model(source, files, document, ("", 0), ())
-
-
-def _read_model(
-    source: str, files: Files, shared: MjcfDocument, place: SourcePlace, around: tuple[str, ...]
+def read_document(
+    source: str,
+    files: Files,
+    main: MjcfDocument | None = None,
+    place: SourcePlace = ("", 0),
+    around: tuple[str, ...] = (),
 ) -> MjcfDocument:
-    """Return the document of a model; its meshes and models are added to those of `shared`."""
+    """Read an MJCF with all files that it names, or a model that `main` attaches at a place. Raises TranslationError.
+
+    Meshes and models of an attached model are added to those of `main`.
+    """
+    shared = main or MjcfDocument(source, "", [], {}, {}, {}, [])
     if source in around:
         raise TranslationError("the model attaches itself", place)
-    root, places = files.parse(source, place)
+    root = files.parse(source, place)
     if root.tag != "mujoco":
         message = f"the root element is <{root.tag}> and not <mujoco>"
-        raise TranslationError(message, places[root], "name the file that includes this one")
-    _include(root, source, os.path.dirname(source), files, places, (source,))  # noqa: PTH120
-    _name_files(root, source, files, places, shared, (*around, source))
+        raise files.fault(root, message, "name the file that includes this one")
+    _include(root, source, os.path.dirname(source), files, (source,))  # noqa: PTH120
+    _name_files(root, source, files, shared, (*around, source))
     if (count := _count(root)) > _MOST_ELEMENTS:
         message = f"the model has {count:,} elements, and urdfsync reads up to {_MOST_ELEMENTS:,}"
-        raise TranslationError(message, places[root], "take copies out of <replicate>")
-    lines = list(_lines(root, places))
+        raise files.fault(root, message, "take copies out of <replicate>")
+    lines = list(_lines(root, files.places))
     text = "\n" * len(shared.places) + "\n".join(line for line, _ in lines)
     shared.places.extend(place for _, place in lines)
     return shared._replace(text=text)
 
 
-def _include(
-    element: Element, file: str, main: str, files: Files, places: dict[Element, SourcePlace], around: tuple[str, ...]
-) -> None:
+def _include(element: Element, file: str, main: str, files: Files, around: tuple[str, ...]) -> None:
     """Replace each `<include>` below an element by the elements of its file; `main` is the folder of the source."""
     children = list[Element]()
     for child in element:
         if child.tag != "include":
-            _include(child, file, main, files, places, around)
+            _include(child, file, main, files, around)
             children.append(child)
             continue
-        place, name = places[child], child.get("file", "").replace("\\", "/")
+        name = child.get("file", "").replace("\\", "/")
         if not name:
-            raise TranslationError("<include> names no file", place, 'write file="…"')
+            raise files.fault(child, "<include> names no file", 'write file="…"')
         if len(child):
-            raise TranslationError("<include> has elements of its own", place, "take them out")
+            raise files.fault(child, "<include> has elements of its own", "take them out")
         folders = (main, os.path.dirname(file))  # noqa: PTH120
         paths = [os.path.normpath(os.path.join(folder, name)) for folder in folders]  # noqa: PTH118
         path = next(filter(files.is_there, paths), paths[0])
-        files.check_inside(path, place)
+        files.check_inside(path, files.places[child])
         if path in around:
-            raise TranslationError(f"{path} includes itself", place, "take one <include> out")
-        root, inner = files.parse(path, place)
-        places |= inner
-        _include(root, path, main, files, places, (*around, path))
+            raise files.fault(child, f"{path} includes itself", "take one <include> out")
+        root = files.parse(path, files.places[child])
+        _include(root, path, main, files, (*around, path))
         children += root
     element[:] = children
 
 
-def _name_files(
-    root: Element,
-    source: str,
-    files: Files,
-    places: Mapping[Element, SourcePlace],
-    shared: MjcfDocument,
-    around: tuple[str, ...],
-) -> None:
+def _name_files(root: Element, source: str, files: Files, shared: MjcfDocument, around: tuple[str, ...]) -> None:
     """Give each file of a mesh or of an attached model a name of ours; leave out what only draws."""
     folder, settings = os.path.dirname(source), dict[str, str]()  # noqa: PTH120
     for compiler in root.iter("compiler"):
@@ -124,7 +116,7 @@ def _name_files(
     meshes = settings.get("meshdir", settings.get("assetdir", "")).replace("\\", "/")
     for holder in [*root.iter()]:
         for element in [child for child in holder if child.tag in _NOTED and holder.tag != "default"]:
-            shared.noted.append((element.tag, element.get("name", ""), places[element]))
+            shared.noted.append((element.tag, element.get("name", ""), files.places[element]))
             if element.tag in _LEFT_OUT:
                 holder.remove(element)
         for size in holder.findall("size"):  # it may ask for gigabytes, for contacts that no translation computes
@@ -141,7 +133,7 @@ def _name_files(
     for element in root.iter():
         if "file" not in element.attrib:
             continue
-        place, name = places[element], element.get("file", "").replace("\\", "/")
+        place, name = files.places[element], element.get("file", "").replace("\\", "/")
         if element.tag == "mesh":
             name = PurePosixPath(name).name if settings.get("strippath") == "true" else os.path.join(meshes, name)  # noqa: PTH118
             path = os.path.normpath(os.path.join(folder, name))  # noqa: PTH118
@@ -152,14 +144,14 @@ def _name_files(
         elif element.tag == "model" and root.find("asset") is not None:
             path = os.path.normpath(os.path.join(folder, name))  # noqa: PTH118
             files.check_inside(path, place)
-            inner = _read_model(path, files, shared, place, around)
+            inner = read_document(path, files, shared, place, around)
             element.attrib.setdefault("name", PurePosixPath(name).stem)
             own = f"{len(shared.models)}.xml"
             shared.models[own] = inner.text
             element.set("file", own)
         else:
             message = f"<{element.tag}> reads a file, which urdfsync does not support"
-            raise TranslationError(message, place, "take the element out")
+            raise files.fault(element, message, "take the element out")
 
 
 def _count(element: Element) -> int:

@@ -28,6 +28,7 @@ _AXES = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
 _SIZES = {int(mujoco.mjtJoint.mjJNT_BALL): 4, int(mujoco.mjtJoint.mjJNT_FREE): 7}
 """Numbers of a pose."""
 _OF_JOINT = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
+_BIASES = (mujoco.mjtBias.mjBIAS_NONE, mujoco.mjtBias.mjBIAS_AFFINE)
 _OF_SITE = (int(mujoco.mjtTrn.mjTRN_SITE), int(mujoco.mjtTrn.mjTRN_SLIDERCRANK))
 
 
@@ -51,41 +52,6 @@ class JointActuator(NamedTuple):
     """The law at the joint's side, by the names of `urdf.robot.Servo`; None if no `Servo` has it."""
 
 
-class _Limits:
-    """The limits of position, velocity and effort at a joint."""
-
-    def __init__(self) -> None:
-        self._limits = dict[str, tuple[float, float]]()
-
-    def add(self, quantity: str, limits: Any, scale: float, constant: float) -> None:
-        """Limit a quantity that is `scale` · the limited one + `constant`, after the limits before."""
-        first, second = (scale * float(limit) + constant for limit in limits)
-        least, most = min(first, second), max(first, second)
-        lower, upper = self._limits.get(quantity, (least, most))
-        self._limits[quantity] = min(max(lower, least), most), min(max(upper, least), most)
-
-    def greatest_effort(self) -> float | None:
-        """Return the greatest effort; None without a limit."""
-        return _greatest(self._limits["effort"]) if "effort" in self._limits else None
-
-    def numbers(self) -> dict[str, float]:
-        """Return the limits by their names."""
-        names = {quantity: (f"min_{quantity}", f"max_{quantity}") for quantity in self._limits}
-        return {
-            name: value
-            for quantity, limits in self._limits.items()
-            for name, value in zip(names[quantity], limits if quantity == "effort" else rounded(limits), strict=True)
-        }
-
-
-class OmittedPart(NamedTuple):
-    """A part that acts on the robot, and that no model has."""
-
-    what: str
-    name: str
-    line: int
-
-
 class Drives:
     """The couplings and motors of a robot's joints."""
 
@@ -93,7 +59,8 @@ class Drives:
         self.scene = scene
         bodies = {*scene.bodies}
         self.joints = [n for n in range(scene.model.njnt) if int(scene.model.jnt_bodyid[n]) in bodies]
-        self.left_out = list[OmittedPart]()
+        self.left_out = list[UrdfElement]()
+        """Parts that act on the robot, and that no model has."""
         self.followers = dict[int, Follower]()
         self._read_couplings()
         self.motors = defaultdict[int, list[JointActuator]](list)
@@ -106,8 +73,9 @@ class Drives:
                 self._read_motor(number)
 
     def leave_out(self, what: str, kind: str, number: int, name: str = "") -> None:
-        """Note an element that acts on the robot, and that no model has."""
-        self.left_out.append(OmittedPart(what, name or self.scene.name(kind, number), self.scene.line(kind, number)))
+        """Tell of an element that acts on the robot, and that no model has."""
+        name = name or self.scene.name(kind, number)
+        self.left_out.append(UrdfElement("left_out", self.scene.line(kind, number), name=name, what=what))
 
     def _has_axis(self, joint: int) -> bool:
         return joint in self.joints and int(self.scene.model.jnt_type[joint]) in _AXES  # numpy's are never `in`
@@ -123,30 +91,20 @@ class Drives:
                 continue
             offset, multiplier, *higher = map(float, model.eq_data[number][:5])
             is_linear = self._has_axis(first) and self._has_axis(second) and multiplier and not any(higher)
-            if is_linear and first not in self.followers and self.leader(second)[0] != first:
+            if is_linear and first not in self.followers and self.leader(second).leader != first:
                 self.followers[first] = Follower(second, multiplier, offset)
             else:
-                self.leave_out("equality of joints", "equality", number, self._pair(first, second))
+                names = " and ".join(self.scene.joints[joint] for joint in (first, second) if joint >= 0)
+                self.leave_out("equality of joints", "equality", number, names)
 
-    def _pair(self, *joints: int) -> str:
-        return " and ".join(self.scene.joints[joint] for joint in joints if joint >= 0)
-
-    def leader(self, joint: int) -> tuple[int, float]:
-        """Return the joint that moves a joint by couplings, perhaps itself, and the multiplier."""
-        multiplier = 1.0
-        while joint in self.followers:
-            multiplier *= self.followers[joint].multiplier
-            joint = self.followers[joint].leader
-        return joint, multiplier
-
-    def offset(self, joint: int) -> float:
-        """Return the position of a joint, as MuJoCo counts it, at which its leader is at zero."""
+    def leader(self, joint: int) -> Follower:
+        """Return the joint that moves a joint by couplings, perhaps itself; positions are as MuJoCo counts them."""
         offset, multiplier = float(self.scene.model.qpos0[self.scene.model.jnt_qposadr[joint]]), 1.0
         while joint in self.followers:
             joint, factor, constant = self.followers[joint]
             offset += multiplier * constant
             multiplier *= factor
-        return offset
+        return Follower(joint, multiplier, offset)
 
     def _read_motor(self, number: int) -> None:
         """Read an actuator: a motor of one joint, or of joints that move together; anything else is left out."""
@@ -167,14 +125,17 @@ class Drives:
             if kind in bodies and int(bodies[kind][target]) not in self.scene.bodies:
                 return
         for joint, factor in pulls:
-            leader, multiplier = self.leader(joint)
+            leader, multiplier, _ = self.leader(joint)
             moved[leader] = moved.get(leader, 0.0) + factor * multiplier
         command = self._command(number)
         if command is None or len(moved) != 1 or not self._has_axis(joint := next(iter(moved))):
             self.leave_out("actuator", "actuator", number)
             return
         own_gear = float(model.actuator_gear[self.scene.outputs[number]][0])
-        gear, length = own_gear * moved[joint], own_gear * sum(factor * self.offset(joint) for joint, factor in pulls)
+        gear, length = (
+            own_gear * moved[joint],
+            own_gear * sum(factor * self.leader(joint).offset for joint, factor in pulls),
+        )
         if not gear:
             self.leave_out("actuator without gear", "actuator", number)
             return
@@ -188,21 +149,21 @@ class Drives:
             if model.wrap_type[number] == mujoco.mjtWrap.mjWRAP_JOINT:
                 yield int(model.wrap_objid[number]), float(model.wrap_prm[number])
 
+    def _bias(self, number: int) -> tuple[float, ...]:
+        """Return the constant force of an actuator, and those for a unit of position and of speed."""
+        is_affine = self.scene.model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE
+        return tuple(map(float, self.scene.model.actuator_biasprm[number][:3])) if is_affine else (0.0, 0.0, 0.0)
+
     def _command(self, number: int) -> Command | None:
         """Return the quantity that an actuator commands; None for an actuator that is no motor, such as a muscle."""
-        model = self.scene.model
-        _, stiffness, damping = model.actuator_biasprm[number][:3]
-        if model.actuator_gaintype[number] != mujoco.mjtGain.mjGAIN_FIXED or model.actuator_plugin[number] >= 0:
+        model, (_, stiffness, damping) = self.scene.model, self._bias(number)
+        is_plain = model.actuator_gaintype[number] == mujoco.mjtGain.mjGAIN_FIXED and model.actuator_plugin[number] < 0
+        if not is_plain or int(model.actuator_biastype[number]) not in _BIASES:
             return None
         if hasattr(model, "actuator_ctrlnum") and model.actuator_ctrlnum[number] != 1:  # since MuJoCo 4
             return None
         if model.actuator_dyntype[number] == mujoco.mjtDyn.mjDYN_INTEGRATOR:
-            is_fed_back = model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE and stiffness
-            return "velocity" if is_fed_back else None  # without feedback, the effort grows with time
-        if model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_NONE:
-            return "effort"
-        if model.actuator_biastype[number] != mujoco.mjtBias.mjBIAS_AFFINE:
-            return None
+            return "velocity" if stiffness else None  # without feedback, the effort grows with time
         return "position" if stiffness else "velocity" if damping else "effort"
 
     def _read_law(
@@ -212,10 +173,15 @@ class Drives:
 
         `length` is the actuator's at position zero of the joint. The law is None if no `Servo` has it.
         """
-        model, limits = self.scene.model, _Limits()
-        gain, (bias, stiffness, damping) = float(model.actuator_gainprm[number][0]), (0.0, 0.0, 0.0)
-        if model.actuator_biastype[number] == mujoco.mjtBias.mjBIAS_AFFINE:
-            bias, stiffness, damping = map(float, model.actuator_biasprm[number][:3])
+        model, limits = self.scene.model, dict[str, tuple[float, float]]()
+
+        def limit(quantity: str, ends: Any, scale: float, constant: float = 0.0) -> None:
+            """Limit a quantity that is `scale` · the limited one + `constant`, after the limits before."""
+            least, most = sorted(scale * float(end) + constant for end in ends)
+            lower, upper = limits.get(quantity, (least, most))
+            limits[quantity] = min(max(lower, least), most), min(max(upper, least), most)
+
+        gain, (bias, stiffness, damping) = float(model.actuator_gainprm[number][0]), self._bias(number)
         servo, scale, constant = dict[str, float](), gear * gain, gear * bias
         if stiffness:
             servo["position_gain"], scale = -stiffness * gear * gear, -gain / (stiffness * gear)
@@ -230,20 +196,22 @@ class Drives:
         at = self.scene.controls[number]
         if model.actuator_ctrllimited[at] and not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL:
             ctrl = model.actuator_ctrlrange[at]
-            limits.add(command if integrates else reference, ctrl, scale, 0.0 if integrates else constant)
+            limit(command if integrates else reference, ctrl, scale, 0.0 if integrates else constant)
         if model.actuator_actlimited[number]:
-            limits.add(reference, model.actuator_actrange[number], scale, constant)
+            limit(reference, model.actuator_actrange[number], scale, constant)
         if model.actuator_forcelimited[number]:
-            limits.add("effort", model.actuator_forcerange[number], gear, 0.0)
+            limit("effort", model.actuator_forcerange[number], gear)
         limited = [joint for joint, _ in pulls if model.jnt_actfrclimited[joint]]
         if limited and len(pulls) == 1:
-            limits.add("effort", model.jnt_actfrcrange[limited[0]], self.leader(limited[0])[1], 0.0)
+            limit("effort", model.jnt_actfrcrange[limited[0]], self.leader(limited[0]).multiplier)
         is_servo = stiffness <= 0 and damping <= 0 and not (integrates and not stiffness)
         # each joint of a tendon cuts its own share of the effort
         is_servo = is_servo and (not limited or len(pulls) == 1)
-        servo |= limits.numbers()
+        for quantity, ends in limits.items():
+            words = f"min_{quantity}", f"max_{quantity}"
+            servo |= zip(words, ends if quantity == "effort" else rounded(ends), strict=True)
         is_servo = is_servo and all(map(math.isfinite, servo.values()))
-        return servo if is_servo else None, limits.greatest_effort()
+        return servo if is_servo else None, _greatest(limits["effort"]) if "effort" in limits else None
 
     def add_numbers(self, joint: UrdfElement, number: int, kind: str) -> None:
         """Add limits, losses and coupling of a joint to its element."""
@@ -279,7 +247,8 @@ class Drives:
 
     def add_control(self, robot: UrdfElement) -> None:
         """Add the motors, their gears, and the starts of joints. With any motor, a joint without one is passive."""
-        scene, starts = self.scene, self._starts()
+        scene = self.scene
+        starts = next((self.positions(key) for key in range(scene.model.nkey) if scene.name("key", key) == HOME), {})
         if not self.motors and not starts:
             return
         control = robot.add("ros2_control", name="MuJoCo", type="system")
@@ -303,11 +272,6 @@ class Drives:
                 gear.add("plugin", text="transmission_interface/SimpleTransmission")
                 joint = gear.add("joint", name=scene.joints[number])
                 joint.add("mechanical_reduction", text=repr(motors[0].gear))
-
-    def _starts(self) -> dict[int, float]:
-        """Return the positions of the joints at the key `home`."""
-        home = next((key for key in range(self.scene.model.nkey) if self.scene.name("key", key) == HOME), None)
-        return {} if home is None else self.positions(home)
 
     def positions(self, key: int) -> dict[int, float]:
         """Return the positions of the joints at a key."""

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from urdfsync.mjcf.document import FLEXIBLE
-from urdfsync.mjcf.drives import HOME, Drives, OmittedPart
+from urdfsync.mjcf.drives import HOME, Drives
 from urdfsync.mjcf.scene import MujocoScene
 from urdfsync.mjcf.sensors import READ
 from urdfsync.mjcf.turns import turned
@@ -87,8 +87,8 @@ def find_left_out(scene: MujocoScene, drives: Drives) -> None:
         excluded = {signature >> 16, signature & 0xFFFF}
         if 0 in excluded and not excluded.isdisjoint(scene.bodies):
             line = _option_line(scene, "exclude", "body1")
-            drives.left_out.append(OmittedPart("contact without the ground", "", line))
-    drives.left_out += [part for part, is_noted in _unusual(scene, drives) if not is_noted]
+            drives.left_out.append(UrdfElement("left_out", line, name="", what="contact without the ground"))
+    drives.left_out += [part for part in _unusual(scene, drives) if part.tag == "left_out"]
     silent = _SILENT["flag"].split() + ([] if scene.is_floating else ["contact", "override"])
     for word, bits, flags in (
         ("disabled", mujoco.mjtDisableBit, model.opt.disableflags),
@@ -96,39 +96,44 @@ def find_left_out(scene: MujocoScene, drives: Drives) -> None:
     ):
         for bit in (bits(1 << place) for place in range(32) if flags & 1 << place):
             if (name := bit.name.partition("_")[2].lower()) not in silent:
-                drives.left_out.append(OmittedPart(f"{word} flag", name, _option_line(scene, "flag", name)))
+                line = _option_line(scene, "flag", name)
+                drives.left_out.append(UrdfElement("left_out", line, name=name, what=f"{word} flag"))
 
 
-def _unusual(scene: MujocoScene, drives: Drives) -> Iterator[tuple[OmittedPart, bool]]:
-    """Yield each attribute that acts on the robot beside those that the translation reads; True if a note counts it.
-
-    What is noted is the attribute alone.
-    """
+def _unusual(scene: MujocoScene, drives: Drives) -> Iterator[UrdfElement]:
+    """Yield what tells, or counts, each attribute that acts on the robot beside those that the translation reads."""
     model = scene.model
     for kind, number, name in _acting(scene, drives):
         noted = [] if kind == "option" and not scene.is_floating else _NOTED.get(kind, "").split()
         silent = {*_SILENT[""].split(), *_SILENT[kind].split(), *(_NOTED["option"].split() if not noted else ())}
         for field in scene.unusual(kind, number, silent):
             line = _option_line(scene, kind, field) if kind == "option" else scene.line(kind, number)
-            is_noted = field in noted
-            yield OmittedPart(field.replace("_", "") if is_noted else f"{field} of {kind}", name, line), is_noted
+            if field in noted:
+                yield UrdfElement(field.replace("_", ""), line, name=name or None)
+            else:
+                yield UrdfElement("left_out", line, name=name, what=f"{field} of {kind}")
         if kind == "equality" and model.eq_type[number] == mujoco.mjtEq.mjEQ_WELD and model.eq_data[number][10] != 1:
-            yield OmittedPart("torquescale", name, scene.line(kind, number)), True
+            yield UrdfElement("torquescale", scene.line(kind, number), name=name or None)
     for key in (key for key in range(model.nkey) if scene.name("key", key) == HOME):
         starts = {"qvel": model.key_qvel[key], "act": model.key_act[key]}
-        yield from ((OmittedPart(word, HOME, scene.line("key", key)), True) for word in starts if starts[word].any())
+        yield from (UrdfElement(word, scene.line("key", key), name=HOME) for word in starts if starts[word].any())
     if (model.opt.gravity != _GRAVITY).any():
-        is_near, line = (
-            np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01),
-            _option_line(scene, "option", "gravity"),
-        )
-        words = "" if is_near else " ".join(f"{value:g}" for value in model.opt.gravity)
-        yield OmittedPart("gravity", words, line), is_near
+        line = _option_line(scene, "option", "gravity")
+        if np.allclose(model.opt.gravity, _GRAVITY, rtol=0, atol=0.01):
+            yield UrdfElement("gravity", line)
+        else:
+            words = " ".join(f"{value:g}" for value in model.opt.gravity)
+            yield UrdfElement("left_out", line, name=words, what="gravity")
     if scene.is_floating and model.body_quat[scene.root][0] != 1:
-        yield OmittedPart("quat", scene.links[scene.root], scene.line("body", scene.root)), True
+        yield UrdfElement("quat", scene.line("body", scene.root), name=scene.links[scene.root])
     for geom in scene.ground:
-        if not _is_level(model, geom):
-            yield OmittedPart("ground", scene.name("geom", geom), scene.line("geom", geom)), True
+        # a static body's turn is part of no model
+        is_plane, normal = (
+            model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE,
+            turned(model.geom_quat[geom], (0, 0, 1)),
+        )
+        if not (is_plane and normal[2] > 1 - 1e-9):
+            yield UrdfElement("ground", scene.line("geom", geom), name=scene.name("geom", geom) or None)
 
 
 def _acting(scene: MujocoScene, drives: Drives) -> Iterator[tuple[str, int, str]]:
@@ -154,12 +159,6 @@ def _option_line(scene: MujocoScene, tag: str, attribute: str) -> int:
     return next((len(lines) - number for number, is_it in enumerate(has) if is_it), 0)
 
 
-def _is_level(model: Any, geom: int) -> bool:
-    """Return whether a geom is a plane whose normal points upwards."""
-    upwards = turned(model.geom_quat[geom], (0, 0, 1))  # a static body's turn is part of no model
-    return bool(model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE and upwards[2] > 1 - 1e-9)
-
-
 def _any(model: Any, field: str, number: int) -> bool:
     """Return whether a field of newer versions of MuJoCo has a number other than zero."""
     return bool(np.any(getattr(model, field)[number])) if hasattr(model, field) else False
@@ -167,8 +166,7 @@ def _any(model: Any, field: str, number: int) -> bool:
 
 def add_leftovers(robot: UrdfElement, scene: MujocoScene, drives: Drives) -> None:
     """Add an element for each part that is left out, and for each element without an effect."""
-    for part in drives.left_out:
-        robot.add("left_out", part.line, name=part.name, what=part.what)
+    robot.children += drives.left_out
     for tag, name, place in scene.document.noted:
         if tag in FLEXIBLE:
             robot.add("left_out", place, name=name, what="flexible body")
@@ -194,9 +192,7 @@ def add_leftovers(robot: UrdfElement, scene: MujocoScene, drives: Drives) -> Non
     notes += [("inactive", "equality", number) for number in range(model.neq) if not model.eq_active0[number]]
     for tag, kind, number in notes:
         robot.add(tag, scene.line(kind, number), name=scene.name(kind, number) or None)
-    for part, is_noted in _unusual(scene, drives):
-        if is_noted:
-            robot.add(part.what, part.line, name=part.name or None)
+    robot.children += [part for part in _unusual(scene, drives) if part.tag != "left_out"]
     for key in range(model.nkey):
         if scene.name("key", key) == HOME:
             for joint in drives.poses(key):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 
 import mujoco
@@ -13,7 +13,7 @@ import numpy as np
 from urdfsync.mjcf.document import MjcfDocument
 from urdfsync.spelling import nearest
 from urdfsync.translation.files import TranslationError
-from urdfsync.translation.writer import free_name
+from urdfsync.translation.writer import free_name, listed
 
 _BODY, _SITE = int(mujoco.mjtObj.mjOBJ_BODY), int(mujoco.mjtObj.mjOBJ_SITE)
 WORLD = "world"
@@ -58,10 +58,20 @@ class MujocoScene:
         """The bodies of the robot, parents first. Without a free joint, the world is the first of them."""
         if not self.is_floating:
             self.bodies = list(dict.fromkeys([0, *self.bodies]))
-        self.links = self._name_all("body", model.nbody, self._name_of_body)
-        """Names of all bodies."""
-        self.joints = self._name_all("joint", model.njnt, self._name_of_joint)
-        """Names of all joints."""
+        self.links = list[str]()
+        """Names of all bodies; one without a name counts among the bodies of its parent."""
+        given, parents = [self.name("body", number) for number in range(model.nbody)], list(model.body_parentid)
+        taken = {*given}
+        for number, parent in enumerate(parents):  # parents come before children
+            count = parents[1 : number + 1].count(parent)
+            self.links.append(given[number] or free_name(f"{self.links[parent]}_body{count}", taken))
+        self.joints = list[str]()
+        """Names of all joints; one without a name counts among the joints of its body."""
+        given = [self.name("joint", number) for number in range(model.njnt)]
+        taken = {*given}
+        for number, holder in enumerate(map(int, model.jnt_bodyid)):
+            suffix = number - model.body_jntadr[holder] + 1 if model.body_jntnum[holder] > 1 else ""
+            self.joints.append(given[number] or free_name(f"{self.links[holder]}_joint{suffix}", taken))
 
     @functools.cached_property
     def ground(self) -> list[int]:
@@ -113,6 +123,11 @@ class MujocoScene:
             if not (self.is_floating and body == self.root):
                 yield joint
 
+    def geoms_of(self, body: int) -> range:
+        """Return the geoms of a body."""
+        first = int(self.model.body_geomadr[body])
+        return range(first, first + int(self.model.body_geomnum[body]))
+
     def ends(self, equality: int) -> tuple[int, ...]:
         """Return the bodies that an equality of bodies, sites or joints holds together."""
         model, is_of = self.model, int(self.model.eq_objtype[equality])
@@ -141,7 +156,7 @@ class MujocoScene:
         if body:
             if body not in (names := {WORLD: 0, **names}):
                 near = nearest(body, list(names))
-                hint = f"perhaps {near!r} is meant" if near else f"choose one of {_listed(list(names))}"
+                hint = f"perhaps {near!r} is meant" if near else f"choose one of {listed(list(names))}"
                 raise TranslationError(f"there is no body {body!r} below the world", place, hint)
             return {names[body]}
         moved = model.body_rootid[model.jnt_bodyid]  # the topmost body of each joint
@@ -155,30 +170,12 @@ class MujocoScene:
         robots = self._join(candidates.values())
         if len(robots) > 1:
             firsts = [name for name, top in candidates.items() if top in map(min, robots)]
-            message, first = f"the model has {len(robots)} robots: {_listed(firsts)}", firsts[0]
+            message, first = f"the model has {len(robots)} robots: {listed(firsts)}", firsts[0]
             hint = (
                 f'choose one by `arguments = {{ body = "{first}" }}` (`init FILE body:={first}`), or all by "{WORLD}"'
             )
             raise TranslationError(message, place, hint)
         return robots[0]
-
-    def _name_all(self, kind: str, count: int, made: Callable[[int, Sequence[str]], str]) -> Sequence[str]:
-        """Return the names of all elements of a kind; `made` names one by its place, after those before it."""
-        given = [self.name(kind, number) for number in range(count)]
-        taken, names = {*given}, list[str]()
-        for number in range(count):  # parents come before children
-            names.append(given[number] or free_name(made(number, names), taken))
-        return names
-
-    def _name_of_body(self, number: int, names: Sequence[str]) -> str:
-        parents = self.model.body_parentid
-        place = sum(parents[other] == parents[number] for other in range(1, number + 1))
-        return f"{names[parents[number]]}_body{place}"
-
-    def _name_of_joint(self, number: int, _: Sequence[str]) -> str:
-        body = self.model.jnt_bodyid[number]
-        place = number - self.model.body_jntadr[body] + 1
-        return f"{self.links[body]}_joint{place if self.model.body_jntnum[body] > 1 else ''}"
 
 
 def read_scene(document: MjcfDocument, body: str = "", *, with_meshes: bool = False) -> MujocoScene:
@@ -233,8 +230,3 @@ def _in_words(document: MjcfDocument, text: str) -> TranslationError:
         words = words.replace(f"'{name}'", path)
     hint = f"correct it: MuJoCo {mujoco.__version__} does not know it" if ": unrecognized" in text else ""
     return TranslationError(f"MuJoCo: {words}", document.place(_line_in(text)), hint)
-
-
-def _listed(names: Sequence[str]) -> str:
-    """Return names in quotes, the first eight of them."""
-    return ", ".join(map(repr, names[:8])) + (", …" if len(names) > 8 else "")

@@ -6,8 +6,6 @@ parent exerts on the body, in the axes of the site. Its torque is about the join
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import mujoco
 import numpy as np
 
@@ -16,32 +14,9 @@ from urdfsync.mjcf.turns import rpy
 from urdfsync.translation.writer import UrdfElement
 
 _KINDS = {mujoco.mjtSensor.mjSENS_ACCELEROMETER: "accelerometer", mujoco.mjtSensor.mjSENS_GYRO: "gyroscope"}
-_LOADS = {mujoco.mjtSensor.mjSENS_FORCE: "force", mujoco.mjtSensor.mjSENS_TORQUE: "torque"}
+_LOADS: tuple[int, ...] = (mujoco.mjtSensor.mjSENS_FORCE, mujoco.mjtSensor.mjSENS_TORQUE)
 READ = {*_KINDS, *_LOADS}
 """Kinds of sensors that models have."""
-
-
-def _add_load(robot: UrdfElement, links: Links, number: int, joints: Mapping[str, str]) -> bool:
-    """Add a sensor of force and torque for a sensor of MuJoCo; return whether the package has such a sensor."""
-    scene, model = links.scene, links.scene.model
-    site = int(model.sensor_objid[number])
-    body, kind = int(model.site_bodyid[site]), mujoco.mjtSensor(model.sensor_type[number])
-    joint = joints.get(scene.links[body])
-    is_at_joint = not np.any(links.place(body, model.site_pos[site]))
-    # a torque counts about the origin of the joint
-    kinds = _LOADS if is_at_joint else (mujoco.mjtSensor.mjSENS_FORCE,)
-    if joint is None or kind not in kinds:
-        return False
-    twins = [n for n in range(model.nsensor) if int(model.sensor_type[n]) in kinds and model.sensor_objid[n] == site]
-    if number == twins[0]:
-        at = robot.add("gazebo", scene.line("sensor", number), reference=joint)
-        sensor = at.add("sensor", name=scene.name("sensor", number) or f"{joint}_load", type="force_torque")
-        angles = " ".join(map(repr, rpy(model.site_quat[site])))
-        sensor.add("pose", text=f"0 0 0 {angles}")
-        axes = sensor.add("force_torque")
-        axes.add("frame", text="sensor")
-        axes.add("measure_direction", text="parent_to_child")
-    return True
 
 
 def add_sensors(robot: UrdfElement, links: Links) -> None:
@@ -56,13 +31,24 @@ def add_sensors(robot: UrdfElement, links: Links) -> None:
     for number in range(model.nsensor):
         line, name = scene.line("sensor", number), scene.name("sensor", number)
         kind, site = mujoco.mjtSensor(model.sensor_type[number]), int(model.sensor_objid[number])
-        if kind in _LOADS and int(model.site_bodyid[site]) in links.offsets and _add_load(robot, links, number, joints):
-            continue
-        if kind not in _KINDS or int(model.site_bodyid[site]) not in links.offsets:
-            word = kind.name.removeprefix("mjSENS_").lower()
-            robot.add(f"sensor-{word}", line, name=name or None)
-            continue
-        body = int(model.site_bodyid[site])
-        sensor = robot.add("sensor", line, name=name or f"{scene.links[body]}_{_KINDS[kind]}", type=_KINDS[kind])
-        sensor.add("parent", link=scene.links[body])
-        sensor.add("origin", xyz=links.place(body, model.site_pos[site]), rpy=rpy(model.site_quat[site]))
+        body = int(model.site_bodyid[site]) if kind in READ else -1
+        joint = joints.get(scene.links[body])
+        # a torque counts about the origin of the joint
+        loads: tuple[int, ...] = (mujoco.mjtSensor.mjSENS_FORCE,)
+        if body in links.offsets and not np.any(links.place(body, model.site_pos[site])):
+            loads = _LOADS
+        if body not in links.offsets or (kind in _LOADS and (joint is None or kind not in loads)):
+            robot.add(f"sensor-{kind.name.removeprefix('mjSENS_').lower()}", line, name=name or None)
+        elif kind in _KINDS:
+            sensor = robot.add("sensor", line, name=name or f"{scene.links[body]}_{_KINDS[kind]}", type=_KINDS[kind])
+            sensor.add("parent", link=scene.links[body])
+            sensor.add("origin", xyz=links.place(body, model.site_pos[site]), rpy=rpy(model.site_quat[site]))
+        # one sensor for the force and the torque at a site
+        elif not any(int(model.sensor_type[n]) in loads and model.sensor_objid[n] == site for n in range(number)):
+            at = robot.add("gazebo", line, reference=joint)
+            sensor = at.add("sensor", name=name or f"{joint}_load", type="force_torque")
+            angles = " ".join(map(repr, rpy(model.site_quat[site])))
+            sensor.add("pose", text=f"0 0 0 {angles}")
+            axes = sensor.add("force_torque")
+            axes.add("frame", text="sensor")
+            axes.add("measure_direction", text="parent_to_child")

@@ -25,15 +25,3 @@ def turned(quaternion: Any, vector: Any) -> Array:
     result = np.zeros(3)
     mujoco.mju_rotVecQuat(result, np.asarray(vector, float), np.asarray(quaternion, float))
     return result
-
-
-def product(first: Any, second: Any) -> Array:
-    """Return the product of two quaternions: the turn by `second`, then by `first`."""
-    result = np.zeros(4)
-    mujoco.mju_mulQuat(result, np.asarray(first, float), np.asarray(second, float))
-    return result
-
-
-def inverse(quaternion: Any) -> Array:
-    """Return the quaternion of the opposite turn."""
-    return np.asarray(quaternion, float) * [1.0, -1.0, -1.0, -1.0]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 
 from urdfsync.engine.sources.exchange import Answer, Problem, Request, serve
-from urdfsync.mjcf.document import MjcfDocument, read_document
+from urdfsync.mjcf.document import read_document
 from urdfsync.translation import program
 from urdfsync.translation.files import Files, TranslationError
 
@@ -26,22 +26,16 @@ def translate(request: Request) -> Answer:
     files = Files(request.contents, (request.folder, os.path.dirname(request.source)))  # noqa: PTH120
 
     def translate_or_compare() -> Answer:
-        document, body = _read(request.source, files), request.arguments.get("body", "")
+        if files.read(request.source).startswith(_COMPILED):
+            message = "this is a compiled model of MuJoCo (MJB)"
+            raise TranslationError(message, (request.source, 0), "name the XML file of the model")
+        document, body = read_document(request.source, files), request.arguments.get("body", "")
         if request.text:
             compared, differences = comparison.compare(document, request.text, body)
             return Answer(compared=compared, differences=differences)
         return Answer(*urdf.translated(document, body))
 
-    too_deep = "its elements are nested too deep"
-    return program.answer(request, files, "mjcf", ("body",), translate_or_compare, too_deep)
-
-
-def _read(source: str, files: Files) -> MjcfDocument:
-    if files.read(source).startswith(_COMPILED):
-        raise TranslationError(
-            "this is a compiled model of MuJoCo (MJB)", (source, 0), "name the XML file of the model"
-        )
-    return read_document(source, files)
+    return program.answer(request, files, "mjcf", ("body",), translate_or_compare)
 
 
 def main() -> None:

@@ -10,10 +10,10 @@ from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
 from urdfsync.engine.sources.ros_packages import Packages
-from urdfsync.translation.files import Files, SourcePlace, TranslationError
+from urdfsync.translation.files import Files, SourcePlace
 from urdfsync.urdf.kinematics.poses import IDENTITY, Pose, pose, roll_pitch_yaw
 from urdfsync.urdf.parse.fields import parse_numbers, quoted
-from urdfsync.urdf.robot import Origin, Vector
+from urdfsync.urdf.robot import Origin
 
 SdfVersion = tuple[int, ...]
 _OLDEST, _NEWEST = (1, 3), (1, 12)
@@ -31,21 +31,15 @@ class SdfDocument:
 
     def __init__(self, source: str, files: Files, packages: Sequence[str] = ()) -> None:
         """`packages` are folders with models and ROS packages."""
-        self.source, self.files = source, files
-        self.places: dict[Element, SourcePlace] = {}
+        self.source, self.files, self.places, self.fault = source, files, files.places, files.fault
         self.packages = Packages(list(map(Path, packages)), Path(source))
         self._roots: dict[str, Element] = {}
-
-    def fault(self, element: Element, message: str, hint: str = "") -> TranslationError:
-        """Return an error about an element."""
-        return TranslationError(message, self.places[element], hint)
 
     def read(self, path: str, place: SourcePlace = ("", 0)) -> tuple[Element, SdfVersion]:
         """Return the root element of an SDF, and its version. Raises TranslationError."""
         if path not in self._roots:
             # libsdformat's parser accepts such comments, and 20 of Gazebo's own examples have them
-            self._roots[path], places = self.files.parse(path, place, has_any_comments=True)
-            self.places |= places
+            self._roots[path] = self.files.parse(path, place, has_any_comments=True)
         root = self._roots[path]
         if root.tag != "sdf":
             hint = "convert it, or name it as a robot of its own" if root.tag == "robot" else ""
@@ -81,7 +75,7 @@ class SdfDocument:
 
     def _chosen(self, folder: str, place: SourcePlace) -> str:
         """Return the SDF of the newest known version in the folder of a model."""
-        root, places = self.files.parse(os.path.join(folder, _CONFIG), place)  # noqa: PTH118
+        root = self.files.parse(os.path.join(folder, _CONFIG), place)  # noqa: PTH118
         names = dict[SdfVersion, str]()
         for sdf in root.iterfind("sdf"):
             words = sdf.get("version", "1.4").split(".")
@@ -89,7 +83,7 @@ class SdfDocument:
             if version <= _NEWEST:
                 names[version] = (sdf.text or "").strip()
         if not names:
-            raise TranslationError("it names no <sdf> of a version that urdfsync reads", places[root])
+            raise self.fault(root, "it names no <sdf> of a version that urdfsync reads")
         path = os.path.normpath(os.path.join(folder, names[max(names)]))  # noqa: PTH118
         self.files.check_inside(path, place)
         return path
@@ -125,10 +119,6 @@ class SdfDocument:
     def number(self, element: Element | None, tag: str, default: float) -> float:
         """Return the number in the text of a child. Raises TranslationError."""
         return self.numbers(element, tag, (default,))[0]
-
-    def vector(self, element: Element | None, tag: str, default: Vector) -> Vector:
-        """Return the three numbers in the text of a child. Raises TranslationError."""
-        return self.numbers(element, tag, default)  # type: ignore[return-value] # as many as the default
 
     def flag(self, element: Element, tag: str, *, default: bool = False) -> bool:
         """Return the truth in the text of a child. Raises TranslationError."""

@@ -26,44 +26,36 @@ _MOST_FRAMES = 20_000
 
 
 class Frame:
-    """The frame of a link, joint, `<frame>`, model or world."""
+    """The frame of a link, joint, `<frame>`, model or world. Models and worlds have parts, and names of these."""
 
-    def __init__(self, kind: str, name: str, element: Element, scope: Scope) -> None:
-        self.kind, self.element = kind, element
+    def __init__(self, kind: str, name: str, element: Element, scope: Frame | None, version: SdfVersion = ()) -> None:
+        self.kind = kind
         self.name = name
         """The name in the whole model, such as `arm::wrist`."""
-        self.scope = scope
-        """The model around it: names in its element are looked up there."""
-        self.inner: Scope | None = None
-        """The elements of a model."""
+        self.element: Element = element
+        """The element with the pose: of an included model the `<include>`."""
+        self.content = element
+        """The element with the parts."""
+        self.scope = scope or self
+        """The model or world around it: names in its element are looked up there."""
+        self.version = version
+        self.prefix = ""
+        """The names of the models around an element in it, such as `arm::`."""
+        self.names: dict[str, Frame] = {}
+        self.parts: list[Frame] = []
+        """Links, joints and frames."""
+        self.models: list[Frame] = []
         self.link: Frame | None = None
         """The link, or the world, with which it moves, once this is known."""
         self.base: tuple[Frame, Pose] | None = None
         """The frame in which its pose is given, and the pose, once these are known."""
 
-
-class Scope:
-    """The elements of a model, or of a world."""
-
-    def __init__(self, element: Element, version: SdfVersion, prefix: str = "") -> None:
-        self.element, self.version = element, version
-        self.prefix = prefix
-        """The names of the models around an element, such as `arm::`."""
-        self.holder: Element = element
-        """The element with pose and settings of the model: the model, or its `<include>`."""
-        self.names: dict[str, Frame] = {}
-        self.own: Frame
-        """The model's frame."""
-        self.parts: list[Frame] = []
-        """Links, joints and frames."""
-        self.models: list[Scope] = []
-
     @property
     def static_holder(self) -> Element:
         """The element that says whether the model is static: the `<include>` if it does, else the model."""
-        return self.element if self.holder.find("static") is None else self.holder
+        return self.content if self.element.find("static") is None else self.element
 
-    def each(self) -> Iterator[Scope]:
+    def each(self) -> Iterator[Frame]:
         """Yield this model and all models in it."""
         yield self
         for model in self.models:
@@ -84,18 +76,16 @@ class Frames:
         """Faults of includes in a world: scenery may be absent."""
         root, version = document.read(document.source)
         worlds = root.findall("world")
-        holder = worlds[0] if worlds else root
         if len(worlds) > 1:
             message = f"the file has {len(worlds)} worlds"
             raise document.fault(worlds[1], message, "write each into a file of its own")
-        self.top = Scope(holder, version)
-        self.top.own = self.world = Frame("world", WORLD, holder, self.top)
-        self._count, self._busy = 0, list[Frame]()
+        self.world = Frame("world", WORLD, worlds[0] if worlds else root, None, version)
+        self._count, self._busy = 0, set[Frame]()
         self._known = {self.world}
         """Frames with a pose in the world."""
-        self._read(self.top, (document.source,))
+        self._read(self.world, (document.source,))
 
-    def _add(self, scope: Scope, frame: Frame, name: str) -> None:
+    def _add(self, scope: Frame, frame: Frame, name: str) -> None:
         """Give a frame its name in a scope. Raises TranslationError."""
         self._count += 1
         if self._count > _MOST_FRAMES:
@@ -110,43 +100,41 @@ class Frames:
             message = f"{frame.kind} {name!r} has the name of the {other.kind} in line {line}"
             raise self.document.fault(frame.element, message, "give each part of a model a name of its own")
 
-    def _read(self, scope: Scope, around: tuple[str, ...]) -> None:
+    def _read(self, scope: Frame, around: tuple[str, ...]) -> None:
         """Read the elements of a model or world; `around` are the files that include it. Raises TranslationError."""
         for tag in _NAMED:
-            for element in scope.element.iterfind(tag):
+            for element in scope.content.iterfind(tag):
                 name = self.document.name(element)
                 frame = Frame(tag, scope.prefix + name, element, scope)
                 self._add(scope, frame, name)
                 scope.parts.append(frame)
             if tag == "link":
-                for element in [child for child in scope.element if child.tag in ("model", "include")]:
+                for element in [child for child in scope.content if child.tag in ("model", "include")]:
                     self._read_model(scope, element, around)
 
-    def _read_model(self, outer: Scope, element: Element, around: tuple[str, ...]) -> None:
-        model, version, path = element, outer.version, ""
+    def _read_model(self, outer: Frame, element: Element, around: tuple[str, ...]) -> None:
+        content, version, path = element, outer.version, ""
         if element.tag == "include":
             try:
-                model, version, path = self._included(element, around)
+                content, version, path = self._included(element, around)
             except TranslationError as error:
                 fault = error.problem("")  # a fault inside of the file counts always
-                if outer is not self.top or (fault.file, fault.line) != self.document.places[element]:
+                if outer is not self.world or (fault.file, fault.line) != self.document.places[element]:
                     raise
                 self.missing.append(error)
                 return
-        is_merged = element.get("merge", "").strip().lower() in ("true", "1") and outer is not self.top
-        name = (element.findtext("name", "") if element.tag == "include" else "").strip() or self.document.name(model)
-        inner = Scope(model, version, outer.prefix if is_merged else f"{outer.prefix}{name}::")
-        inner.holder = element
-        inner.own = Frame("model", outer.prefix + name, element, outer)
-        inner.own.inner = inner
+        is_merged = element.get("merge", "").strip().lower() in ("true", "1") and outer is not self.world
+        name = (element.findtext("name", "") if element.tag == "include" else "").strip() or self.document.name(content)
+        model = Frame("model", outer.prefix + name, element, outer, version)
+        model.content = content
+        if outer is not self.world:  # a robot's own names need no prefix
+            model.prefix = outer.prefix if is_merged else f"{outer.prefix}{name}::"
         if is_merged:
-            inner.names = outer.names
+            model.names = outer.names
             name = f"_merged__{name}__model__"
-        if outer is self.top:  # a robot's own names need no prefix
-            inner.prefix = ""
-        self._add(outer, inner.own, name)
-        outer.models.append(inner)
-        self._read(inner, (*around, path) if path else around)
+        self._add(outer, model, name)
+        outer.models.append(model)
+        self._read(model, (*around, path) if path else around)
 
     def _included(self, element: Element, around: tuple[str, ...]) -> tuple[Element, SdfVersion, str]:
         """Return the model in the file of an `<include>`, its version and its file. Raises TranslationError."""
@@ -163,25 +151,22 @@ class Frames:
             raise self.document.fault(element, message)
         return models[0], version, path
 
-    def look_up(self, scope: Scope, name: str, element: Element) -> Frame:
+    def look_up(self, scope: Frame, name: str, element: Element) -> Frame:
         """Return the frame with a name in a scope; `element` has the name. Raises TranslationError."""
         # before SDF 1.7, a part could have one of the two names: then the name stands for the part
-        found, rest = scope.names.get(name) or {_MODEL: scope.own, WORLD: self.world}.get(name), name
-        inner: Scope | None = scope
+        found, rest = scope.names.get(name) or {_MODEL: scope, WORLD: self.world}.get(name), name
+        inner: Frame | None = scope
         while found is None and inner is not None and "::" in rest:
             first, _, rest = rest.partition("::")
-            step = inner.names.get(first)
-            inner = step.inner if step else None
-            if inner is not None:
-                found = inner.own if rest == _MODEL else inner.names.get(rest)
+            inner = inner.names.get(first)
+            if inner is not None and inner.kind == "model":
+                found = inner if rest == _MODEL else inner.names.get(rest)
         if found is None:
             near = nearest(name, list(scope.names))
             hint = f"perhaps {near!r} is meant" if near else "name a link, joint, frame or model of the same model"
-            raise self.document.fault(element, f"there is no frame {name!r} in {self._shown(scope)}", hint)
+            place = "the world" if scope is self.world else f"model {scope.name!r}"
+            raise self.document.fault(element, f"there is no frame {name!r} in {place}", hint)
         return found
-
-    def _shown(self, scope: Scope) -> str:
-        return "the world" if scope is self.top else f"model {scope.own.name!r}"
 
     def named(self, frame: Frame, tag: str) -> Frame:
         """Return the frame that the `<parent>` or `<child>` of a joint names. Raises TranslationError."""
@@ -190,7 +175,7 @@ class Frames:
             raise self.document.fault(frame.element, f"joint {frame.name!r} has no <{tag}>")
         return self.look_up(frame.scope, name, frame.element)
 
-    def given_in(self, scope: Scope, element: Element, default: Frame) -> Frame:
+    def given_in(self, scope: Frame, element: Element, default: Frame) -> Frame:
         """Return the frame in which the pose of an element is given. Raises TranslationError."""
         pose = element.find("pose")
         if pose is None:
@@ -200,66 +185,60 @@ class Frames:
 
     def link_of(self, frame: Frame) -> Frame:
         """Return the link, or the world, with which a frame moves. Raises TranslationError."""
-        if frame.kind in ("link", "world"):
-            return frame
-        if frame.link is None:
-            self._enter(frame, f"the frame of {frame.kind} {frame.name!r} is attached to itself")
-            if frame.kind == "joint":
-                base = self.named(frame, "child")
-            elif frame.kind == "frame":
-                base = self.look_up(frame.scope, frame.element.get("attached_to", "") or _MODEL, frame.element)
+        passed, end = dict[Frame, None](), frame
+        while end.kind not in ("link", "world") and end.link is None:
+            if end in passed:
+                message = f"the frame of {end.kind} {end.name!r} is attached to itself"
+                raise self.document.fault(end.element, message)
+            passed[end] = None
+            if end.kind == "joint":
+                end = self.named(end, "child")
+            elif end.kind == "frame":
+                end = self.look_up(end.scope, end.element.get("attached_to", "") or _MODEL, end.element)
             else:
-                base = self._canonical(frame)
-            frame.link = self.link_of(base)
-            self._busy.remove(frame)
-        return frame.link
+                end = self._canonical(end)
+        for each in passed:
+            each.link = end.link or end
+        return end.link or end
 
-    def _canonical(self, frame: Frame) -> Frame:
+    def _canonical(self, model: Frame) -> Frame:
         """Return the canonical link of a model, or a frame that moves with it. Raises TranslationError."""
-        inner = frame.inner
-        if inner is not None and (name := inner.element.get("canonical_link", "")):
-            return self.look_up(inner, name, inner.element)
-        links = {part.element: part for part in inner.parts if part.kind == "link"} if inner else {}
-        models = inner.models if inner else []
-        if inner is not None:  # links of a merged model count where its <include> stands
-            links |= {model.holder: model.own for model in models if model.names is inner.names}
-        first = next((links[element] for element in inner.element if element in links), None) if inner else None
-        if first is None and not models:
-            raise self.document.fault(frame.element, f"model {frame.name!r} has no link")
-        return first or models[0].own
-
-    def _enter(self, frame: Frame, message: str) -> None:
-        if frame in self._busy:
-            raise self.document.fault(frame.element, message)
-        self._busy.append(frame)
+        if name := model.content.get("canonical_link", ""):
+            return self.look_up(model, name, model.content)
+        links = {part.element: part for part in model.parts if part.kind == "link"}
+        # links of a merged model count where its <include> stands
+        links |= {inner.element: inner for inner in model.models if inner.names is model.names}
+        first = next((links[element] for element in model.content if element in links), None)
+        if first is None and not model.models:
+            raise self.document.fault(model.element, f"model {model.name!r} has no link")
+        return first or model.models[0]
 
     def _base(self, frame: Frame) -> tuple[Frame, Pose]:
         """Return the frame in which the pose of a frame is given, and the pose. Raises TranslationError."""
-        if frame.base is None:
-            self._enter(frame, f"the pose of {frame.kind} {frame.name!r} is given in its own frame, by a circle")
-            frame.base = self._find_base(frame)
-            self._busy.remove(frame)
-        return frame.base
-
-    def _find_base(self, frame: Frame) -> tuple[Frame, Pose]:
-        scope, element = frame.scope, frame.element
+        if frame.base is not None:
+            return frame.base
+        if frame in self._busy:
+            raise self._circle(frame)
+        self._busy.add(frame)
+        scope, element, content = frame.scope, frame.element, frame.content
+        default = scope
         if frame.kind == "joint":
             default = self.named(frame, "child")
         elif frame.kind == "frame" and (name := element.get("attached_to", "")):
             default = self.look_up(scope, name, element)
-        else:
-            default = scope.own
-        inner = frame.inner
-        if inner is None:
-            return self.given_in(scope, element, default), self.document.pose(element)
         # the pose of an `<include>` replaces that of its model
-        is_silent = element is not inner.element and element.find("pose") is None
+        is_silent = element is not content and element.find("pose") is None
         base = default if is_silent else self.given_in(scope, element, default)
-        place = self.document.pose(inner.element if is_silent else element)
-        name = element.findtext("placement_frame", "").strip() or inner.element.get("placement_frame", "")
-        if name:  # the pose is that of this frame
-            place = compose(place, inverse(self.pose(self.look_up(inner, name, element), frame)))
-        return base, place
+        place = self.document.pose(content if is_silent else element)
+        name = element.findtext("placement_frame", "").strip() or content.get("placement_frame", "")
+        if name and frame.kind == "model":  # the pose is that of this frame
+            place = compose(place, inverse(self.pose(self.look_up(frame, name, element), frame)))
+        frame.base = base, place
+        return frame.base
+
+    def _circle(self, frame: Frame) -> TranslationError:
+        message = f"the pose of {frame.kind} {frame.name!r} is given in its own frame, by a circle"
+        return self.document.fault(frame.element, message)
 
     def pose(self, frame: Frame, base: Frame) -> Pose:
         """Return the pose of a frame in another frame, with all joints at zero. Raises TranslationError.
@@ -285,8 +264,7 @@ class Frames:
         place, poses = IDENTITY, dict[Frame, Pose]()
         while True:
             if frame in poses:
-                message = f"the pose of {frame.kind} {frame.name!r} is given in its own frame, by a circle"
-                raise self.document.fault(frame.element, message)
+                raise self._circle(frame)
             poses[frame] = place
             if frame in ends or frame.kind == "world":
                 return poses

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from xml.etree.ElementTree import Element
 
 from urdfsync.sdf.document import SdfDocument
@@ -12,7 +13,14 @@ from urdfsync.urdf.robot import Inertia
 
 _WATER = 1000.0
 """The density of a shape that states none, in kg/m³."""
-_UNIT = (1.0, 1.0, 1.0)
+_SIZES: Mapping[str, Mapping[str, tuple[float, ...]]] = {
+    "box": {"size": (1.0, 1.0, 1.0)},
+    "sphere": {"radius": (1.0,)},
+    "ellipsoid": {"radii": (1.0, 1.0, 1.0)},
+    "cylinder": {"radius": (1.0,), "length": (1.0,)},
+    "capsule": {"radius": (0.5,), "length": (1.0,)},
+}
+"""The sizes of each shape, with their defaults; URDF has them by the same names."""
 _PLACES = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
 _DECIMALS = 15
 
@@ -46,32 +54,31 @@ def automatic_inertia(frames: Frames, link: Frame, inertial: Element) -> tuple[f
     return given, (IDENTITY[0], middle), {name: round(value, _DECIMALS) for name, value in moments.items()}
 
 
+def shape_sizes(document: SdfDocument, shape: Element) -> dict[str, tuple[float, ...]]:
+    """Return the sizes of a shape by their names; none for a shape that URDF lacks. Raises TranslationError."""
+    return {name: document.numbers(shape, name, usual) for name, usual in _SIZES.get(shape.tag, {}).items()}
+
+
 def _shape(document: SdfDocument, collision: Element) -> tuple[float, tuple[float, float, float], float]:
     """Return volume, mean squares of x, y and z about the centre of mass, and the height of this centre."""
-    geometry = collision.find("geometry")
-    shape = next(iter(geometry if geometry is not None else ()), collision)
-    r, h = (
-        document.number(shape, "radius", 0.5 if shape.tag == "capsule" else 1.0),
-        document.number(shape, "length", 1.0),
-    )
-    match shape.tag:
-        case "box":
-            x, y, z = document.vector(shape, "size", _UNIT)
+    found = collision.find("geometry/*")
+    shape = collision if found is None else found
+    match shape.tag, [value for values in shape_sizes(document, shape).values() for value in values]:
+        case "box", [x, y, z]:
             return x * y * z, (x * x / 12, y * y / 12, z * z / 12), 0.0
-        case "sphere":
+        case "sphere", [r]:
             return 4 / 3 * math.pi * r**3, (r * r / 5,) * 3, 0.0
-        case "ellipsoid":
-            x, y, z = document.vector(shape, "radii", _UNIT)
+        case "ellipsoid", [x, y, z]:
             return 4 / 3 * math.pi * x * y * z, (x * x / 5, y * y / 5, z * z / 5), 0.0
-        case "cylinder":
+        case "cylinder", [r, h]:
             return math.pi * r * r * h, (r * r / 4, r * r / 4, h * h / 12), 0.0
-        case "cone":  # its centre of mass is a quarter of its height above its base
+        case "cone", _:  # its centre of mass is a quarter of its height above its base
+            r, h = (document.number(shape, name, 1.0) for name in ("radius", "length"))
             return math.pi * r * r * h / 3, (3 / 20 * r * r, 3 / 20 * r * r, 3 / 80 * h * h), -h / 4
-        case "capsule":
+        case "capsule", [r, h]:
             tube, ball = math.pi * r * r * h, 4 / 3 * math.pi * r**3
             across = (tube * r * r / 4 + ball * r * r / 5) / (tube + ball)
             along = (tube * h * h / 12 + ball * (r * r / 5 + h * h / 4 + 3 / 8 * h * r)) / (tube + ball)
             return tube + ball, (across, across, along), 0.0
-    raise document.fault(
-        shape, f"the inertia of a <{shape.tag}> is not computed", "write the link's <mass> and <inertia>"
-    )
+    message = f"the inertia of a <{shape.tag}> is not computed"
+    raise document.fault(shape, message, "write the link's <mass> and <inertia>")

@@ -24,23 +24,16 @@ MODEL_AXES = "use_parent_model_frame"
 
 
 class JointAxis(NamedTuple):
-    """An axis of a joint, with its numbers as URDF has them."""
+    """An axis of a joint, with its numbers by the names that URDF has for them."""
 
-    element: Element | None
     vector: Vector
     given_in: Frame
     """The frame of the vector."""
     range: tuple[float, float] | None = None
-    effort: float | None = None
-    velocity: float | None = None
-    acceleration: float | None = None
-    damping: float = 0.0
-    friction: float = 0.0
-    armature: float | None = None
-    stiffness: float = 0.0
-    reference: float = 0.0
-    """The position without force of a spring with this `stiffness`."""
-    mimic: Mapping[str, Any] | None = None
+    most: Mapping[str, float | None] = {}
+    """Greatest effort, velocity and acceleration."""
+    dynamics: Mapping[str, float | None] = {}
+    mimic: Mapping[str, Any] = {}
 
 
 class SdfJoint(NamedTuple):
@@ -59,7 +52,8 @@ class SdfJoint(NamedTuple):
     @property
     def has_numbers(self) -> bool:
         """Whether an axis has limits or losses, or follows another one."""
-        return bool(self.damping) or any(axis._replace(reference=0.0) != JointAxis(*axis[:3]) for axis in self.axes)
+        limited = any(axis.range or {*axis.most.values()} - {None} for axis in self.axes)
+        return limited or bool(self.damping) or any(any(axis.dynamics.values()) or axis.mimic for axis in self.axes)
 
 
 def read_joints(frames: Frames, parts: Iterable[Frame]) -> list[SdfJoint]:
@@ -89,36 +83,35 @@ def _axis(frames: Frames, joint: Frame, tag: str) -> JointAxis:
     elif element is not None and (
         joint.scope.version < (1, 5) or (joint.scope.version < (1, 7) and document.flag(element, MODEL_AXES))
     ):
-        given_in = joint.scope.own
+        given_in = joint.scope
     if element is None:
-        return JointAxis(None, (0.0, 0.0, 1.0), given_in)
+        return JointAxis((0.0, 0.0, 1.0), given_in)
     limit, dynamics = element.find("limit"), element.find("dynamics")
     lower, upper = (document.number(limit, name, end) for name, end in (("lower", -_ENDLESS), ("upper", _ENDLESS)))
+    most = {name: document.number(limit, name, -1) for name in ("effort", "velocity")}
+    most |= {"acceleration": document.number(limit, "drake:acceleration", 0.0) or -1}
     rotor = document.number(joint.element, "drake:rotor_inertia", 0.0) if tag == TAGS[0] else 0.0
     gear = document.number(joint.element, "drake:gear_ratio", 1.0)
-    effort, velocity = (document.number(limit, name, -1) for name in ("effort", "velocity"))
+    losses: dict[str, float | None] = {name: document.number(dynamics, name, 0.0) for name in ("damping", "friction")}
+    losses["armature"] = gear * gear * rotor or None
+    if stiffness := document.number(dynamics, "spring_stiffness", 0.0):
+        losses["spring_stiffness"] = stiffness
+        losses["spring_reference"] = document.number(dynamics, "spring_reference", 0.0) or None
     return JointAxis(
-        element,
-        document.vector(element, "xyz", (0.0, 0.0, 1.0)),
+        document.numbers(element, "xyz", (0.0, 0.0, 1.0)),  # type: ignore[arg-type] # three numbers
         given_in,
         (max(lower, -_ENDLESS), min(upper, _ENDLESS)) if lower > -_ENDLESS or upper < _ENDLESS else None,
-        effort if 0 <= effort < _ENDLESS else None,
-        velocity if 0 <= velocity < _ENDLESS else None,
-        document.number(limit, "drake:acceleration", 0.0) or None,
-        document.number(dynamics, "damping", 0.0),
-        document.number(dynamics, "friction", 0.0),
-        gear * gear * rotor or None,
-        document.number(dynamics, "spring_stiffness", 0.0),
-        document.number(dynamics, "spring_reference", 0.0),
+        {name: value if 0 <= value < _ENDLESS else None for name, value in most.items()},
+        losses,
         _mimic(frames, joint, element),
     )
 
 
-def _mimic(frames: Frames, joint: Frame, axis: Element) -> Mapping[str, Any] | None:
+def _mimic(frames: Frames, joint: Frame, axis: Element) -> Mapping[str, Any]:
     """Return the coupling of an axis as URDF has it: position = multiplier · (leader - reference) + offset."""
     element, document = axis.find("mimic"), frames.document
     if element is None:
-        return None
+        return {}
     leader = frames.look_up(joint.scope, element.get("joint", ""), element)
     if leader.kind != "joint":
         raise document.fault(element, f"<mimic> names the {leader.kind} {leader.name!r}, which is no joint")

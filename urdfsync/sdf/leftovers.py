@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from xml.etree.ElementTree import Element
 
-from urdfsync.sdf.frames import Scope
+from urdfsync.sdf.frames import Frame
 from urdfsync.sdf.joints import MODEL_AXES, SdfJoint
 from urdfsync.sdf.urdf import Urdf
 
@@ -34,45 +34,45 @@ _DOWN, _FEW = (0.0, 0.0, -9.8), 0.02
 _STILL = (0.0, 0.0, 0.0)
 
 
-def add_leftovers(urdf: Urdf, model: Scope, joints: Iterable[SdfJoint]) -> None:
+def add_leftovers(urdf: Urdf, model: Frame, joints: Iterable[SdfJoint]) -> None:
     """Add the leftovers of joints, models and world."""
-    document, world = urdf.document, urdf.frames.top.element
+    document, world = urdf.document, urdf.frames.world.element
     for frame, kind, *_ in joints:
         if kind in ("screw", "gearbox"):
             urdf.leave_out(f"{kind} joint", frame.name, frame.element)
         for path, usual in _ODE.items():
             if document.number(frame.element, f"physics/ode/{path}", usual) != usual:
                 urdf.leave_out(f"{path} of <physics>", frame.name, frame.element)
-    has_wind = any(document.vector(world, "wind/linear_velocity", _STILL))
+    has_wind = any(document.numbers(world, "wind/linear_velocity", _STILL))
     for scope in model.each():
         if document.flag(scope.static_holder, "static"):
-            urdf.leave_out("static model", scope.own.name, scope.static_holder)
-        for element in (scope.element, *scope.element.iterfind("link")) if has_wind else ():
+            urdf.leave_out("static model", scope.name, scope.static_holder)
+        for element in (scope.content, *scope.content.iterfind("link")) if has_wind else ():
             if document.flag(element, "enable_wind"):
                 urdf.leave_out("wind by enable_wind", element.get("name", ""), element)
         full = {name: frame.name for name, frame in scope.names.items()}
-        for part in [*scope.element, *(scope.holder if scope.holder is not scope.element else ())]:
+        for part in [*scope.content, *(scope.element if scope.element is not scope.content else ())]:
             if part.tag == "plugin":  # in Gazebo's words, which URDF has, too
                 urdf.copy(urdf.root.add("gazebo", document.places[part]), part, full)
             elif part.tag == "experimental:params":
-                urdf.leave_out("changes of an included model", scope.own.name, part)
+                urdf.leave_out("changes of an included model", scope.name, part)
             elif part.tag not in _MODEL:
-                urdf.note(part, scope.own.name)
+                urdf.note(part, scope.name)
             else:
-                _note_unread(urdf, scope, part, scope.own.name)
+                _note_unread(urdf, scope, part, scope.name)
     # before SDF 1.6, the gravity stood in <physics>
-    for holder in (world, *(world.iterfind("physics") if urdf.frames.top.version < (1, 6) else ())):
-        gravity = document.vector(holder, "gravity", _DOWN)
+    for holder in (world, *(world.iterfind("physics") if urdf.frames.world.version < (1, 6) else ())):
+        gravity = document.numbers(holder, "gravity", _DOWN)
         if any(abs(value - usual) > _FEW for value, usual in zip(gravity, _DOWN, strict=True)):
             urdf.leave_out("gravity", " ".join(map("{:g}".format, gravity)), holder.find("gravity", holder))
     for part in world if world.tag == "world" else ():
         if part.tag == "joint":
             urdf.leave_out("joint of the world", part.get("name", ""), part)
-        elif part is not model.holder and part.tag != "gravity":
+        elif part is not model.element and part.tag != "gravity":
             urdf.note(part)
 
 
-def _note_unread(urdf: Urdf, scope: Scope, element: Element, name: str) -> None:
+def _note_unread(urdf: Urdf, scope: Frame, element: Element, name: str) -> None:
     """Count the elements in an element of a model that are not read."""
     name = element.get("name") or name
     known = _READ.get(element.tag, frozenset())

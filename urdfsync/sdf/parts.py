@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from urdfsync.sdf.document import SdfDocument
 from urdfsync.sdf.frames import Frame
-from urdfsync.sdf.inertia import automatic_inertia
+from urdfsync.sdf.inertia import automatic_inertia, shape_sizes
 from urdfsync.sdf.urdf import Urdf
 from urdfsync.translation.writer import UrdfElement
 from urdfsync.urdf.kinematics.poses import IDENTITY
@@ -87,21 +87,11 @@ def _add_shape(urdf: Urdf, link: UrdfElement, frame: Frame, element: Element) ->
 
 def _geometry(document: SdfDocument, element: Element) -> tuple[str, dict[str, Any]]:
     """Return tag and attributes of a shape in URDF. The reader of URDF tells of a shape that it lacks."""
-    match element.tag:
-        case "box":
-            return "box", {"size": document.vector(element, "size", (1.0, 1.0, 1.0))}
-        case "sphere":
-            return "sphere", {"radius": document.number(element, "radius", 1.0)}
-        case "ellipsoid":
-            return "ellipsoid", {"radii": document.vector(element, "radii", (1.0, 1.0, 1.0))}
-        case "cylinder" | "capsule":
-            radius = document.number(element, "radius", 0.5 if element.tag == "capsule" else 1.0)
-            return element.tag, {"radius": radius, "length": document.number(element, "length", 1.0)}
-        case "mesh" if element.find("submesh") is None:
-            scale = document.vector(element, "scale", (1.0, 1.0, 1.0))
-            way = element.get("optimization")
-            return "mesh", {"filename": _filename(document, element), "scale": scale, "optimization": way}
-    return "submesh" if element.tag == "mesh" else element.tag, {}
+    if element.tag == "mesh" and element.find("submesh") is None:
+        scale = document.numbers(element, "scale", (1.0, 1.0, 1.0))
+        way = element.get("optimization")
+        return "mesh", {"filename": _filename(document, element), "scale": scale, "optimization": way}
+    return "submesh" if element.tag == "mesh" else element.tag, shape_sizes(document, element)
 
 
 def _filename(document: SdfDocument, mesh: Element) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from urdfsync.sdf.frames import Frame, Frames, Scope
+from urdfsync.sdf.frames import Frame, Frames
 from urdfsync.sdf.joints import JointAxis, SdfJoint, read_joints
 from urdfsync.sdf.leftovers import add_leftovers
 from urdfsync.sdf.parts import add_link, add_sensor
@@ -15,21 +15,21 @@ from urdfsync.urdf.kinematics.poses import IDENTITY, moved
 from urdfsync.urdf.robot import Vector
 
 
-def translated(frames: Frames, model: Scope) -> UrdfElement:
+def translated(frames: Frames, model: Frame) -> UrdfElement:
     """Return the URDF of a model. Raises TranslationError."""
     for part in (part for scope in model.each() for part in scope.parts):
         frames.check(part)
     document, joints = frames.document, read_joints(frames, model.of_kind("joint"))
-    tree = find_tree(frames.world, list(model.of_kind("link")), joints, frames.link_of(model.own))
+    tree = find_tree(frames.world, list(model.of_kind("link")), joints, frames.link_of(model))
     urdf, is_fixed = Urdf(frames, model, tree), tree.root is frames.world
     if is_fixed:
-        urdf.root.add("link", document.places[model.element], name=urdf.links[frames.world])
+        urdf.root.add("link", document.places[model.content], name=urdf.links[frames.world])
     elif not document.flag(model.static_holder, "static"):
         urdf.root.add("free_root", document.places[tree.root.element], link=urdf.links[tree.root])
         if frames.pose(tree.root, frames.world) != IDENTITY:
-            poses = (holder.find("pose") for holder in (model.holder, model.element, tree.root.element))
-            place = next((pose for pose in poses if pose is not None), model.holder)
-            urdf.root.add("start-pose", document.places[place], name=model.own.name)
+            poses = (holder.find("pose") for holder in (model.element, model.content, tree.root.element))
+            place = next((pose for pose in poses if pose is not None), model.element)
+            urdf.root.add("start-pose", document.places[place], name=model.name)
     links = [*([] if is_fixed else [tree.root]), *(joint.child for joint in tree.joints)]
     for link in links:
         add_link(urdf, link)
@@ -81,15 +81,13 @@ def _add_axis(urdf: Urdf, node: UrdfElement, joint: SdfJoint, axis: JointAxis) -
     x, y, z = _turned(urdf, axis, joint.child)
     node.add("axis", xyz=rounded((-x, -y, -z) if joint.is_turned else (x, y, z)))
     lower, upper = axis.range if axis.range and node.attributes["type"] != "continuous" else (None, None)
-    most = {"effort": axis.effort, "velocity": axis.velocity, "acceleration": axis.acceleration}
     if lower is None and node.attributes["type"] == "prismatic":  # in URDF, a limit of a sliding joint has a range
-        for name in (name for name, value in most.items() if value is not None):
+        for name in (name for name, value in axis.most.items() if value is not None):
             node.add(name, urdf.document.places[joint.frame.element])
-    elif {lower, upper, *most.values()} != {None}:
-        node.add("limit", lower=lower, upper=upper).attributes |= most
-    spring = {"spring_stiffness": axis.stiffness, "spring_reference": axis.reference or None} if axis.stiffness else {}
-    if axis.damping or axis.friction or axis.armature or spring:
-        node.add("dynamics", damping=axis.damping, friction=axis.friction, armature=axis.armature).attributes |= spring
+    elif {lower, upper, *axis.most.values()} - {None}:
+        node.add("limit", lower=lower, upper=upper).attributes |= axis.most
+    if any(axis.dynamics.values()):
+        node.add("dynamics").attributes |= axis.dynamics
     if axis.mimic:
         node.add("mimic", **axis.mimic)
 
@@ -112,13 +110,9 @@ def _add_loop(urdf: Urdf, joint: SdfJoint) -> None:
     loop.add("parent", text=urdf.links[joint.parent])
     loop.add("child", text=urdf.links[joint.child])
     rotation, place = urdf.place(frame, joint.child)
-    loop.add("pose", text=_words((*rounded(place), *turn(rotation))))
+    loop.add("pose", text=" ".join(map(repr, (*rounded(place), *turn(rotation)))))
     for tag, axis in zip(("axis", "axis2"), joint.axes, strict=False):
-        loop.add(tag).add("xyz", text=_words(rounded(_turned(urdf, axis, frame))))
-
-
-def _words(numbers: Iterable[float]) -> str:
-    return " ".join(map(repr, numbers))
+        loop.add(tag).add("xyz", text=" ".join(map(repr, rounded(_turned(urdf, axis, frame)))))
 
 
 def _add_frames(urdf: Urdf, frames: Iterable[Frame]) -> None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from xml.etree.ElementTree import Element
 
-from urdfsync.sdf.frames import WORLD, Frame, Frames, Scope
-from urdfsync.sdf.joints import TAGS, SdfJoint
+from urdfsync.sdf.frames import WORLD, Frame, Frames
+from urdfsync.sdf.joints import TAGS
 from urdfsync.sdf.tree import JointTree
 from urdfsync.translation.writer import UrdfElement, free_name, rounded
 from urdfsync.urdf.kinematics.poses import IDENTITY, Matrix, Pose, angles, compose
@@ -41,9 +41,9 @@ class Urdf:
     its axis through the origin of its child. Its axes stay parallel to those of SDF.
     """
 
-    def __init__(self, frames: Frames, model: Scope, tree: JointTree) -> None:
+    def __init__(self, frames: Frames, model: Frame, tree: JointTree) -> None:
         self.frames, self.document = frames, frames.document
-        self.root = UrdfElement("robot", self.document.places[model.element], name=model.own.name, version="1.2")
+        self.root = UrdfElement("robot", self.document.places[model.content], name=model.name, version="1.2")
         self.taken = {WORLD, *(link.name for link in model.of_kind("link"))}
         self.links = {
             link: free_name("world_link", self.taken) if link.name == WORLD else link.name
@@ -52,16 +52,15 @@ class Urdf:
         """Names of all links; before SDF 1.7, one could have the name of the world."""
         joints = (*tree.joints, *tree.loops)
         self.taken_joints = {joint.frame.name for joint in joints if len(joint.axes) < 2}
-        self.joint_names = {joint.frame: [*self._names(joint)] for joint in joints}
+        self.joint_names = {
+            joint.frame: [joint.frame.name]
+            if len(joint.axes) < 2
+            else [free_name(f"{joint.frame.name}_{tag}", self.taken_joints) for tag in TAGS]
+            for joint in joints
+        }
         """Names of the parts of each joint: one for each axis."""
         self.offsets = {joint.child: frames.pose(joint.frame, joint.child)[1] for joint in tree.joints}
         """Origin of each link in its frame of SDF."""
-
-    def _names(self, joint: SdfJoint) -> Iterator[str]:
-        if len(joint.axes) < 2:
-            yield joint.frame.name
-        else:
-            yield from (free_name(f"{joint.frame.name}_{tag}", self.taken_joints) for tag in TAGS)
 
     def place(self, frame: Frame, link: Frame, inner: Pose = IDENTITY) -> Pose:
         """Return a pose, given in a frame of SDF, in the URDF's frame of a link."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from pathlib import Path
 
 import msgspec
@@ -11,13 +10,13 @@ import msgspec
 from urdfsync.engine.sources.exchange import Answer, Request, serve
 from urdfsync.engine.sources.ros_packages import Packages
 from urdfsync.sdf.document import SdfDocument
-from urdfsync.sdf.frames import Frames, Scope
+from urdfsync.sdf.frames import Frame, Frames
 from urdfsync.sdf.joints import FIXED
 from urdfsync.sdf.robot import translated
 from urdfsync.spelling import nearest
 from urdfsync.translation import program
 from urdfsync.translation.files import Files
-from urdfsync.translation.writer import write
+from urdfsync.translation.writer import listed, write
 
 
 def translate(request: Request) -> Answer:
@@ -37,19 +36,18 @@ def translate(request: Request) -> Answer:
         model = choose_model(frames, request.arguments.get("model", ""))
         return Answer(*write(translated(frames, model)))
 
-    too_deep = "its models or frames are nested too deep"
-    made = program.answer(request, files, "sdf", ("model",), translate_or_compare, too_deep)
+    made = program.answer(request, files, "sdf", ("model",), translate_or_compare)
     return msgspec.structs.replace(made, packages=document.packages.places())
 
 
-def choose_model(frames: Frames, name: str) -> Scope:
+def choose_model(frames: Frames, name: str) -> Frame:
     """Return the model with a name; without one, the only model with a joint that moves. Raises TranslationError."""
-    document, top = frames.document, frames.top
-    models = {model.own.name: model for model in top.models}
+    document, top = frames.document, frames.world
+    models = {model.name: model for model in top.models}
     if name:
         if name not in models:
             near = nearest(name, list(models))
-            hint = f"perhaps {near!r} is meant" if near else f"choose one of {_listed(list(models))}"
+            hint = f"perhaps {near!r} is meant" if near else f"choose one of {listed(list(models))}"
             raise document.fault(top.element, f"there is no model {name!r}", hint)
         return models[name]
     moving = [
@@ -61,18 +59,13 @@ def choose_model(frames: Frames, name: str) -> Scope:
     if len(robots) == 1:
         return models[robots[0]]
     if robots:
-        message = f"the file has {len(robots)} robots: {_listed(robots)}"
+        message = f"the file has {len(robots)} robots: {listed(robots)}"
         hint = f'choose one by `arguments = {{ model = "{robots[0]}" }}` (`init FILE model:={robots[0]}`)'
         raise document.fault(top.element, message, hint)
     if frames.missing:
         raise frames.missing[0]
     what = "no model has a joint that moves" if len(models) > 1 else "the model has no joint: nothing in it moves"
     raise document.fault(top.element, what if models else "the file has no model", "name the file that has the robot")
-
-
-def _listed(names: Sequence[str]) -> str:
-    """Return names in quotes, the first eight of them."""
-    return ", ".join(map(repr, names[:8])) + (", …" if len(names) > 8 else "")
 
 
 def main() -> None:

@@ -22,10 +22,13 @@ from urdfsync.domain import (
     Target,
 )
 from urdfsync.modelica.literals import capitalize_first
-from urdfsync.table.model import FROM, SHEETS, TO, CellValue, Table, TableOptions, shown_unit
-from urdfsync.table.names import column_name, component_names
+from urdfsync.table.model import FROM, SHEETS, TO, Table, TableOptions, column_name, component_names, shown_unit
 
-_TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
+_FOLDERS = {
+    "Records": (Role.RECORD, "record", "Numbers of the elements"),
+    "Models": (Role.MODEL, "model", "Models of the elements"),
+}
+_MODELICA = {"text": "String", "integer": "Integer", "boolean": "Boolean"}
 
 
 class TableDomain(Domain):
@@ -37,8 +40,7 @@ class TableDomain(Domain):
     options = TableOptions
     companions = (CompanionKind("connections", ".connections.csv"),)
     judgements = parts = LazyModule("urdfsync.table.columns")
-    advice = LazyModule("urdfsync.table.starter")
-    simulation = LazyModule("urdfsync.table.benches")
+    advice = simulation = LazyModule("urdfsync.table.starter")
     pictures = LazyModule("urdfsync.table.scene")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:
@@ -72,14 +74,18 @@ class TableDomain(Domain):
     ) -> Iterator[Artifact | Order]:
         """Yield the files that the options choose. Templates decide on the content."""
         parent = target.package.rpartition(".")[0]
-        folders = {folder: role for folder, role, file in _FOLDERS if file in options.files}
+        folders = {folder: role for folder, (role, file, _) in _FOLDERS.items() if file in options.files}
         of_package: dict[str, Any] = {"within": target.package}
         elements, units = dict[str, dict[str, Any]](), dict(sorted(snapshot.columns.items()))
-        columns = {column: _column(column, unit) for column, unit in units.items()}
+        columns = {
+            column: {"name": column_name(column), "title": column, "type": _MODELICA.get(unit, "Real"), "unit": unit}
+            for column, unit in units.items()
+        }
         components = component_names(snapshot.elements, target)
         for key, row in snapshot.elements.items():
             cells = dict(sorted(row.items()))  # the order of a recorded table
-            element = elements[key] = _element(key, components[key], cells, units, options)
+            names = {"name": key, "class": capitalize_first(components[key]), "component": components[key]}
+            element = elements[key] = {**names, "units": units, "kind": cells.get(options.kind, ""), "row": cells}
             for folder, role in folders.items():
                 data = {"within": f"{target.package}.{folder}", "root": target.package, **element}
                 template = "record.mo.jinja"
@@ -90,7 +96,8 @@ class TableDomain(Domain):
                 yield Artifact(f"{folder}/{element['class']}.mo", role, template, data, f"element {key}")
         name, classes = target.package.rpartition(".")[2], tuple(element["class"] for element in elements.values())
         title, uses = f"Made by urdfsync from the table {target.name}", {} if parent else options.uses
-        yield _package("", {"within": parent, "name": name, "title": title, "uses": uses})
+        package = {"within": parent, "name": name, "title": title, "uses": uses}
+        yield Artifact("package.mo", Role.PACKAGE, "package.mo.jinja", package, "table")
         system = [target.name] if "system" in options.files else []
         yield Order("package.order", (*system, *options.classes, *folders))
         for name in options.classes:
@@ -105,7 +112,8 @@ class TableDomain(Domain):
             data = of_package | {"class": target.name, "elements": [*placed.values()], "connections": connections}
             yield Artifact(f"{target.name}.mo", Role.MODEL, "system.mo.jinja", data, "table")
         for folder in folders:
-            yield _package(f"{folder}/", of_package | {"name": folder, "title": _TITLES[folder], "uses": {}})
+            package = of_package | {"name": folder, "title": _FOLDERS[folder][2], "uses": {}}
+            yield Artifact(f"{folder}/package.mo", Role.PACKAGE, "package.mo.jinja", package, "table")
             yield Order(f"{folder}/package.order", classes)
 
     def features(self, snapshot: Table) -> Mapping[ElementKey, Features]:
@@ -134,29 +142,6 @@ class TableDomain(Domain):
         """Return the unit of a value at a path such as `elements`, `motor`, `mass`."""
         columns = {"elements": snapshot.columns, "connections": snapshot.connection_columns}.get(path[0], {})
         return shown_unit(columns.get(path[-1], "1"))
-
-
-_FOLDERS = (("Records", Role.RECORD, "record"), ("Models", Role.MODEL, "model"))
-
-
-def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
-    return Artifact(f"{folder}package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
-
-
-def _element(
-    key: str, component: str, row: Mapping[str, CellValue], units: Mapping[str, str], options: TableOptions
-) -> dict[str, Any]:
-    """Return an element for templates; its row has no empty cells."""
-    names = {"name": key, "class": capitalize_first(component), "component": component}
-    return {**names, "units": units, "kind": row.get(options.kind, ""), "row": row}
-
-
-def _column(column: str, unit: str) -> dict[str, Any]:
-    """Return a column as a parameter of records, without a value."""
-    return {"name": column_name(column), "title": column, "type": _MODELICA.get(unit, "Real"), "unit": unit}
-
-
-_MODELICA = {"text": "String", "integer": "Integer", "boolean": "Boolean"}
 
 
 DOMAIN = TableDomain()

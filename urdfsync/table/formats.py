@@ -43,9 +43,7 @@ def read_sheets(content: bytes, file: str, *companions: Companion) -> tuple[Shee
     for companion in companions:
         connections = _read_csv(companion.content, companion.file)[0]._replace(file=companion.file)
     if not elements.rows:
-        raise SourceError.of(
-            "table-file", "the table has no rows", file, hint="write a header and a row for each element"
-        )
+        raise _fault("the table has no rows", file, "write a header and a row for each element")
     return elements, connections
 
 
@@ -60,7 +58,7 @@ def _read_csv(content: bytes, file: str) -> tuple[Sheet, Sheet]:
                 rows.append((line, row))
             line = reader.line_num + 1
     except csv.Error as error:
-        raise SourceError.of("table-file", f"this is no CSV: {error}", file, line, hint="correct it") from None
+        raise _fault(f"this is no CSV: {error}", file, "correct it", line) from None
     if not rows:
         return NOTHING, NOTHING
     if not rows[0][1][-1]:  # spreadsheets write a separator for each column that ever had a cell
@@ -88,8 +86,7 @@ def _read_data(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         else:
             data = _read_yaml(text)
     except (ValueError, RecursionError) as error:
-        message = f"this is no {suffix[1:].upper()}: {' '.join(str(error).split())}"
-        raise SourceError.of("table-file", message, file, hint="correct it") from None
+        raise _fault(f"this is no {suffix[1:].upper()}: {' '.join(str(error).split())}", file, "correct it") from None
     return _from_data(data, text, file)
 
 
@@ -139,8 +136,7 @@ def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
             "elements": {k: v for k, v in lists.items() if k != CONNECTIONS},
         }
     if unknown := lists.keys() - {"elements", CONNECTIONS}:
-        hint = f"a table has `elements` and `{CONNECTIONS}`"
-        raise SourceError.of("table-file", f"`{min(map(str, unknown))}` is unknown", file, hint=hint)
+        raise _fault(f"`{min(map(str, unknown))}` is unknown", file, f"a table has `elements` and `{CONNECTIONS}`")
     elements, connections = (
         _from_entries(lists.get(name, []), text, file, max(text.find(name), 0)) for name in ("elements", CONNECTIONS)
     )
@@ -154,33 +150,23 @@ def _from_entries(entries: object, text: str, file: str, position: int) -> Sheet
         entries = [{column: name, **entry} for name, entry in entries.items()]
     if not (isinstance(entries, list) and all(isinstance(entry, Mapping) for entry in entries)):
         hint = "write one entry for each element, with the columns as keys"
-        raise SourceError.of("table-file", "the elements are neither a list nor a table of entries", file, hint=hint)
+        raise _fault("the elements are neither a list nor a table of entries", file, hint)
     header = list(dict.fromkeys(str(column) for entry in entries for column in entry))
     if len(header) * len(entries) > _MOST_CELLS:
         raise _too_many_cells(file)
     rows, misses = list[tuple[int, Sequence[object]]](), 0
-    line, counted = text.count("\n", 0, position) + 1, position
+    line = text.count("\n", 0, position) + 1
     for entry in entries:
         cells = {str(column): value for column, value in entry.items()}
         # entries are in order: the line of an entry is that of its first value after the previous entry
         first = next(iter(cells.values()), "")
-        is_findable = isinstance(first, str | int | float) and misses < _MOST_MISSES
-        found = _find_word(text, str(first), position) if is_findable else -1
-        misses += found < 0
-        line += text.count("\n", counted, max(found, counted))
-        counted = max(found, counted)
+        if isinstance(first, str | int | float) and misses < _MOST_MISSES:
+            word = re.compile(rf"(?<![^\W_]){re.escape(str(first))}(?![^\W_])").search(text, position)
+            misses += word is None
+            if word:
+                line, position = line + text.count("\n", position, word.start()), word.start() + 1
         rows.append((line, [cells.get(column) for column in header]))
-        position = max(found + 1, position)
     return Sheet(header, rows)
-
-
-def _find_word(text: str, word: str, position: int) -> int:
-    """Return the next position of a whole word from a position on; -1 if the word is missing."""
-    while (found := text.find(word, position)) >= 0:
-        if not (text[found - 1 : found].isalnum() or text[found + len(word) : found + len(word) + 1].isalnum()):
-            return found
-        position = found + 1
-    return -1
 
 
 def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
@@ -192,8 +178,10 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         raise SourceError.of(
             "no-openpyxl", "a workbook needs openpyxl, which is not installed", file, hint=hint
         ) from None
-    if _unpacked_size(content) > _LARGEST:
-        raise SourceError.of("table-file", f"the workbook has more than {_LARGEST:,} bytes", file, hint="split it")
+    if zipfile.is_zipfile(io.BytesIO(content)):
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            if sum(each.file_size for each in archive.infolist()) > _LARGEST:
+                raise _fault(f"the workbook has more than {_LARGEST:,} bytes", file, "split it")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # openpyxl warns of ignored parts, such as conditional formats
         try:
@@ -209,18 +197,8 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         except SourceError:
             raise
         except Exception as error:  # noqa: BLE001 - openpyxl may raise any error for a damaged file
-            message, hint = f"this is no workbook: {error}", "save the workbook as .xlsx again"
-            raise SourceError.of("table-file", message, file, hint=hint) from None
+            raise _fault(f"this is no workbook: {error}", file, "save the workbook as .xlsx again") from None
     return sheets[0], sheets[1] if len(sheets) > 1 else NOTHING
-
-
-def _unpacked_size(content: bytes) -> int:
-    """Return the bytes of all files in an archive; 0 if the content is no archive."""
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            return sum(file.file_size for file in archive.infolist())
-    except zipfile.BadZipFile:
-        return 0
 
 
 def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
@@ -228,8 +206,7 @@ def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
         merged = _MERGED.search(source.read())
     if merged:
         message = f"sheet `{values.title}` has merged cells: {merged[1].decode(errors='replace')}"
-        hint = "unmerge these cells, and fill each cell"
-        raise SourceError.of("table-file", message, file, int(merged[2][:9]), hint=hint)
+        raise _fault(message, file, "unmerge these cells, and fill each cell", int(merged[2][:9]))
     rows, count = list[tuple[int, Sequence[object]]](), 0
     for sheet in (values, formulas):
         sheet.reset_dimensions()  # the file may state another size
@@ -239,8 +216,8 @@ def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
             raise _too_many_cells(file)
         for cell, original in zip(cells, originals, strict=True):
             if cell.value is None and original.value is not None:
-                message, hint = f"the formula in {cell.coordinate} has no result", "open the workbook, and save it"
-                raise SourceError.of("table-file", message, file, number, hint=hint)
+                message = f"the formula in {cell.coordinate} has no result"
+                raise _fault(message, file, "open the workbook, and save it", number)
         if any(cell.value is not None for cell in cells):
             rows.append((number, [cell.value for cell in cells]))
     if not rows:
@@ -259,11 +236,12 @@ def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
 
 
 def _too_many_cells(file: str) -> SourceError:
-    message, hint = (
-        f"the table has more than {_MOST_CELLS:,} cells, empty ones included",
-        "delete what lies far outside",
-    )
-    return SourceError.of("table-file", message, file, hint=hint)
+    message = f"the table has more than {_MOST_CELLS:,} cells, empty ones included"
+    return _fault(message, file, "delete what lies far outside")
+
+
+def _fault(message: str, file: str, hint: str, line: int = 0) -> SourceError:
+    return SourceError.of("table-file", message, file, line, hint=hint)
 
 
 def _without_end(cells: Sequence[object]) -> Sequence[object]:
@@ -285,8 +263,7 @@ def _decode(content: bytes, file: str) -> str:
         line = error.object.count(b"\n", 0, error.start) + 1
         is_csv = PurePath(file).suffix.lower() not in (".json", ".toml", ".yaml", ".yml")
         hint = f"save the file as {'`CSV UTF-8`, as Excel calls it' if is_csv else 'UTF-8'}, then try again"
-        message = "the file is not UTF-8"
-        raise SourceError.of("table-file", message, file, line, hint=hint) from None
+        raise _fault("the file is not UTF-8", file, hint, line) from None
 
 
 _READERS = {

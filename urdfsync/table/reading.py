@@ -13,8 +13,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Companion, Reading
 from urdfsync.spelling import counted, name_and_unit, nearest
 from urdfsync.table import formats
-from urdfsync.table.model import FROM, NOTHING, TO, TYPES, CellValue, Sheet, Table, TableOptions
-from urdfsync.table.names import column_name
+from urdfsync.table.model import FROM, NOTHING, TO, TYPES, CellValue, Sheet, Table, TableOptions, column_name
 from urdfsync.table.units import Unit, find_unit, is_same_kind
 
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)

@@ -1,6 +1,6 @@
 """A table as a picture: a box for each element, a line for each connection.
 
-`urdfsync.domain.scene.Pictures` describes the functions.
+`urdfsync.domain.scene.Pictures` describes the functions; those about meshes are asked of no scene without meshes.
 """
 
 from __future__ import annotations
@@ -12,9 +12,8 @@ from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.domain import Import, Target
-from urdfsync.domain.scene import Body, Hinge, PageMesh, PagePose, Scene, Shape
-from urdfsync.table.model import FROM, TO, Table, TableOptions, shown_unit
-from urdfsync.table.names import component_names
+from urdfsync.domain.scene import Body, Hinge, PagePose, Scene, Shape
+from urdfsync.table.model import FROM, TO, Table, TableOptions, component_names, shown_unit
 
 _MOST = 500
 """The greatest number of elements of a picture."""
@@ -64,19 +63,9 @@ def with_numbers(
     return table, numbers.keys()
 
 
-def stated_triangles(content: bytes) -> int | None:  # noqa: ARG001 - see `Pictures`
-    """Return None: no mesh is shown."""
-    return None
-
-
 def named_poses(source: Path, table: Table) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:  # noqa: ARG001 - see `Pictures`
     """Return no poses: nothing moves."""
     return {}, ()
-
-
-def triangles(path: str, content: bytes, key: str, most: int) -> PageMesh | str:  # noqa: ARG001 - see `Pictures`
-    """Return the reason why no mesh can be shown."""
-    return "a table has no meshes"
 
 
 def _places(table: Table) -> dict[str, tuple[float, float]]:

@@ -1,4 +1,4 @@
-"""Templates and options that `init` writes for a new table."""
+"""What `init` writes for a new table, and what `simulate` simulates of it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import Any
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Target
 from urdfsync.domain.advice import Proposal
-from urdfsync.table.model import Table
+from urdfsync.domain.bench import Bench
+from urdfsync.table.model import Table, TableOptions
 
 
 def propose(snapshot: Table, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:  # noqa: ARG001 - see `Advice`
@@ -29,3 +30,8 @@ def templates(snapshot: Table, shipped: Path) -> Mapping[str, str]:
     # the shipped template loops over the columns: a column of a later export needs no edit
     names = "record", "model", *(["system"] if snapshot.connections else [])
     return {f"{name}.mo.jinja": (shipped / f"{name}.mo.jinja").read_text(encoding="utf-8") for name in names}
+
+
+def bench(snapshot: Table, target: Target, options: TableOptions) -> Bench | None:  # noqa: ARG001 - see `Benches`
+    """Return the model of the whole system; None if the options choose no such model."""
+    return Bench(target.name, "", ()) if "system" in options.files else None

@@ -47,6 +47,8 @@ class Files:
         """`contents` of files override the disk. Included files are in one of the `folders`, or below it."""
         self._contents, self._folders = contents, [real(folder) for folder in folders]
         self.hashes: dict[str, str | None] = {}
+        self.places: dict[Element, SourcePlace] = {}
+        """Where each element stands."""
 
     def read(self, path: str, place: SourcePlace = ("", 0)) -> bytes:
         """Return the content of a file that is named at `place`. Raises TranslationError."""
@@ -60,10 +62,8 @@ class Files:
         self.hashes[path] = text_digest(content)
         return content
 
-    def parse(
-        self, path: str, place: SourcePlace = ("", 0), *, has_any_comments: bool = False
-    ) -> tuple[Element, dict[Element, SourcePlace]]:
-        """Return the root element of an XML file, and the place of each element. Raises TranslationError.
+    def parse(self, path: str, place: SourcePlace = ("", 0), *, has_any_comments: bool = False) -> Element:
+        """Return the root element of an XML file. Raises TranslationError.
 
         With `has_any_comments`, comments may contain `--`, and may stand above the XML declaration.
         """
@@ -75,7 +75,12 @@ class Files:
         except ParseError as error:
             fault = error.diagnostic
             raise TranslationError(fault.message, (path, fault.line), fault.hint, fault.code) from None
-        return document.root, {element: (path, line) for element, line in document.lines.items()}
+        self.places |= {element: (path, line) for element, line in document.lines.items()}
+        return document.root
+
+    def fault(self, element: Element, message: str, hint: str = "") -> TranslationError:
+        """Return an error about an element."""
+        return TranslationError(message, self.places[element], hint)
 
     def is_there(self, path: str) -> bool:
         """Return whether a file exists; a missing one is recorded, since it would count if it came."""

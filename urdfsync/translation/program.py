@@ -17,11 +17,10 @@ def answer(
     code: str,
     arguments: Collection[str],
     translate: Callable[[], Answer],
-    too_deep: str,
 ) -> Answer:
     """Return the answer of `translate`, or its fault as a problem of `code`, with all files that were read.
 
-    `arguments` are those that the translator knows. `too_deep` is the message for a file that nests too many elements.
+    `arguments` are those that the translator knows.
     """
     made, problem = Answer(), None
     try:
@@ -32,6 +31,6 @@ def answer(
     except MemoryError:
         problem = Problem(f"{code}-limits", "")
     except RecursionError:
-        problem = Problem(code, too_deep, request.source)
+        problem = Problem(code, "its parts are nested too deep", request.source)
     unknown = tuple(name for name in request.arguments if name not in arguments)
     return replace(made, files=files.hashes, unknown=unknown, problem=problem)

@@ -71,6 +71,11 @@ def free_name(name: str, taken: set[str]) -> str:
     return free
 
 
+def listed(names: Sequence[str]) -> str:
+    """Return names in quotes, the first eight of them."""
+    return ", ".join(map(repr, names[:8])) + (", …" if len(names) > 8 else "")
+
+
 def rounded(numbers: Iterable[float]) -> tuple[float, ...]:
     """Return computed numbers without the digits that are rounding errors."""
     return tuple(round(float(number), _DECIMALS) for number in numbers)
