@@ -9,13 +9,12 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Domain, ElementKey, Lookup, Reading, Role, Version
-from urdfsync.engine.declared import check_declared, pending
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import with_line_ends
 from urdfsync.engine.package import imports
 from urdfsync.engine.package.generate import Package, generate
 from urdfsync.engine.package.imports import Imported
-from urdfsync.engine.renames import find_matching
+from urdfsync.engine.renames import check_declared, find_matching, pending
 from urdfsync.engine.sources import source
 from urdfsync.engine.sources.source import Source
 from urdfsync.files import shown

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import tomli_w
 
 from urdfsync.engine.actions import Reason
-from urdfsync.engine.decide.renames import describe_doubt
+from urdfsync.engine.decide.conflicts import describe_doubt
 from urdfsync.engine.stage.findings import CONNECTORS
 from urdfsync.output.build_section import EDITED, build_section, change_parts, file_table
 from urdfsync.output.conflicts import settle_hint

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import msgspec
 
 from urdfsync.engine.actions import Action, Choice, Reason
+from urdfsync.matching import Doubt
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge
@@ -116,3 +117,18 @@ def resolve(
             texts[action.path] = merged
         resolved.append(action if reason is action.reason else msgspec.structs.replace(action, reason=reason))
     return tuple(resolved), texts
+
+
+def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
+    """Return the doubt as a clause; `is_used` if a file of the whole robot uses the element's name."""
+    name, aspects = doubt.element.partition(" ")[2], " and ".join(doubt.aspects)
+    subject = f"it uses `{name}`, which" if is_used else f"`{name}`"
+    if doubt.is_named_alike:
+        return f"{subject} may be another part now: only its name is as before"
+    if doubt.is_certain:
+        return f"{subject} is another part now{f', the former `{doubt.former}`' if doubt.former else ''}"
+    if doubt.former and not aspects:
+        return f"{subject} may be the former `{doubt.former}` now"
+    shared = f"its {aspects} {'are those' if len(doubt.aspects) > 1 else 'is that'} of the former `{doubt.former}`"
+    neighbours = "parts next to it, or like it, have other names"
+    return f"{subject} may be another part now: {shared if doubt.former else neighbours}"

@@ -12,11 +12,10 @@ from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, displaced
 from urdfsync.engine.decide.parts import file_ids, find_former_ids, find_part_ids, ids_of, recorded_ids
-from urdfsync.engine.decide.renames import match_with_last
-from urdfsync.engine.declared import pending
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import option_values
+from urdfsync.engine.renames import find_matching, pending
 from urdfsync.matching import Matching, without_exchanges
 from urdfsync.modelica.files import as_file, class_parts, class_path
 
@@ -63,7 +62,7 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
     last, now, package = inputs.last, generation.now.snapshot, generation.package
     declared = pending(inputs)
     matching = _find_matching(inputs, now, declared)
-    undeclared = match_with_last(inputs, now, {}).renames if declared else matching.renames
+    undeclared = _match_with_last(inputs, now, {}).renames if declared else matching.renames
     news = _find_changes(inputs, generation, matching)
     parts = find_part_ids(inputs, generation, matching)
     ids = file_ids(package.artifacts.values(), parts)
@@ -93,13 +92,47 @@ def _find_matching(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -
     A stranger may have written the recorded model: names count as exchanged only if the records on disk confirm it.
     """
     last = inputs.last
-    matching = match_with_last(inputs, now, declared)
+    matching = _match_with_last(inputs, now, declared)
     if last.version is None or not matching.renames:
         return matching
     old = last.elements
     found = {key: new for key, new in matching.renames.items() if key[1] not in declared}
     exchanged = {f"{kind} {name}" for (kind, name), new in found.items() if (kind, new) in old}
     return matching if agrees(inputs, exchanged) else without_exchanges(matching, old)
+
+
+def _match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
+    """Match the elements of the last complete build with the present elements.
+
+    While a conflict is open, one export may rename an element, and the next export may change its numbers. So this
+    follows each part, by its id, through the model that the last build read. `declared` has only renames
+    that no complete build has made.
+    """
+    last, domain = inputs.last, inputs.domain
+    if last.version is None:
+        return Matching()
+    recorded, last_seen = last.version.snapshot, last.seen
+    has_other_format = recorded != now and last.source_format != inputs.source.format
+    direct = find_matching(domain, recorded, now, declared, is_pending=True, has_other_format=has_other_format)
+    if last_seen is None:
+        return direct
+    existing = domain.features(now)
+    recorded_ids = ids_of(last.elements, last.record.ids)
+    seen = {part: key for key, part in ids_of(domain.features(last_seen), last.seen_ids).items()}
+    opened = {(name, seen[part][1]) for (_, name), part in recorded_ids.items() if part in seen}
+    remaining = {name: new for name, new in declared.items() if (name, new) not in opened}
+    later = find_matching(domain, last_seen, now, remaining, is_pending=True, has_other_format=has_other_format)
+    gone, followed = displaced(later.renames), dict[ElementKey, str]()
+    for key, part in recorded_ids.items():
+        if part in seen and seen[part] not in gone:
+            new = later.renames.get(seen[part], seen[part][1])
+            if (key[0], new) in existing:
+                followed[key] = new
+    found = {key: name for key, name in direct.renames.items() if key[1] in declared}
+    for more in (followed, direct.renames):
+        taken = {(kind, name) for (kind, _), name in found.items()}
+        found |= {key: name for key, name in more.items() if key not in found and (key[0], name) not in taken}
+    return Matching({key: name for key, name in found.items() if name != key[1]}, {**direct.doubts, **later.doubts})
 
 
 def agrees(inputs: Inputs, owners: Collection[str]) -> bool:

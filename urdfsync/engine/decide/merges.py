@@ -9,12 +9,19 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Choice, Reason
-from urdfsync.engine.decide.conflicts import PREFERENCES, Conflict, Verdicts, find_conflict, only_names_changed, resolve
+from urdfsync.engine.decide.conflicts import (
+    PREFERENCES,
+    Conflict,
+    Verdicts,
+    describe_doubt,
+    find_conflict,
+    only_names_changed,
+    resolve,
+)
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.misfits import look_for_misfits
 from urdfsync.engine.decide.package_after import PackageAfter, keep_needed
 from urdfsync.engine.decide.package_names import known_names, names_of
-from urdfsync.engine.decide.renames import describe_doubt
 from urdfsync.engine.decide.triage import Triage
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
