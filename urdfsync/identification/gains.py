@@ -25,9 +25,13 @@ _NOISE = 0.01
 """Of an effort: so much a robot with other numbers leaves unexplained, at least."""
 _FIRST_NOISE = 0.3
 _ROUNDS = 12
-_APART = 1.25
-"""A joint whose factor differs so much from those of others is in another unit."""
+VISIBLE = 1.25
+"""A log should show such a factor of a joint's effort."""
+_APART = 1.12
+"""By so much the factors of right logs differ, however small the errors are; a factor of 1.25 is found beyond that."""
 _SURE = 3.0
+_LIKELY = 2.0
+"""An estimated factor is hardly further from the real one, in standard errors."""
 _DAMPING = 0.1
 """Keeps a factor that no sample determines."""
 
@@ -42,17 +46,28 @@ class Gains(NamedTuple):
     covariance: Array
     """Of their relative errors."""
 
-    def is_other(self, axis: int, most: float) -> bool:
-        """Return whether the effort of an axis is in another unit: by a factor of all beyond `most`, or by its own."""
-        known, errors = ~np.isnan(self.factors), np.sqrt(np.diag(self.covariance))
-        if self.factors[axis] <= 0:
-            return bool(errors[axis] < 1 / _SURE)
-        sizes = np.log(np.abs(self.factors[known]))
-        weights = known / len(sizes)
-        weights[axis] -= 1
-        error = np.sqrt(weights[known] @ self.covariance[np.ix_(known, known)] @ weights[known])
-        apart = abs(np.log(self.factors[axis]) - np.median(sizes))
-        return bool(apart > max(np.log(_APART), _SURE * error) or not 1 / most < self.usual < most)
+    def is_odd(self, axis: int) -> bool:
+        """Return whether the effort of an axis contradicts those of most others that can tell."""
+        apart, usual, visible = self._ratios(axis)
+        return int((apart > usual).sum()) > int(((apart <= usual) & (visible <= np.log(VISIBLE))).sum())
+
+    def least_visible(self, axis: int) -> float:
+        """Return from which factor on the other efforts show that the effort of an axis has it; 1 for a single axis."""
+        visible = self._ratios(axis)[2]
+        return float(np.exp(visible.min())) if len(visible) else 1.0
+
+    def _ratios(self, axis: int) -> tuple[Array, Array, Array]:
+        """Return the ratios of an axis' factor to those of the others, as sizes of logarithms.
+
+        These are the found ones, the greatest ones of right logs, and the least that are found to be greater. Another
+        sign is infinitely far.
+        """
+        others = [k for k in np.flatnonzero(~np.isnan(self.factors)) if k != axis]
+        variances = np.diag(self.covariance)
+        errors = np.sqrt(variances[axis] + variances[others] - 2 * self.covariance[axis, others])
+        usual, ratios = np.maximum(np.log(_APART), _SURE * errors), self.factors[axis] / self.factors[others]
+        apart = np.where((ratios < 0) & (errors < 1 / _SURE), np.inf, np.abs(np.log(np.abs(ratios))))
+        return apart, usual, usual + _LIKELY * errors
 
 
 def find_gains(problem: LeastSquares, evidence: Evidence, sizes: Array, delay: float) -> Gains:

@@ -17,7 +17,7 @@ from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.identification import signals
 from urdfsync.identification.fit import Evidence, Fit, LeastSquares, fit, is_body, sure_places
-from urdfsync.identification.gains import find_gains
+from urdfsync.identification.gains import VISIBLE, find_gains
 from urdfsync.identification.log import Log
 from urdfsync.identification.records import Records, read_records
 from urdfsync.identification.results import (
@@ -164,10 +164,11 @@ def identify(
     _check_names(options, regressor)
     problem, fitted, notes = _problem(regressor, measured, records, options)
     before, first = _fitted(problem, measured, _of_log(problem)), _fitted(problem, measured, fitted)
-    doubts = [
+    found = [
         *_doubts(_joints(measured, measured.evidence, before, first)),
         *_log_doubts(problem, measured, float(before.after[-1])),
     ]
+    doubts = [finding for finding in found if finding.severity is Severity.ERROR]
     sure, result = [] if doubts else sure_places(problem, first), before if doubts else first
     if not doubts and not options.unsure:
         result = _fitted(problem, measured, [*sure, *_of_log(problem)])
@@ -202,7 +203,7 @@ def identify(
         written=written,
         is_writing=write,
         is_doubtful=bool(doubts),
-        diagnostics=(*doubts, *notes, *measured.doubts(options), *records.notes),
+        diagnostics=(*(doubts or found), *notes, *measured.doubts(options), *records.notes),
         series=measured.series(signals.target_at(float(result.after[-1])), result.delta),
     )
 
@@ -237,7 +238,10 @@ def _doubts(joints: Sequence[JointFit]) -> Iterator[Diagnostic]:
 
 
 def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iterator[Diagnostic]:
-    """Yield an error for each joint whose effort is that of another unit, sign or joint, or of another motion."""
+    """Yield an error for each joint whose effort is that of another unit, sign or joint, or of another motion.
+
+    Yield a note for one whose effort may be that of another unit, as far as the log shows.
+    """
     evidence, log = measured.evidence, measured.log
     friction = {loss.joint: loss.value for loss in problem.losses if loss.path.endswith("friction")}
     model = measured.at(np.array([*np.zeros(len(signals.SHIFTS)), 1.0]))
@@ -249,11 +253,18 @@ def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iter
     for j, axis in enumerate(measured.axes):
         column = log.columns[log.measured[j], "effort"]
         unit, cell = "N.m" if axis.unit == "rad" else "N", log.header[column.place]
-        question = "" if column.is_stated else f"; if the log is right, state the unit: `{cell} [{unit}]`"
-        if evidence.counts[j] and gains.is_other(j, _STATED_GAIN if column.is_stated else _GAIN):
-            own = gains.usual * gains.factors[j] / abs(float(np.nanmedian(gains.factors)))
-            words = f"its effort in the log is {own:.3g} times that of a robot near the source"
+        most = _STATED_GAIN if column.is_stated else _GAIN
+        if evidence.counts[j] and gains.is_odd(j):
+            ratio = gains.factors[j] / abs(float(np.nanmedian(np.delete(gains.factors, j))))
+            words = f"its effort in the log is {ratio:.3g} times the one that the efforts of the other joints tell"
+            yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT)
+        elif evidence.counts[j] and not 1 / most < gains.usual < most:
+            words = f"its effort in the log is {gains.usual:.3g} times that of a robot near the source"
+            question = "" if column.is_stated else f"; if the log is right, state the unit: `{cell} [{unit}]`"
             yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT + question)
+        elif evidence.counts[j] and (least := gains.least_visible(j)) > VISIBLE:
+            words = f"a factor of its effort shows in this log only from {least:.2g} on"
+            yield Diagnostic(Severity.NOTE, "identify", f"joint {axis.name}: {words}", hint="check its unit")
         elif not evidence.counts[j] + measured.held_out.counts[j] and left[j] > max(
             _DOUBTFUL * efforts[j], _CONSIDERABLE * efforts.max(), 2 * friction.get(axis.name, 0.0)
         ):
