@@ -158,4 +158,5 @@ def notes_after(
         versions=old.versions if is_dry else conflicts.written,
         edits={**old.edits, **seen_edits(inputs, decision), **({} if is_dry else seen_merges(inputs, decision))},
         uses=old.uses if is_dry else uses,
+        model=old.model if is_dry else hash_of(record.snapshot) if uses else "",
     )
