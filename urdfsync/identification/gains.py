@@ -46,26 +46,26 @@ class Gains(NamedTuple):
     covariance: Array
     """Of their relative errors."""
 
-    def is_odd(self, axis: int) -> bool:
-        """Return whether the effort of an axis contradicts those of most others that can tell."""
-        apart, usual, visible = self._ratios(axis)
-        return int((apart > usual).sum()) > int(((apart <= usual) & (visible <= np.log(VISIBLE))).sum())
+    def odd_axes(self) -> list[int]:
+        """Return the axes whose efforts contradict those of most others; of two axes both, or none."""
+        apart, usual, _ = self._ratios()
+        counts = np.count_nonzero(apart > usual, axis=1)
+        return [int(axis) for axis in np.flatnonzero(counts == max(1, counts.max()))]
 
-    def least_visible(self, axis: int) -> float:
-        """Return from which factor on the other efforts show that the effort of an axis has it; 1 for a single axis."""
-        visible = self._ratios(axis)[2]
-        return float(np.exp(visible.min())) if len(visible) else 1.0
+    def least_visible(self) -> Array:
+        """Return from which factor on the efforts of others show that an axis has it; infinite without others."""
+        visible = self._ratios()[2]
+        np.fill_diagonal(visible, np.inf)
+        return np.asarray(np.exp(np.where(np.isnan(visible), np.inf, visible).min(axis=1)))
 
-    def _ratios(self, axis: int) -> tuple[Array, Array, Array]:
-        """Return the ratios of an axis' factor to those of the others, as sizes of logarithms.
+    def _ratios(self) -> tuple[Array, Array, Array]:
+        """Return the ratios of the factors of each two axes, as sizes of logarithms; another sign is infinitely far.
 
-        These are the found ones, the greatest ones of right logs, and the least that are found to be greater. Another
-        sign is infinitely far.
+        These are the found ones, the greatest ones of right logs, and the least that are found to be greater.
         """
-        others = [k for k in np.flatnonzero(~np.isnan(self.factors)) if k != axis]
-        variances = np.diag(self.covariance)
-        errors = np.sqrt(variances[axis] + variances[others] - 2 * self.covariance[axis, others])
-        usual, ratios = np.maximum(np.log(_APART), _SURE * errors), self.factors[axis] / self.factors[others]
+        ratios, variances = self.factors[:, None] / self.factors, np.diag(self.covariance)
+        errors = np.sqrt(variances[:, None] + variances - 2 * self.covariance)
+        usual = np.maximum(np.log(_APART), _SURE * errors)
         apart = np.where((ratios < 0) & (errors < 1 / _SURE), np.inf, np.abs(np.log(np.abs(ratios))))
         return apart, usual, usual + _LIKELY * errors
 

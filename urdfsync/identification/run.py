@@ -39,6 +39,8 @@ _GAIN = 1.45
 """A factor of all efforts that the source hardly explains; masses and frictions are wrong by so much."""
 _STATED_GAIN = 3.0
 """Likewise, if the log states the unit of its efforts."""
+_HUGE = 100.0
+"""A factor that a note does not state: an effort that has nothing in common with the others shows none."""
 _HINT = "look for another sign, unit or joint in the log"
 _CONSIDERABLE = 0.05
 """In the greatest effort of a joint: a smaller effort may be that of a sensor's offset."""
@@ -201,7 +203,6 @@ def identify(
         dropped=measured.told(),
         held_out=held_out,
         written=written,
-        is_writing=write,
         is_doubtful=bool(doubts),
         diagnostics=(*(doubts or found), *notes, *measured.doubts(options), *records.notes),
         series=measured.series(signals.target_at(float(result.after[-1])), result.delta),
@@ -246,6 +247,7 @@ def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iter
     friction = {loss.joint: loss.value for loss in problem.losses if loss.path.endswith("friction")}
     model = measured.at(np.array([*np.zeros(len(signals.SHIFTS)), 1.0]))
     gains = find_gains(problem, evidence, natural_sizes(problem, measured, evidence.roots(model)), delay)
+    odd, least = gains.odd_axes(), gains.least_visible()
     efforts, left = (
         measured.unused.deviations(measured.parameters, measured.at(np.array([*signals.target_at(0.0)[:-1], part])))
         for part in (0.0, -1.0)
@@ -254,7 +256,7 @@ def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iter
         column = log.columns[log.measured[j], "effort"]
         unit, cell = "N.m" if axis.unit == "rad" else "N", log.header[column.place]
         most = _STATED_GAIN if column.is_stated else _GAIN
-        if evidence.counts[j] and gains.is_odd(j):
+        if j in odd:
             ratio = gains.factors[j] / abs(float(np.nanmedian(np.delete(gains.factors, j))))
             words = f"its effort in the log is {ratio:.3g} times the one that the efforts of the other joints tell"
             yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT)
@@ -262,8 +264,9 @@ def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iter
             words = f"its effort in the log is {gains.usual:.3g} times that of a robot near the source"
             question = "" if column.is_stated else f"; if the log is right, state the unit: `{cell} [{unit}]`"
             yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT + question)
-        elif evidence.counts[j] and (least := gains.least_visible(j)) > VISIBLE:
-            words = f"a factor of its effort shows in this log only from {least:.2g} on"
+        elif VISIBLE < least[j] < np.inf:
+            when = f"show only from {math.ceil(10 * least[j]) / 10:g} on" if least[j] < _HUGE else "not show"
+            words = f"in this log, a factor of its effort would {when}"
             yield Diagnostic(Severity.NOTE, "identify", f"joint {axis.name}: {words}", hint="check its unit")
         elif not evidence.counts[j] + measured.held_out.counts[j] and left[j] > max(
             _DOUBTFUL * efforts[j], _CONSIDERABLE * efforts.max(), 2 * friction.get(axis.name, 0.0)
