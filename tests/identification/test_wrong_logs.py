@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from support import measured
 from support.commands import Execute
 from support.files import unchanged
 
 import urdfsync
+from urdfsync import cli
 from urdfsync.domain.regressor import Array
 from urdfsync.identification.records import read_records
 
@@ -122,3 +125,65 @@ def test_a_wrong_log_is_neither_written_nor_explained(right: Array, execute: Exe
         for result in document["results"]:
             assert result["numbers"] == [], name
             assert {joint["explained"] for joint in result["joints"]} == {None}, name
+
+
+FIRST, SECOND = 'name="j1" type="revolute"', 'name="j2" type="revolute"'
+LIFT = ARM.replace(FIRST, FIRST.replace("revolute", "prismatic")).replace(SECOND, SECOND.replace("revolute", "fixed"))
+LIMITS = 'lower="-1.9" upper="1.9" effort="100"', 'lower="-0.3" upper="0.3" effort="400"'
+ROBOTS = {
+    "two": ARM.replace(FIRST, FIRST.replace("revolute", "fixed")),
+    "three": ARM,
+    "lift": LIFT.replace(*LIMITS),
+    "six": measured.arm(),
+}
+FACTORS = 0.5, 0.8, 1.25, 1.3, 2
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        ("two", 1),
+        *(
+            pytest.param(name, k, marks=pytest.mark.slow)
+            for name, joints in (("two", 1), ("three", 3), ("lift", 2), ("six", 6))
+            for k in range(joints)
+        ),
+    ],
+)
+def test_a_factor_of_one_effort_is_told_by_the_others(folder: Path, execute: Execute, name: str, wrong: int) -> None:
+    """From the factor on that the right log states, 1.25 without one. Below, a log may be refused, or states it."""
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\nignore = ["not-mirrored"]\n')
+    Path("arm.urdf").write_text(ROBOTS[name])
+    assert cli.main(["build", "--quiet"]) == 0
+    log = measured.record(measured.changed(ROBOTS[name], 3), seconds=12)
+    log.write(Path("log.csv"))
+    joint = log.joints[wrong]
+    least = least_factor(execute("identify", "arm", "log.csv").words, joint)
+    assert least < 3
+    for factor in FACTORS:
+        factors = np.where(np.arange(len(log.joints)) == wrong, factor, 1.0)
+        log._replace(efforts=log.efforts * factors).write(Path("log.csv"))
+        with unchanged(folder):
+            document = execute("identify", "arm", "log.csv", "--format=json", code=None).json
+            (result,) = document["results"]
+        told = " ".join(finding["message"] for finding in result["diagnostics"])
+        if max(factor, 1 / factor) >= least:
+            assert document["exit"] == 5, factor
+            assert f"joint {joint}: its effort in the log is" in told
+        else:
+            assert document["exit"] == 5 or least_factor(told, joint) > max(factor, 1 / factor)
+
+
+def least_factor(words: str, joint: str) -> float:
+    """Return the factor from which on a log shows that the effort of a joint has it."""
+    told = re.search(rf"joint {joint}: in this log, a factor of its effort would show only from ([\d.]+) on", words)
+    return float(told[1]) if told else 1.25
+
+
+def test_a_factor_of_all_efforts_is_told_from_1_45_on(right: Array, execute: Execute, folder: Path) -> None:
+    """Below, the robot may be as much heavier: a fit takes the factor for masses."""
+    for factor, code in ((0.5, 5), (0.8, 0), (1.3, 0), (2, 5)):
+        matrix = np.eye(10)
+        matrix[EFFORTS, EFFORTS] = factor
+        write("efforts", right @ matrix.T, ())
+        execute("identify", "arm", "log.csv", "--quiet", code=code)

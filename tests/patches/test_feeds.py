@@ -57,6 +57,14 @@ def test_what_a_number_comes_from(number: Callable[..., float], direct: int | No
     )
 
 
+def test_the_nearest_of_literals_with_almost_the_same_ratio_of_steps_counts() -> None:
+    """Of three literals, the random ratios of the first and the last differ by 1.5e-6 only."""
+    literals = find_literals(FILE, b"-90 30 60")
+    found = Feeds(lambda texts: {("", "x", 0): float(texts.get(literals[2], "60")) / 2}, {("", "x", 0): 30.0})
+    found.trace({each: (each.value,) for each in literals}, {("", "x", 0)})
+    assert found.computed["", "x", 0][0] == literals[2]
+
+
 def test_a_literal_that_cannot_change_is_left_out() -> None:
     found, sizes = feeds({"x": lambda a, *_: a, "y": lambda *all_: 2 * all_[4]})
     found.trace({each: (each.value,) for each in LITERALS}, {("", "x", 0)})

@@ -472,6 +472,22 @@ def test_units_of_cells(
         assert changed in Path("parts.csv").read_text()
 
 
+def test_angles_that_stand_in_degrees_stay(repository: Repository, execute: Execute) -> None:
+    pytest.importorskip("mujoco")
+    inertial = '<inertial pos="0.1 0 0" mass="1" diaginertia="0.01 0.02 0.02"/>'
+    fore = f'<body name="fore" euler="0 30 0">\n<joint name="elbow" axis="0 1 0" range="-60 60"/>{inertial}</body>'
+    body = f'<body name="upper">\n<joint name="shoulder" axis="0 1 0" range="-90 45"/>{inertial}\n{fore}</body>'
+    model = f'<mujoco model="arm"><worldbody>{body}</worldbody></mujoco>'
+    build(execute, {"arm.xml": model}, CONFIG.replace("arm.urdf", "arm.xml"))
+    edit("modelica/Arm/Joints/ShoulderParameters.mo", ("lower = -1.5707963267948966", "lower = -1.5"))
+    edit(ELBOW, ("{0, 0.523598775598299, 0}", "{0, 0.5, 0}"), ("upper = 1.0471975511965976", "upper = 1"))
+    patch, told = patch_and_told()
+    assert patch == b""
+    assert [line.partition(" stays, since ")[2] for line in told] == [
+        f"it is in degrees in arm.xml:{line}" for line in (3, 4, 2)
+    ]
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -90,7 +90,7 @@ class Reason(enum.StrEnum):
     CREATE = "create", Kind.WRITE, FileStatus.STALE, "new"
     RESTORE = ("restore", Kind.WRITE, FileStatus.MISSING, "you deleted it",
                "{n} to restore", "{n} restored because you deleted {them}")
-    DELETE = "delete", Kind.DELETE, FileStatus.STALE, "no longer generated", "{n} to delete", "{n} deleted"
+    DELETE = "delete", Kind.DELETE, FileStatus.STALE, "unedited, and not generated here", "{n} to delete", "{n} deleted"
     MERGE = ("merge", Kind.WRITE, FileStatus.STALE, "your edits and the generated changes, merged",
              "{n} to merge with your edits", "{n} merged with your edits")
     UNDO = ("undo", Kind.WRITE, FileStatus.STALE, "your former text is back",
@@ -187,6 +187,13 @@ class Action(msgspec.Struct, frozen=True):
         return "waiting" if self.is_waiting else str(self.status if by_status else self.reason)
 
     @property
+    def cause(self) -> str:
+        """The reason in words; an unedited file whose part had another name, or that the user moved, is not new."""
+        if self.reason is Reason.CREATE and self.origin:
+            return f"so far {self.origin.rpartition('/')[2]}"
+        return self.reason.text
+
+    @property
     def replaces(self) -> str:
         """Return a clause if the action replaces a text that git merged from two versions; empty otherwise."""
         return "replaces git's merge of two branches" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
@@ -197,7 +204,7 @@ class Action(msgspec.Struct, frozen=True):
 
         The output for people has `output.phrases.reason`.
         """
-        return "; ".join(filter(None, (self.reason.text, self.replaces, self.waits_for)))
+        return "; ".join(filter(None, (self.cause, self.replaces, self.waits_for)))
 
     @property
     def writes(self) -> bool:

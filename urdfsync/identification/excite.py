@@ -39,14 +39,14 @@ def excite(
 ) -> tuple[Trajectory, Array, float, float, int]:
     """Return a motion with its efforts, the condition of the first motion, that of this one, and the numbers."""
     rng, axes = np.random.default_rng(seed), regressor.axes
-    derivatives, chosen = _Derivatives(regressor), list[int]()
+    chosen = list[int]()
     best, best_cost, first = np.zeros(0), np.inf, np.inf
     for number in range(_TRIES + _STEPS):
         progress("looking for a motion", number, _TRIES + _STEPS)
         fresh = rng.standard_normal((2, len(axes), _HARMONICS))
         tried = fresh if number < _TRIES else best + 0.3 * fresh * rng.random()
         trajectory = _trajectory(tried, axes, seconds, np.linspace(0, seconds, _LOOKS))
-        scaled = derivatives.at(trajectory)
+        scaled = _find_derivatives(regressor, trajectory)
         chosen = chosen or _independent(scaled)
         cost = float(np.linalg.cond(scaled[:, chosen] / np.linalg.norm(scaled[:, chosen], axis=0)))
         first = min(first, cost) if number == 0 else first
@@ -67,24 +67,16 @@ def excite(
     return trajectory, efforts, first, best_cost, len(chosen)
 
 
-class _Derivatives:
-    """The derivatives of efforts by the numbers of records, in units of their sizes."""
-
-    def __init__(self, regressor: Regressor) -> None:
-        self._regressor = regressor
-        bodies = [body for body in regressor.bodies if is_body(body)]
-        places = [10 * k + n for k, body in enumerate(regressor.bodies) if is_body(body) for n in range(10)]
-        self._places = [*places, *range(10 * len(regressor.bodies), 10 * len(regressor.bodies) + len(regressor.losses))]
-        problem = LeastSquares(bodies, regressor.losses, 0)
-        count = len(self._places)
-        self._slopes = problem.slopes(problem.start)[:count, :count]
-        self._slopes *= problem.sizes(np.ones(len(regressor.losses) + 1))[:count]
-
-    def at(self, trajectory: Trajectory) -> Array:
-        derivatives, efforts = self._regressor.rows(*trajectory[1:])
-        scales = np.sqrt(np.mean(efforts**2, axis=0)) + 1e-9
-        rows = derivatives[:, :, self._places] / scales[:, None]
-        return np.asarray(rows.reshape(-1, len(self._places)) @ self._slopes)
+def _find_derivatives(regressor: Regressor, trajectory: Trajectory) -> Array:
+    """Return the derivatives of efforts by the numbers of records, in units of their sizes."""
+    bodies, first = [body for body in regressor.bodies if is_body(body)], 10 * len(regressor.bodies)
+    places = [10 * k + n for k, body in enumerate(regressor.bodies) if is_body(body) for n in range(10)]
+    places += range(first, first + len(regressor.losses))
+    problem = LeastSquares(bodies, regressor.losses, 0)
+    slopes = problem.slopes(problem.start)[:-1, :-1] * problem.sizes(np.ones(len(regressor.losses) + 1))[:-1]
+    derivatives, efforts = regressor.rows(*trajectory[1:])
+    rows = derivatives[:, :, places] / (np.sqrt(np.mean(efforts**2, axis=0)) + 1e-9)[:, None]
+    return np.asarray(rows.reshape(-1, len(places)) @ slopes)
 
 
 def _independent(columns: Array) -> list[int]:

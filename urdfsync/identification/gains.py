@@ -25,9 +25,13 @@ _NOISE = 0.01
 """Of an effort: so much a robot with other numbers leaves unexplained, at least."""
 _FIRST_NOISE = 0.3
 _ROUNDS = 12
-_APART = 1.25
-"""A joint whose factor differs so much from those of others is in another unit."""
+VISIBLE = 1.25
+"""A log should show such a factor of a joint's effort."""
+_APART = 1.12
+"""By so much the factors of right logs differ, however small the errors are; a factor of 1.25 is found beyond that."""
 _SURE = 3.0
+_LIKELY = 2.0
+"""An estimated factor is hardly further from the real one, in standard errors."""
 _DAMPING = 0.1
 """Keeps a factor that no sample determines."""
 
@@ -42,17 +46,28 @@ class Gains(NamedTuple):
     covariance: Array
     """Of their relative errors."""
 
-    def is_other(self, axis: int, most: float) -> bool:
-        """Return whether the effort of an axis is in another unit: by a factor of all beyond `most`, or by its own."""
-        known, errors = ~np.isnan(self.factors), np.sqrt(np.diag(self.covariance))
-        if self.factors[axis] <= 0:
-            return bool(errors[axis] < 1 / _SURE)
-        sizes = np.log(np.abs(self.factors[known]))
-        weights = known / len(sizes)
-        weights[axis] -= 1
-        error = np.sqrt(weights[known] @ self.covariance[np.ix_(known, known)] @ weights[known])
-        apart = abs(np.log(self.factors[axis]) - np.median(sizes))
-        return bool(apart > max(np.log(_APART), _SURE * error) or not 1 / most < self.usual < most)
+    def odd_axes(self) -> list[int]:
+        """Return the axes whose efforts contradict those of most others; of two axes both, or none."""
+        apart, usual, _ = self._ratios()
+        counts = np.count_nonzero(apart > usual, axis=1)
+        return [int(axis) for axis in np.flatnonzero(counts == max(1, counts.max()))]
+
+    def least_visible(self) -> Array:
+        """Return from which factor on the efforts of others show that an axis has it; infinite without others."""
+        visible = self._ratios()[2]
+        np.fill_diagonal(visible, np.inf)
+        return np.asarray(np.exp(np.where(np.isnan(visible), np.inf, visible).min(axis=1)))
+
+    def _ratios(self) -> tuple[Array, Array, Array]:
+        """Return the ratios of the factors of each two axes, as sizes of logarithms; another sign is infinitely far.
+
+        These are the found ones, the greatest ones of right logs, and the least that are found to be greater.
+        """
+        ratios, variances = self.factors[:, None] / self.factors, np.diag(self.covariance)
+        errors = np.sqrt(variances[:, None] + variances - 2 * self.covariance)
+        usual = np.maximum(np.log(_APART), _SURE * errors)
+        apart = np.where((ratios < 0) & (errors < 1 / _SURE), np.inf, np.abs(np.log(np.abs(ratios))))
+        return apart, usual, usual + _LIKELY * errors
 
 
 def find_gains(problem: LeastSquares, evidence: Evidence, sizes: Array, delay: float) -> Gains:

@@ -223,7 +223,6 @@ class Log:
             tables[quantity][:, k] = self._in_si(times, rows, k, quantity)
         for k in self.measured:
             self._check_position(k, tables["position"][:, k])
-            self._check_effort(k, tables["effort"][:, k])
         for k, quantity in self.columns:
             if quantity == "velocity" and (k, "position") in self.columns:
                 self._check_velocity(self._axes[k], times, tables["position"][:, k], tables["velocity"][:, k])
@@ -268,15 +267,6 @@ class Log:
             refuse(self.file, f"{message}: its motor would, by a gear of {axis.reduction:g}", 1, hint)
         words = f": these look like {other}" if factor * most <= _MARGIN * width else ""
         refuse(self.file, f"{message}{words}", 1, hint)
-
-    def _check_effort(self, k: int, values: Array) -> None:
-        """Refuse efforts that are beyond the limit of a joint most of the time, unless their unit is stated."""
-        axis, size, column = self._axes[k], float(np.sqrt(np.mean(values**2))), self.columns[k, "effort"]
-        if size > axis.effort and not column.is_stated:
-            unit, cell = _UNITS[axis.unit, "effort"], name_and_unit(self.header[column.place])[0]
-            message = f"the effort of {axis.name} is {size:.4g} {unit} on average (RMS), and its limit {axis.effort:g}"
-            hint = f"state the unit in the header: `{cell} [{unit}]`, or give a factor: `--column`"
-            refuse(self.file, message, 1, hint)
 
     def _check_velocity(self, axis: Axis, times: Array, position: Array, velocity: Array) -> None:
         """Refuse velocities that are not those of the positions: other units, signs or joints."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from urdfsync import registry
 from urdfsync.checks.package import RobotPackage, read_package
@@ -21,22 +22,23 @@ from urdfsync.modelica.parser import parse
 from urdfsync.modelica.stamp import with_stamp
 from urdfsync.modelica.values import Value, literals, read_values
 
-_COMMENTED = re.compile(r'((?:"(?:[^"\\]|\\.)*+"|(?!/[*/])[^"])*+)(?:/\*(?:(?!\*/).)*+\*/|//[^\n]*+|\s)*+', re.DOTALL)
-"""An expression, and comments behind it; a string may contain `//`."""
 _NOISE = 0.1
 """A change below this fraction of its standard error is not written: it says nothing, and collides with exports."""
 _ITEM = re.compile(r"\[(\d)\]$")
 _ELEMENT = re.compile(r"(\w+) (.*)", re.DOTALL)
 
 
-class RecordValue:
+class RecordValue(NamedTuple):
     """One value in one record."""
 
-    def __init__(self, path: str, value: Value) -> None:
-        self.path, self.start, self.line = path, value.start, value.line
-        commented = _COMMENTED.fullmatch(value.text)
-        self.text = (commented[1] if commented else value.text).rstrip()
-        self.numbers = literals(self.text)
+    path: str
+    """The record's path below the package."""
+    value: Value
+
+    @property
+    def numbers(self) -> tuple[float, ...] | str | None:
+        """The numbers of the value, or its text; None for a formula."""
+        return literals(self.value.text)
 
 
 class Records:
@@ -61,10 +63,10 @@ class Records:
             for path, copies in paths.items():
                 before = generated.get(element, {}).get(path)
                 edited = copies[0]
-                if before is None or before[0].text == edited.text:
+                if before is None or before[0].value.text == edited.value.text:
                     continue
-                numbers, message = edited.numbers, f"{element}: {path} is edited to `{edited.text}`"
-                place = shown(self.package.robot.folder / edited.path), edited.line
+                numbers, message = edited.numbers, f"{element}: {path} is edited to `{edited.value.text}`"
+                place = shown(self.package.robot.folder / edited.path), edited.value.line
                 if not isinstance(numbers, tuple):
                     raise ConfigError.of("identify", f"{message}, which is no number", *place, hint="write a number")
                 if path == "inertial.mass" and numbers[0] <= 0:
@@ -97,29 +99,27 @@ class Records:
         Nothing is written if one of the files changed since it was read, or if one can't be written. A number stays if
         its change is far below its standard error.
         """
-        changes = dict[str, list[tuple[RecordValue, str]]]()
-        values = dict[tuple[str, str], list[str]]()
+        changes = dict[str, list[tuple[Value, str]]]()
+        values = dict[tuple[str, str], list[float]]()
         for number in numbers:
             if not number.is_written or abs(number.after - number.before) < _NOISE * number.conditional:
                 continue
             item, path = _ITEM.search(number.path), _ITEM.sub("", number.path)
-            copies = self.values[number.element][path]
-            words = values.setdefault((number.element, path), [])
-            if not words:
-                words += [repr(part) for part in copies[0].numbers or ()]
-            words[int(item[1]) - 1 if item else 0] = f"{number.after:.6g}"
-        for (element, path), words in values.items():
-            for copy in self.values[element][path]:
-                text = f"{{{', '.join(map(_short, words))}}}" if copy.text.startswith("{") else _short(words[0])
-                changes.setdefault(copy.path, []).append((copy, text))
+            numbers_on_disk = self.values[number.element][path][0].numbers
+            after = values.setdefault((number.element, path), [*map(float, numbers_on_disk or ())])
+            after[int(item[1]) - 1 if item else 0] = float(f"{number.after:.6g}")
+        for (element, path), after in values.items():
+            words = ", ".join(repr(each).removesuffix(".0") for each in after)
+            for record, value in self.values[element][path]:
+                changes.setdefault(record, []).append((value, f"{{{words}}}" if value.text.startswith("{") else words))
         folder, contents, former = self.package.robot.folder, dict[Path, bytes](), dict[Path, bytes]()
         for path, of_file in changes.items():
             before = former[folder / path] = read_unrecorded(folder / path)
             if with_stamp(before, None) != self.package.on_disk[path]:
                 raise ConfigError.of("identify", "the file was saved meanwhile", shown(folder / path), hint="try again")
             text = _text(before)
-            for copy, new in sorted(of_file, key=lambda each: -each[0].start):
-                text = text[: copy.start] + new + text[copy.start + len(copy.text) :]
+            for value, new in sorted(of_file, key=lambda each: -each[0].start):
+                text = text[: value.start] + new + text[value.start + len(value.text) :]
             contents[folder / path] = text.encode(errors="surrogateescape")
         written = list[Path]()
         for file, content in contents.items():
@@ -152,10 +152,6 @@ def read_records(config: Config, robot: RobotConfig, wait: float) -> Records:
 
 def _text(content: bytes) -> str:
     return content.decode(errors="surrogateescape")  # with its line ends, so that places in the text are those on disk
-
-
-def _short(word: str) -> str:
-    return word.removesuffix(".0")
 
 
 def _by_element(texts: Mapping[str, str]) -> dict[str, dict[str, list[RecordValue]]]:

@@ -47,11 +47,9 @@ def identification_lines(result: Identification) -> Iterator[StyledLine]:
             (f"  {counted(len(result.written), 'record')} written", "bold"), ("; `urdfsync diff --edits`", "dim")
         )
     else:
-        why = (
-            "no change is sure, so each number stays"
-            if result.is_writing
-            else "`--write` writes the numbers into the records"
-        )
+        why = "`--write` writes the numbers into the records"
+        if not any(number.is_sure and number.is_written for number in result.numbers):
+            why = "no change is sure, so each number stays"
         why = "the log is hardly that of the robot" if result.is_doubtful else why
         yield line((f"  nothing written: {why}", "dim"))
     yield from file_lines(result.files)

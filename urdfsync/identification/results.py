@@ -102,8 +102,6 @@ class Identification(msgspec.Struct, frozen=True):
     """The changed records, from the configuration's folder."""
     is_doubtful: bool = False
     """Whether the log is hardly that of the robot: then nothing is fitted."""
-    is_writing: bool = False
-    """Whether the numbers were to be written."""
     files: Mapping[str, Path] = {}
     """The written files, by their options."""
     diagnostics: tuple[Diagnostic, ...] = ()

@@ -17,7 +17,7 @@ from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.identification import signals
 from urdfsync.identification.fit import Evidence, Fit, LeastSquares, fit, is_body, sure_places
-from urdfsync.identification.gains import find_gains
+from urdfsync.identification.gains import VISIBLE, find_gains
 from urdfsync.identification.log import Log
 from urdfsync.identification.records import Records, read_records
 from urdfsync.identification.results import (
@@ -39,6 +39,8 @@ _GAIN = 1.45
 """A factor of all efforts that the source hardly explains; masses and frictions are wrong by so much."""
 _STATED_GAIN = 3.0
 """Likewise, if the log states the unit of its efforts."""
+_HUGE = 100.0
+"""A factor that a note does not state: an effort that has nothing in common with the others shows none."""
 _HINT = "look for another sign, unit or joint in the log"
 _CONSIDERABLE = 0.05
 """In the greatest effort of a joint: a smaller effort may be that of a sensor's offset."""
@@ -164,10 +166,11 @@ def identify(
     _check_names(options, regressor)
     problem, fitted, notes = _problem(regressor, measured, records, options)
     before, first = _fitted(problem, measured, _of_log(problem)), _fitted(problem, measured, fitted)
-    doubts = [
+    found = [
         *_doubts(_joints(measured, measured.evidence, before, first)),
         *_log_doubts(problem, measured, float(before.after[-1])),
     ]
+    doubts = [finding for finding in found if finding.severity is Severity.ERROR]
     sure, result = [] if doubts else sure_places(problem, first), before if doubts else first
     if not doubts and not options.unsure:
         result = _fitted(problem, measured, [*sure, *_of_log(problem)])
@@ -200,9 +203,8 @@ def identify(
         dropped=measured.told(),
         held_out=held_out,
         written=written,
-        is_writing=write,
         is_doubtful=bool(doubts),
-        diagnostics=(*doubts, *notes, *measured.doubts(options), *records.notes),
+        diagnostics=(*(doubts or found), *notes, *measured.doubts(options), *records.notes),
         series=measured.series(signals.target_at(float(result.after[-1])), result.delta),
     )
 
@@ -237,11 +239,15 @@ def _doubts(joints: Sequence[JointFit]) -> Iterator[Diagnostic]:
 
 
 def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iterator[Diagnostic]:
-    """Yield an error for each joint whose effort is that of another unit, sign or joint, or of another motion."""
+    """Yield an error for each joint whose effort is that of another unit, sign or joint, or of another motion.
+
+    Yield a note for one whose effort may be that of another unit, as far as the log shows.
+    """
     evidence, log = measured.evidence, measured.log
     friction = {loss.joint: loss.value for loss in problem.losses if loss.path.endswith("friction")}
     model = measured.at(np.array([*np.zeros(len(signals.SHIFTS)), 1.0]))
     gains = find_gains(problem, evidence, natural_sizes(problem, measured, evidence.roots(model)), delay)
+    odd, least = gains.odd_axes(), gains.least_visible()
     efforts, left = (
         measured.unused.deviations(measured.parameters, measured.at(np.array([*signals.target_at(0.0)[:-1], part])))
         for part in (0.0, -1.0)
@@ -249,11 +255,19 @@ def _log_doubts(problem: LeastSquares, measured: Measured, delay: float) -> Iter
     for j, axis in enumerate(measured.axes):
         column = log.columns[log.measured[j], "effort"]
         unit, cell = "N.m" if axis.unit == "rad" else "N", log.header[column.place]
-        question = "" if column.is_stated else f"; if the log is right, state the unit: `{cell} [{unit}]`"
-        if evidence.counts[j] and gains.is_other(j, _STATED_GAIN if column.is_stated else _GAIN):
-            own = gains.usual * gains.factors[j] / abs(float(np.nanmedian(gains.factors)))
-            words = f"its effort in the log is {own:.3g} times that of a robot near the source"
+        most = _STATED_GAIN if column.is_stated else _GAIN
+        if j in odd:
+            ratio = gains.factors[j] / abs(float(np.nanmedian(np.delete(gains.factors, j))))
+            words = f"its effort in the log is {ratio:.3g} times the one that the efforts of the other joints tell"
+            yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT)
+        elif evidence.counts[j] and not 1 / most < gains.usual < most:
+            words = f"its effort in the log is {gains.usual:.3g} times that of a robot near the source"
+            question = "" if column.is_stated else f"; if the log is right, state the unit: `{cell} [{unit}]`"
             yield Diagnostic(Severity.ERROR, "identify", f"joint {axis.name}: {words}", hint=_HINT + question)
+        elif VISIBLE < least[j] < np.inf:
+            when = f"show only from {math.ceil(10 * least[j]) / 10:g} on" if least[j] < _HUGE else "not show"
+            words = f"in this log, a factor of its effort would {when}"
+            yield Diagnostic(Severity.NOTE, "identify", f"joint {axis.name}: {words}", hint="check its unit")
         elif not evidence.counts[j] + measured.held_out.counts[j] and left[j] > max(
             _DOUBTFUL * efforts[j], _CONSIDERABLE * efforts.max(), 2 * friction.get(axis.name, 0.0)
         ):

@@ -46,7 +46,7 @@ def _cause(action: Action, changes: Changes | None) -> str:
             return "the source's file; a copy of yours is below .urdfsync/aside"
         return kept if is_orphan else _CHOSEN[action.choice]
     if action.reason not in _NAMED or changes is None:
-        return action.reason.text
+        return action.cause
     # changes of an element update its records, structural changes update models and packages
     causes = [change for change in changes.changes if change.element == action.owner]
     if action.role in (Role.MODEL, Role.PACKAGE, Role.ORDER):

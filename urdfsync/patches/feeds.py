@@ -63,14 +63,15 @@ class Feeds:
         again = self._moved(pairs, second, wanted) if rest else {}
         steps = zip(pairs, first, second, strict=True)
         ratios = sorted(((b - value) / (a - value), number) for number, ((_, value), a, b) in enumerate(steps))
-        for place, number in again.items() if again else ():
+        for place, after in again.items() if again else ():
             if place in rest:
                 old = self.before[place]
-                ratio = (number - old) / (moved[place] - old)
-                at = bisect_left(ratios, (ratio - _SAME, 0))
-                if at < len(ratios) and ratios[at][0] < ratio + _SAME:
-                    literal, value = pairs[ratios[at][1]]
-                    self.computed[place] = literal, (moved[place] - old) / (first[ratios[at][1]] - value)
+                ratio = (after - old) / (moved[place] - old)
+                at = bisect_left(ratios, (ratio, 0))
+                nearest, which = min(ratios[max(0, at - 1) : at + 1], key=lambda each: abs(each[0] - ratio))
+                if abs(nearest - ratio) < _SAME:
+                    literal, value = pairs[which]
+                    self.computed[place] = literal, (moved[place] - old) / (first[which] - value)
         return moved.keys()
 
     def _moved(

@@ -33,6 +33,8 @@ _WHOLE = "robot"
 """The owner of records that repeat or derive numbers of elements, such as positions at the start."""
 _LONGEST = 12
 """The greatest number of digits of a number that is converted into the unit of its cell."""
+_PLACES = 9
+"""Decimals by which an angle in degrees is recognised."""
 
 
 class _Trial(NamedTuple):
@@ -104,7 +106,12 @@ class Search:
         wanted = {(*value.key, k): value.old[k] for value in values for k in value.changed}
         literals = [each for file, content in self._contents.items() for each in find_literals(file, content)]
         numbers, cells = {*wanted.values()}, {*self._cells({self._owner(value) for value in values}, literals)}
-        possible = {each: (each.value,) for each in literals if each.value in numbers or each in cells}
+        degrees = {round(math.degrees(number), _PLACES) for number in numbers}
+        possible = {
+            each: (each.value,)
+            for each in literals
+            if each.value in numbers or round(each.value, _PLACES) in degrees or each in cells
+        }
         moved = self._feeds.trace(possible, wanted.keys())
         # 0 and 1 may stand beside a number without an effect, as in `1.0*m + 0`, and were moved with it
         for sizes in ((lambda size: size not in (0, 1)), (lambda size: size == 1), (lambda size: size == 0)):
@@ -266,10 +273,12 @@ class Search:
         for k in value.changed:
             place = (*value.key, k)
             if place in self._feeds.computed:
-                literal, _ = self._feeds.computed[place]
+                literal, factor = self._feeds.computed[place]
                 at = f"{shown(literal.file)}:{literal.line}"
                 if self._has_other_unit(place):
                     return f"{at} has it in another unit, in which {value.words[k]} is no plain number"
+                if math.isclose(factor, math.radians(1), rel_tol=1e-6):
+                    return f"it is in degrees in {at}"
                 return f"it is computed from the number in {at}"
         line = "{}:{}".format(*self.before.places[owner]) if (owner := self._owner(value)) in self.before.places else ""
         return f"no number of the source{line and f' ({line})'} is this one: it is computed, or a default"

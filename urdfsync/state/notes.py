@@ -41,6 +41,8 @@ class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """The id of the file that each edited text belongs to, by the text's hash: all edits that builds here have seen."""
     uses: Mapping[str, Use] = {}
     """Names that mean other parts now, by absolute path of a user's file."""
+    model: str = ""
+    """Hash of the recorded model in which these names mean other parts; git may bring another record."""
 
 
 def load(state_folder: Path, robot: str) -> Notes:

@@ -19,7 +19,7 @@ from urdfsync.domain import Domain
 from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
 from urdfsync.engine.inspect.commits import PastCommit, read_commits
-from urdfsync.engine.inspect.last_build import LastBuild, option_values
+from urdfsync.engine.inspect.last_build import LastBuild, hash_of, option_values
 from urdfsync.engine.inspect.package_files import Folder, PackageFiles, key_of
 from urdfsync.engine.inspect.parents import Parents
 from urdfsync.engine.inspect.users_files import UsersFiles, read_saved_facts, read_users_files
@@ -131,8 +131,11 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return read_users_files(self.config, self.robot, names, former)
 
     def read_unsaved_uses(self) -> dict[str, Use]:
-        """Return names that mean other parts now, by file, if the user has not saved it since a build noted them."""
-        return {path: use for path, use in self.last.notes.uses.items() if use.facts == read_saved_facts(Path(path))}
+        """Return names that mean other parts now, by file, if neither the file nor the record was replaced since."""
+        uses = self.last.notes.uses
+        if uses and self.last.notes.model != hash_of(self.last.record.snapshot):
+            return {}
+        return {path: use for path, use in uses.items() if use.facts == read_saved_facts(Path(path))}
 
     def look_for_class(self, name: str) -> Path | None:
         """Return the folder or file of a top-level class outside of the package; None if there is none."""

@@ -166,4 +166,5 @@ def notes_after(
         written=frozenset(made | (set(old.written) & recorded)),
         edits={**old.edits, **seen_edits(inputs, decision), **({} if is_dry else seen_merges(inputs, decision))},
         uses=old.uses if is_dry else uses,
+        model=old.model if is_dry else hash_of(record.snapshot) if uses else "",
     )
