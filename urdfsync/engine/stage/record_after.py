@@ -153,7 +153,8 @@ def notes_after(
     A dry run writes no record. So it notes no edits of another model than the recorded one.
     """
     old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
-    recorded, texts = {*inputs.last.files.values(), *unite([*records]).files.values()}, generation.package.notes()
+    record, texts = unite([*records]), generation.package.notes()
+    recorded = {*inputs.last.files.values(), *record.files.values()}
     recorded |= {bare_hash(encode(model)) for aside in saved for model in aside.beside.values()}  # for `--undo`
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
