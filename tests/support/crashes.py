@@ -19,16 +19,14 @@ from support import edits
 from support.choices import options
 from support.urdfs import joint, limit, link, robot
 from urdfsync import config
-from urdfsync.dependencies import localfile
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
 from urdfsync.state.store import Store
 
 CHANGES = ("exchange", "place", "replace")
-"""Operations on targets, and on the planned hashes."""
-NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "write_local", "remove", "sync")
-WRITES = ("write", "write_local")
+"""Operations on targets."""
+NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "remove", "sync")
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 ALL = "URDFSYNC_CRASHES"
 """Environment variable that chooses all operations, whatever its value."""
@@ -112,7 +110,7 @@ def kill(project: Path, number: int, half: bool = False, earlier: Hook = lambda 
     def hook(operation: Operation) -> None:
         earlier(operation)
         if operation.number == number:
-            if half and operation.name in WRITES:
+            if half and operation.name == "write":
                 with operation.paths[0].open("ab") as file:  # only `append` finds a file
                     file.write(b'{"robot": "cut sh')
             os.kill(os.getpid(), signal.SIGKILL)
@@ -167,17 +165,7 @@ def copy(project: Path, to: Path) -> Path:
     if to.exists():
         shutil.rmtree(to)
     shutil.copytree(project, to)
-    for place in ("planned.json", ".planned.json.urdfsync-tmp"):
-        if (to / ".urdfsync" / place).is_file():
-            bind(to / ".urdfsync" / place)
     return to
-
-
-def bind(file: Path) -> None:
-    """Make copied planned hashes count as written in their present place."""
-    content = file.read_bytes().partition(b"\n")[2]
-    file.unlink()
-    localfile.write(file, content)
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:

@@ -16,7 +16,7 @@ from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import record
 from urdfsync.dependencies.facts import Entry, Facts
 from urdfsync.dependencies.places import is_clone
-from urdfsync.dependencies.reads import Reads, depend_on
+from urdfsync.dependencies.reads import Reads
 from urdfsync.dependencies.record import DependencyRecord, FactList
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
@@ -24,7 +24,6 @@ from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Outlook, Result
 from urdfsync.files import digest, shown
-from urdfsync.state.transaction import DRAFT, PLANNED
 
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.UNKNOWN})
 """Reasons of actions that `build` does not list."""
@@ -109,10 +108,7 @@ def remember_configuration(config: Config, reads: Reads) -> None:
         is_plain = registry.is_own(robot.domain) and robot.output.is_relative_to(config.root)
         if (robot.on_build == "check" and not is_clone()) or not is_plain:
             return  # these builds do more than compare
-    folder = config.root / STATE_FOLDER
     with reads:
-        for name in (PLANNED, DRAFT):
-            depend_on(folder / name)
         strays = read_stray_states(config)
     if not strays:
         keys = RecordKeys(config, BuildOptions())
