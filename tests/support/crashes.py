@@ -149,6 +149,18 @@ def edited_at_random(project: Path, random: Random) -> None:
     _export(project, random.random(), random.sample(["b1", "b2", "b3", "b4", "b5"], random.randint(1, 3)))
 
 
+def export_chain(project: Path, names: Sequence[str], mass: float = 0) -> None:
+    """A chain of links without two alike joints: the last link has so much more mass."""
+    masses = [1.0 + 0.7 * number for number in range(len(names) + 1)]
+    elements = [link(*one) for one in zip(["base", *names], [*masses[:-1], masses[-1] + mass], strict=True)]
+    axes, ends = ("1 0 0", "0 1 0", "0 0 1", "0 0.6 0.8"), itertools.pairwise(["base", *names])
+    elements += [
+        joint(f"j{number}", "revolute", *pair, axis=axes[number % 4], inside=[limit()])
+        for number, pair in enumerate(ends)
+    ]
+    (project / "bot.urdf").write_text(robot(*elements))
+
+
 def _export(project: Path, mass: float, renamed: Sequence[str]) -> None:
     """A chain of links, some with another name and a new sibling."""
     names = ["base", *(f"{name}x" if name in renamed else name for name in ("b1", "b2", "b3", "b4", "b5"))]

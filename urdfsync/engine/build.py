@@ -204,7 +204,9 @@ class _Builder:
         trees = robot.folder, *(state / kind / robot.name for kind in ("aside", "bases", "conflicts"))
         around = above[: 1 + above.index(robot.output)]
         return {Path(folder) for tree in trees for folder, _, _ in os.walk(tree)} | {
-            *around, self._config.root, state, *(state / kind for kind in ("notes", "robots", "svg"))
+            *around,
+            state,
+            *(state / kind for kind in ("notes", "robots", "svg")),
         }
 
     def _clear_leftovers(self, folders: Iterable[Path]) -> list[str]:

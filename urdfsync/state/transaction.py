@@ -16,7 +16,6 @@ needed (see `_clear`).
 
 from __future__ import annotations
 
-import collections
 import contextlib
 import itertools
 import os
@@ -40,6 +39,8 @@ _NONE, _MOVES = "none", "moves"
 """Stand for the hash of no file, and for the new content of a file that was renamed by three renames."""
 _NAME = re.compile(rf"\.(.+)\.([0-9a-f]{{12}}|none)-([0-9a-f]{{12}}|none|moves)\.[0-9a-f]{{6}}{re.escape(TEMPORARY)}~?")
 """A temporary name: target, old content, new content, random digits; `~` is of three renames."""
+SAVED = ".saved"
+"""The end of the name under which a content is kept that nobody planned."""
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
 
@@ -100,74 +101,76 @@ class Transactions:
         """
         changes = writes.in_order()
         moves, targets = _plan(changes)
-        folders = self._check({target.folder for target in targets})
-        made = self._missing_folders(changes)
-        _prepare(targets, changes, made)
         first, last = sum(one.content is not None for one in writes.before), len(targets) - len(writes.record)
-        # again: a process may have written to an old file through an open handle
-        again = collections.deque(target for target in targets[:last] if target.old is not None)
-        before, record = collections.deque(targets[:first]), collections.deque(targets[last:])
-        files = collections.deque((*moves, *targets[first:last]))
-        total, notes = len(before) + len(files), list[Diagnostic]()
-
-        def clear(files: Iterable[_Move | _Target]) -> None:
-            own = {f"{one.temporary}{end}" for one in files for end in ("", file_operations.SPARE)}
-            notes.extend(self.clear(own.intersection(find_leftovers(folders))))
-
-        def finish() -> Applied:
-            overtaken = _change(before)
+        folders, notes = {target.folder for target in targets}, list[Diagnostic]()
+        self._check(folders)
+        made = self._missing_folders(changes)
+        try:
+            _prepare(targets, changes, made)
+            overtaken = _first_saved(one for one in targets[:first] if not one.change())
             if overtaken is None:
                 _sync_folders({target.folder for target in targets[:first]})
-                overtaken = _change(files) or _change(again)
-            clear((*moves, *targets[:last]))
+                steps: list[_Move | _Target] = [*moves, *targets[first:last]]
+                overtaken = _first_saved(one for one in steps if not one.change())
+            if overtaken is None:  # a process may have written to an old file through an open handle
+                overtaken = _first_saved(one for one in targets[:last] if one.old and not one.has_old())
+            _sync_folders(folders)
+            notes += self._clear_own((*moves, *targets[:last]), emptied)
             if overtaken is None:
-                for folder in emptied:
-                    file_operations.remove_folder(folder)
-                _sync_folders(folders)
-                overtaken = _change(record)
+                overtaken = _first_saved(one for one in targets[last:] if not one.change())
                 _sync_folders({target.folder for target in targets[last:]})
-            clear(targets[last:])
-            return Applied(overtaken, tuple(notes), {target.path: target.new_sha256 for target in targets})
-
-        try:
-            return finish()
-        except OSError as error:
-            with contextlib.suppress(OSError, OutputError):
-                clear((*moves, *targets))  # else the next build does
-            place = error.filename if isinstance(error.filename, str) else self._root
-            if (done := total - len(before) - len(files)) == 0:
-                for folder in reversed(made):
-                    file_operations.remove_folder(folder)
+            notes += self._clear_own(targets[last:], reversed(made))
+        except BaseException as error:
+            with contextlib.suppress(OSError, OutputError):  # else the next build clears them
+                self._clear_own((*moves, *targets), reversed(made))
+            if not isinstance(error, OSError):
+                raise
+            folder, name = os.path.split(error.filename or self._root)
+            place = Path(folder, _NAME.sub(r"\1", name))
+            done = sum(_hash(one.path) == one.new for one in targets) + sum(move.is_done() for move in moves)
+            if not done:
                 raise failure(error, place) from None
-            message = f"{done} of {counted(total, 'file')} are written, then: {error.strerror or error}"
+            message = f"{done} of {counted(len(targets), 'file')} are written, then: {error.strerror or error}"
             hint = "correct this, then build again: the next build writes the rest"
             raise OutputError.of(UNFINISHED, message, shown(place), hint=hint) from error
-        except BaseException:
-            with contextlib.suppress(OSError):
-                finish()  # also after Ctrl-C: this takes milliseconds
-            raise
+        return Applied(overtaken, tuple(notes), {target.path: target.new for target in targets})
 
     def clear(self, leftovers: Iterable[str]) -> tuple[Diagnostic, ...]:
-        """Remove temporary files that nobody needs; return warnings about contents that are kept. Raises OutputError."""
+        """Remove temporary files that nobody needs, and empty folders; return warnings about contents that are kept.
+
+        Raises OutputError.
+        """
         paths, notes = sorted(leftovers), list[Diagnostic]()
-        self._check({path.rpartition(os.sep)[0] for path in paths})
+        folders = {path.rpartition(os.sep)[0] for path in paths}
+        self._check(folders)
         for path in paths:
             try:
                 kept = _clear(path)
             except OSError as error:
-                raise failure(error, path, "it can't be removed") from None
-            if kept is not None:
-                message = f"it was saved while a build replaced it; the other text is kept as {shown(kept.saved)}"
-                notes.append(Diagnostic(Severity.WARNING, "kept-save", message, shown(kept.target)))
+                raise failure(error, path) from None
+            if kept:
+                message = f"it was saved while a build replaced it; the other text is kept as {shown(kept)}"
+                notes.append(Diagnostic(Severity.WARNING, "kept-save", message, shown(kept.rpartition(SAVED)[0])))
+        for folder in {*map(Path, folders)} - {self._root, *self._outputs}:
+            file_operations.remove_folder(folder)
         return tuple(notes)
 
-    def _check(self, folders: Iterable[str]) -> list[str]:
-        """Return the sorted folders. Raises OutputError for a folder outside of the outputs, or a link in a path."""
+    def _clear_own(self, files: Iterable[_Move | _Target], folders: Iterable[Path]) -> tuple[Diagnostic, ...]:
+        """Clear the temporary files of these files, and remove these folders if they are empty, in this order."""
+        own = {f"{one.temporary}{end}" for one in files for end in ("", file_operations.SPARE)}
+        notes = self.clear(own.intersection(find_leftovers({path.rpartition(os.sep)[0] for path in own})))
+        for folder in folders:
+            file_operations.remove_folder(folder)
+        return notes
+
+    def _check(self, folders: Iterable[str]) -> None:
+        """Raise OutputError for a folder outside of the outputs, or a link in a path."""
         trees = [Tree(self._root), *map(Tree, self._outputs)]
-        for folder in map(os.path.normpath, found := sorted(folders)):
-            if folder != str(self._root):
-                next((tree for tree in trees if tree.covers(os.path.join(folder, ""))), trees[0]).check_folder(folder)
-        return found
+        for folder in map(os.path.normpath, folders):
+            covering = (tree for tree in trees if str(tree.root) == folder or tree.covers(folder))
+            tree = next(covering, trees[0])
+            if str(tree.root) != folder:
+                tree.check_folder(folder)
 
     def _missing_folders(self, changes: Iterable[FileChange]) -> list[Path]:
         """The folders to create, outermost first."""
@@ -181,79 +184,49 @@ class Transactions:
         return sorted(missing)
 
 
-class _Kept(NamedTuple):
-    """A content that was found under a temporary name, and is kept under a visible one."""
-
-    target: str
-    saved: str
-
-
 class _Target(msgspec.Struct, frozen=True):
-    """One file to change. Hashes have their first digits; None stands for no file."""
+    """One file to change; `old` and `new` are hashes, None for no file."""
 
     path: str  # strings, since there may be 20,000 targets: their paths take 0.3 s
     temporary: str
     """The name of the new file before the change, and of the old file after the change."""
     old: str | None
-    new_sha256: str | None
+    new: str | None
 
     @property
     def folder(self) -> str:
-        """The target's folder."""
+        """The folder of the file."""
         return self.path.rpartition(os.sep)[0]
 
-    @property
-    def new(self) -> str | None:
-        """The hash of the new content."""
-        return _first_digits(self.new_sha256)
-
     def change(self) -> bool:
-        """Change the target, unless it is changed already.
-
-        Returns False if somebody saved the target meanwhile: the saved file stays. Raises OSError.
-        """
+        """Change the target. Returns False if somebody saved it meanwhile: the saved file stays. Raises OSError."""
         try:
             if self.old is None:
-                return self._create() if self.new else not os.path.lexists(self.path)
-            return self._delete() if self.new is None else self._replace()
+                if self.new is None:
+                    return not os.path.lexists(self.path)
+                file_operations.place(self.temporary, self.path)
+                return True
+            if _hash(self.path) != self.old:
+                return False
+            if self.new is None:
+                file_operations.replace(self.path, self.temporary)
+            else:
+                file_operations.exchange(self.temporary, self.path)
         except (FileNotFoundError, FileExistsError, NotADirectoryError):
             return False  # the file or its folder was deleted, or a new file was saved
+        return self.has_old()
 
-    def _create(self) -> bool:
-        try:
-            file_operations.place(self.temporary, self.path)
-        except FileNotFoundError:  # it has its place already, or its folder was deleted
-            return os.path.lexists(self.path)
-        except FileExistsError:
-            return _hash(self.path) == self.new
-        return True
-
-    def _delete(self) -> bool:
-        aside, current = _hash(self.temporary), _hash(self.path)
-        if aside is None and current == self.old:
-            file_operations.replace(self.path, self.temporary)
-            aside = _hash(self.temporary)
-        if aside is None:
-            return current is None
-        if aside != self.old:
-            file_operations.place(self.temporary, self.path)
-        return aside == self.old
-
-    def _replace(self) -> bool:
-        if os.path.lexists(file_operations.spare(self.temporary)):
-            file_operations.exchange(self.temporary, self.path)  # finish an interrupted exchange
-        aside, current = _hash(self.temporary), _hash(self.path)
-        if aside == self.new and current == self.old:
-            file_operations.exchange(self.temporary, self.path)
-            aside, current = _hash(self.temporary), self.new
-        if aside in (self.new, None):
-            return current == self.new
-        if aside == self.old:
+    def has_old(self) -> bool:
+        """Return whether the replaced file is the planned one; else it is a save, and takes its place again."""
+        if _hash(self.temporary) == self.old:
             return True
-        if current == self.new:  # the replaced content is an unplanned save: put it back
-            file_operations.exchange(self.temporary, self.path)
-            if _hash(self.temporary) != self.new:  # somebody saved again: the later save counts
+        with contextlib.suppress(FileNotFoundError, FileExistsError):
+            if self.new is None:
+                file_operations.place(self.temporary, self.path)
+            elif _hash(self.path) == self.new:
                 file_operations.exchange(self.temporary, self.path)
+                if _hash(self.temporary) != self.new:  # somebody saved again: the later save counts
+                    file_operations.exchange(self.temporary, self.path)
         return False
 
 
@@ -270,18 +243,15 @@ class _Move(msgspec.Struct, frozen=True):
     """The hash of the file at the new path."""
 
     def change(self) -> bool:
-        """Rename the file, unless it is renamed already. Returns False, and changes nothing, if somebody saved one."""
-        try:
-            if self._is_done():
-                return True
+        """Rename the file. Returns False, and changes nothing, if somebody saved one of the two. Raises OSError."""
+        with contextlib.suppress(FileNotFoundError, FileExistsError, NotADirectoryError):
             self._rename(self.source, self.path)
-            if not self._is_done():
+            if not self.is_done():
                 self._rename(self.path, self.source)
-        except (FileNotFoundError, FileExistsError, NotADirectoryError):
-            return False
-        return self._is_done()
+        return self.is_done()
 
-    def _is_done(self) -> bool:
+    def is_done(self) -> bool:
+        """Return whether each file has the path of the other one."""
         return (_hash(self.path), _hash(self.source)) == (self.text, self.other)
 
     def _rename(self, source: str, path: str) -> None:
@@ -314,92 +284,72 @@ def save(file: Path, old: bytes, new: bytes) -> None:
         file_operations.remove(target.temporary)
         raise
     try:
-        # twice: a process may have written to the old file through an open handle
-        is_done = target.change() and target.change()
+        # a process may have written to the old file through an open handle
+        is_done = target.change() and target.has_old()
     finally:
         names = target.temporary, file_operations.spare(target.temporary)
         kept = [*filter(None, map(_clear, filter(os.path.lexists, names)))]
     if not is_done:
         message = "somebody saved this file meanwhile: it stays unchanged"
-        hint = f"{'an earlier save is kept as ' + shown(kept[0].saved) + '; ' if kept else ''}run the command again"
+        hint = f"{'an earlier save is kept as ' + shown(kept[0]) + '; ' if kept else ''}run the command again"
         raise OutputError.of("changed-meanwhile", message, shown(file), hint=hint)
 
 
-def _plan(changes: Iterable[FileChange]) -> tuple[list[_Move], list[_Target]]:
+def _plan(changes: Sequence[FileChange]) -> tuple[list[_Move], list[_Target]]:
     """Return the renamings of edited files, and all targets as they are after the renamings."""
-    token, changes = os.urandom(3).hex(), [*changes]
-    old = {str(change.path): _first_digits(change.old) for change in changes}
-    sources, moves = {str(change.path): str(change.origin) for change in changes if change.origin}, list[_Move]()
+    token, moves = os.urandom(3).hex(), list[_Move]()
+    old = {str(change.path): change.old for change in changes}
+    sources = {str(change.path): str(change.origin) for change in changes if change.origin}
     for path in sources:
         source = sources[path]
-        if not (old.get(source) and _device(source) == _device(path)) or source == path:
+        if source == path or not (text := old.get(source)) or _device(source) != _device(path):
             continue
-        moves.append(_Move(source, path, _temporary(path, old[path], _MOVES, token), old[source] or "", old[path]))
-        old[source], old[path] = old[path], old[source]
+        moves.append(_Move(source, path, _temporary(path, old[path], _MOVES, token), text, old[path]))
+        old[source], old[path] = old[path], text
         sources.update((other, source) for other, place in sources.items() if place == path)
     targets = list[_Target]()
     for change in changes:
         path, new = str(change.path), None if change.content is None else digest(change.content)
-        temporary = _temporary(path, old[path], _first_digits(new), token)
-        targets.append(_Target(path, temporary, old[path], new))
+        targets.append(_Target(path, _temporary(path, old[path], new, token), old[path], new))
     return moves, targets
 
 
 def _temporary(path: str, old: str | None, new: str | None, token: str) -> str:
     folder, _, name = path.rpartition(os.sep)
-    return f"{folder}{os.sep}.{name}.{old or _NONE}-{new or _NONE}.{token}{TEMPORARY}"
+    return f"{folder}{os.sep}.{name}.{(old or _NONE)[:_DIGITS]}-{(new or _NONE)[:_DIGITS]}.{token}{TEMPORARY}"
 
 
 def _device(path: str) -> int:
     """Return the number of the file system on which the folder of a file is, or will be made."""
-    while not os.path.isdir(path):
-        path = os.path.dirname(path)
-    return os.stat(path).st_dev
+    return next(folder for folder in Path(path).parents if folder.is_dir()).stat().st_dev
 
 
-def _prepare(targets: Sequence[_Target], changes: Sequence[FileChange], made: Sequence[Path]) -> None:
-    """Write all new files under temporary names. Raises OutputError; then nothing has changed."""
-    written, place = list[str](), ""
-    try:
-        for folder in made:
-            place = str(folder)
-            file_operations.make_folder(folder)
-        for target, change in zip(targets, changes, strict=True):
-            if change.content is not None:
-                place = target.path
-                written.append(target.temporary)
+def _prepare(targets: Sequence[_Target], changes: Sequence[FileChange], made: Iterable[Path]) -> None:
+    """Write all new files under temporary names. Raises OSError."""
+    for folder in made:
+        file_operations.make_folder(folder)
+    for target, change in zip(targets, changes, strict=True):
+        if change.content is not None:
+            try:
                 # a missing file has no permissions: looking for those of 20,000 new files takes 0.2 s
                 file_operations.write(target.temporary, change.content, target.path if target.old else None)
-        file_operations.sync(written)
-    except BaseException as error:
-        with contextlib.suppress(OSError):  # the next build removes them
-            for path in written:
-                file_operations.remove(path)
-        for folder in reversed(made):
-            file_operations.remove_folder(folder)
-        if isinstance(error, OSError):
-            raise failure(error, place) from None
-        raise
+            except OSError as error:
+                error.filename = target.path  # a full disk names no file
+                raise
+    file_operations.sync([target.temporary for target in targets if target.new])
 
 
-def _change(pending: collections.deque[_Target] | collections.deque[_Move | _Target]) -> Path | None:
-    """Change these files in order; return the first one that somebody saved meanwhile. Raises OSError."""
-    while pending:
-        if not pending[0].change():
-            return Path(pending[0].path)
-        pending.popleft()
-    return None
+def _first_saved(overtaken: Iterable[_Move | _Target]) -> Path | None:
+    return next((Path(one.path) for one in overtaken), None)
 
 
-def _clear(path: str) -> _Kept | None:
-    """Remove a temporary file if its name explains its content; else keep the content under a new name."""
+def _clear(path: str) -> str | None:
+    """Remove a temporary file if its name explains its content; else keep the content, and return its new name."""
     folder, _, name = path.rpartition(os.sep)
-    match = _NAME.fullmatch(name)
-    assert match
-    target, old, new = f"{folder}{os.sep}{match[1]}", match[2], match[3]
-    content, present = _hash(path), _hash(target)
-    is_spare = path.endswith(file_operations.SPARE)
-    if present is None and new != _NONE and (content == old or is_spare):  # two of three renames are missing
+    target, old, new = _NAME.sub(r"\1/\2/\3", name).split("/")
+    target, is_spare = f"{folder}{os.sep}{target}", path.endswith(file_operations.SPARE)
+    content, present = ((_hash(file) or "")[:_DIGITS] or _NONE for file in (path, target))
+    if present == _NONE != new and (is_spare or content == old):  # two of three renames are missing
         file_operations.place(path, target)
         return None
     # a new file never held anything else; until an exchange, this one holds at most half of the new content
@@ -408,26 +358,21 @@ def _clear(path: str) -> _Kept | None:
         file_operations.remove(path)
         return None
     for number in itertools.count(1):
-        saved = f"{target}.saved{'' if number == 1 else number}"
+        saved = f"{target}{SAVED}{'' if number == 1 else number}"
         with contextlib.suppress(FileExistsError):
             file_operations.place(path, saved)
             break
-    return _Kept(target, saved)
+    return saved
 
 
 def _sync_folders(folders: Iterable[str]) -> None:
-    if existing := [*filter(os.path.isdir, sorted(folders))]:
-        file_operations.sync(existing)
-
-
-def _first_digits(sha256: str | None) -> str | None:
-    return sha256 and sha256[:_DIGITS]
+    file_operations.sync([folder for folder in sorted(folders) if os.path.isdir(folder)])  # noqa: PTH112 - strings
 
 
 def _hash(path: str) -> str | None:
-    """Return the hash of a file; None for a missing file, `_OTHER` for any irregular file. Raises OSError."""
+    """Return the SHA-256 (hex) of a file; None for a missing, `_OTHER` for any irregular file. Raises OSError."""
     try:
         content = file_operations.read(path)
     except IsADirectoryError:
         return _OTHER
-    return None if content is None else _first_digits(digest(content))
+    return None if content is None else digest(content)
