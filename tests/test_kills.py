@@ -82,7 +82,8 @@ def test_a_build_that_is_killed_at_any_time_is_finished(tmp_path: Path, capsys: 
     for number in range(KILLS):
         if number % SAME == 0:
             shutil.rmtree(tmp_path / "original", ignore_errors=True)
-            crashes.edited_at_random(tmp_path / "original", random)
+            make = crashes.moved_at_random if number % (2 * SAME) else crashes.edited_at_random
+            make(tmp_path / "original", random)
             twin = crashes.copy(tmp_path / "original", tmp_path / "twin")
             wanted = conflicts(run(twin)), contents(twin)
             seconds = duration(crashes.copy(tmp_path / "original", tmp_path / "work"))

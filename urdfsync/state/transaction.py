@@ -115,17 +115,17 @@ class Transactions:
             if overtaken is None:  # a process may have written to an old file through an open handle
                 overtaken = _first_saved(one for one in targets[:last] if one.old and not one.has_old())
             _sync_folders(folders)
-            notes += self._clear_own((*moves, *targets[:last]), emptied)
+            notes += _clear_own((*moves, *targets[:last]), emptied)
             if overtaken is None:
                 overtaken = _first_saved(one for one in targets[last:] if not one.change())
                 _sync_folders({target.folder for target in targets[last:]})
-            notes += self._clear_own(targets[last:], reversed(made))
+            notes += _clear_own(targets[last:], reversed(made))
         except BaseException as error:
-            with contextlib.suppress(OSError, OutputError):  # else the next build clears them
-                self._clear_own((*moves, *targets), reversed(made))
+            with contextlib.suppress(OSError):  # else the next build clears them
+                _clear_own((*moves, *targets), reversed(made))
             if not isinstance(error, OSError):
                 raise
-            folder, name = os.path.split(error.filename or self._root)
+            folder, name = os.path.split(error.filename if isinstance(error.filename, str) else self._root)
             place = Path(folder, _NAME.sub(r"\1", name))
             done = sum(_hash(one.path) == one.new for one in targets) + sum(move.is_done() for move in moves)
             if not done:
@@ -136,32 +136,17 @@ class Transactions:
         return Applied(overtaken, tuple(notes), {target.path: target.new for target in targets})
 
     def clear(self, leftovers: Iterable[str]) -> tuple[Diagnostic, ...]:
-        """Remove temporary files that nobody needs, and empty folders; return warnings about contents that are kept.
+        """Remove what a killed build left, and folders that are empty then; return warnings about what is kept.
 
         Raises OutputError.
         """
-        paths, notes = sorted(leftovers), list[Diagnostic]()
+        paths = sorted(leftovers)
         folders = {path.rpartition(os.sep)[0] for path in paths}
         self._check(folders)
-        for path in paths:
-            try:
-                kept = _clear(path)
-            except OSError as error:
-                raise failure(error, path) from None
-            if kept:
-                message = f"it was saved while a build replaced it; the other text is kept as {shown(kept)}"
-                notes.append(Diagnostic(Severity.WARNING, "kept-save", message, shown(kept.rpartition(SAVED)[0])))
-        for folder in {*map(Path, folders)} - {self._root, *self._outputs}:
-            file_operations.remove_folder(folder)
-        return tuple(notes)
-
-    def _clear_own(self, files: Iterable[_Move | _Target], folders: Iterable[Path]) -> tuple[Diagnostic, ...]:
-        """Clear the temporary files of these files, and remove these folders if they are empty, in this order."""
-        own = {f"{one.temporary}{end}" for one in files for end in ("", file_operations.SPARE)}
-        notes = self.clear(own.intersection(find_leftovers({path.rpartition(os.sep)[0] for path in own})))
-        for folder in folders:
-            file_operations.remove_folder(folder)
-        return notes
+        try:
+            return _clear_all(paths, {*map(Path, folders)} - {self._root, *self._outputs})
+        except OSError as error:
+            raise failure(error, error.filename or self._root) from None
 
     def _check(self, folders: Iterable[str]) -> None:
         """Raise OutputError for a folder outside of the outputs, or a link in a path."""
@@ -341,6 +326,22 @@ def _prepare(targets: Sequence[_Target], changes: Sequence[FileChange], made: It
 
 def _first_saved(overtaken: Iterable[_Move | _Target]) -> Path | None:
     return next((Path(one.path) for one in overtaken), None)
+
+
+def _clear_own(files: Iterable[_Move | _Target], folders: Iterable[Path]) -> tuple[Diagnostic, ...]:
+    own = {f"{one.temporary}{end}" for one in files for end in ("", file_operations.SPARE)}
+    return _clear_all(own.intersection(find_leftovers({path.rpartition(os.sep)[0] for path in own})), folders)
+
+
+def _clear_all(paths: Iterable[str], folders: Iterable[Path]) -> tuple[Diagnostic, ...]:
+    """Clear temporary files, and remove these folders if they are empty, in this order. Raises OSError."""
+    notes = list[Diagnostic]()
+    for kept in filter(None, map(_clear, sorted(paths))):
+        message = f"it was saved while a build replaced it; the other text is kept as {shown(kept)}"
+        notes.append(Diagnostic(Severity.WARNING, "kept-save", message, shown(kept.rpartition(SAVED)[0])))
+    for folder in folders:
+        file_operations.remove_folder(folder)
+    return tuple(notes)
 
 
 def _clear(path: str) -> str | None:
