@@ -93,7 +93,7 @@ class Transactions:
         """`root` is the configuration's folder; files in `outputs` may be written, too."""
         self._root, self._outputs = root, tuple(outputs)
 
-    def apply(self, writes: Writes, emptied: Iterable[Path] = ()) -> Applied:
+    def apply(self, writes: Writes, emptied: Sequence[Path] = ()) -> Applied:
         """Make all changes.
 
         `emptied` are folders to remove if they are empty afterwards, innermost first. Raises OutputError if a file
@@ -119,7 +119,7 @@ class Transactions:
             if overtaken is None:
                 overtaken = _first_saved(one for one in targets[last:] if not one.change())
                 _sync_folders({target.folder for target in targets[last:]})
-            notes += _clear_own(targets[last:], reversed(made))
+            notes += _clear_own(targets[last:], (*emptied, *reversed(made)))
         except BaseException as error:
             with contextlib.suppress(OSError):  # else the next build clears them
                 _clear_own((*moves, *targets), reversed(made))
