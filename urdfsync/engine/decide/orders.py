@@ -92,8 +92,13 @@ def _removable_lines(
     is_united = inputs.last.record.is_united and order.startswith(inputs.folder.key(""))
     candidates = listed if is_united else listed.intersection(recorded)
     names = filter(is_identifier, candidates.difference(deleted))
-    missing = [name for name in names if not inputs.files.has_class(folder, name)]
-    is_asked = missing and f"{folder}package.mo" not in deletions  # a killed build may have deleted the classes in it
+    # a killed build may have moved or deleted some files of the package before the others
+    missing = [
+        name
+        for name in names
+        if not inputs.files.has_class(folder, name) or frozenset() < inputs.files.classes(folder + name) <= deletions
+    ]
+    is_asked = missing and f"{folder}package.mo" not in deletions
     mentioned = set(re.findall(r"\w+", inputs.files.text(f"{folder}package.mo") or "")) if is_asked else set()
     return [*deleted, *(name for name in missing if name not in mentioned)]
 
