@@ -263,13 +263,8 @@ def save(file: Path, old: bytes, new: bytes) -> None:
     change = FileChange(file.resolve(), new, digest(old))
     _, (target,) = _plan([change])
     try:
-        file_operations.write(target.temporary, new, target.path)
-        file_operations.sync([target.temporary])
-    except BaseException:
-        file_operations.remove(target.temporary)
-        raise
-    try:
-        # a process may have written to the old file through an open handle
+        _prepare([target], [change], ())
+        # again: a process may have written to the old file through an open handle
         is_done = target.change() and target.has_old()
     finally:
         names = target.temporary, file_operations.spare(target.temporary)
