@@ -103,7 +103,7 @@ def _doubt(inputs: Inputs, generation: Generation, differences: Differences, act
         return _named(inputs, lines, found, generation.now.snapshot)
     if element in found:
         return found[element]
-    is_seen = last.edits.get(action.mine or "") == differences.ids.get(inputs.folder.path(action.path))
+    is_seen = last.edits.get(action.mine or "", "") == differences.ids.get(inputs.folder.path(action.path))
     if (moved_to := differences.renames.get(element)) and not is_seen:  # the file can't move to the new name
         return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
     # if only numbers changed, no element is new, and most builds need no features

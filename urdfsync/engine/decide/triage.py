@@ -84,9 +84,10 @@ def _as_moved(inputs: Inputs, differences: Differences, action: Action) -> Actio
 
     A killed build, git or the user has brought it there.
     """
-    stamp = inputs.files.stamp(action.path) if action.reason is Reason.CONFLICT else None
-    path, base = inputs.folder.path(action.path), inputs.last.base(action.base)
-    if stamp is None or base is None or differences.ids.get(path) != stamp.id:
+    path, stamp = inputs.folder.path(action.path), None
+    if action.reason is Reason.CONFLICT and path in differences.ids:
+        stamp = inputs.files.stamp(action.path)
+    if stamp is None or stamp.id != differences.ids[path] or (base := inputs.last.base(action.base)) is None:
         return action
     is_moved = not is_in_place(base, inputs.robot.target, path)
     return msgspec.structs.replace(action, reason=Reason.MOVE) if is_moved else action
