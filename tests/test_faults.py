@@ -174,7 +174,6 @@ DENIED = [
     (f"{LADDER}/Elements", 0o000, f"{LADDER}/Elements/"),
     (RECORD, 0o000, f"{RECORD}: error: "),
     (MODEL, 0o000, f"{MODEL}: error: "),
-    (".urdfsync", 0o500, ".urdfsync/planned.json: error: "),
     (".urdfsync", 0o000, ".urdfsync"),
     (".urdfsync/robots", 0o500, ".urdfsync/robots/"),
     (".urdfsync/robots", 0o000, ".urdfsync/robots"),

@@ -244,12 +244,12 @@ DAMAGES = (
 )
 LARGE = (b"[" * 100_000, b"a = [" * 50_000, b"{" * 100_000, b'{"a":' * 100_000, bytes(1_000_000), b"x." * 100_000)
 STATE_NAMES = (
-    *("planned.json", "planned.json", ".planned.json.urdfsync-tmp", "deps", "lock", "watch.lock", ".gitignore"),
+    *("deps", "lock", "watch.lock", ".gitignore"),
     *("robots/other.state", "robots/bot.state", "robots/BOT.state", "robots/-x.state", "robots/.state", "config"),
     *("robots/\x1b[2J.state", "robots/a.b.state", "conflicts/bot/x", "svg/bot.svg", "robots/bot.state.urdfsync-tmp"),
     *("conflicts/bot/Links/Arm.merge.mo.txt", f"base/bot/{'0' * 64}", ".gitattributes"),
+    *(f"robots/.bot.state.none-{'0' * 12}.abcdef.urdfsync-tmp", f".lock.{'0' * 12}-none.abcdef.urdfsync-tmp~"),
 )
-PLANNED = '{"robot":"bot","token":"12","files":[{"path":"x"}],"emptied":[],"inode":1,"written":1}'
 
 
 def damage_one(draw: st.DrawFn, work: Workplace) -> None:
@@ -262,8 +262,6 @@ def damage_one(draw: st.DrawFn, work: Workplace) -> None:
     with contextlib.suppress(OSError, ValueError, RecursionError):  # earlier damage has left another kind of file
         path.parent.mkdir(parents=True, exist_ok=True)
         damage_place(draw, path, work)
-        if path.name == "planned.json" and path.is_file() and not path.is_symlink() and draw(st.booleans()):
-            crashes.bind(path)
 
 
 def damage_place(draw: st.DrawFn, path: Path, work: Workplace) -> None:
@@ -281,7 +279,7 @@ def damage_place(draw: st.DrawFn, path: Path, work: Workplace) -> None:
         case "values" if path.suffix == ".state" and content:
             path.write_text(draw(with_other_facts(content.decode())))
         case "values" if path.suffix == ".json":
-            document = json.loads(content or PLANNED)
+            document = json.loads(content or "{}")
             for _ in range(draw(st.sampled_from((1, 1, 3)))):
                 change_value(draw, document)
             path.write_text(json.dumps(document), errors="replace")
@@ -297,7 +295,7 @@ def damage_place(draw: st.DrawFn, path: Path, work: Workplace) -> None:
         case "folder":
             path.mkdir()
             if draw(st.booleans()):
-                (path / draw(st.sampled_from(("x", "bot.state", "planned.json")))).write_text("precious")
+                (path / draw(st.sampled_from(("x", "bot.state")))).write_text("precious")
         case "link":
             places = [work.outside / name for name in ("victim.mo", "folder", "", "new")]
             path.symlink_to(draw(st.sampled_from([*places, path, *map(Path, ("/dev/zero", "/dev/tty", "/"))])))
@@ -376,8 +374,6 @@ def projects(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Path]:
 def test_a_hostile_state(projects: Mapping[str, Path], tmp_path: Path, data: st.DataObject) -> None:
     work, draw = Workplace(tmp_path), cast(st.DrawFn, data.draw)
     work.fill(projects[draw(st.sampled_from(sorted(projects)))])
-    if (planned := work.project / ".urdfsync/planned.json").is_file() and not seldom(draw):
-        crashes.bind(planned)
     for _ in range(draw(st.sampled_from((1, 1, 2, 4)))):
         damage_one(draw, work)
     for command in draw(st.lists(COMMANDS, min_size=1, max_size=2)):

@@ -21,7 +21,7 @@ from support import crashes
 from support.crashes import Operation, contents, run
 
 from urdfsync.engine.result import Result
-from urdfsync.state.transaction import is_interrupted
+from urdfsync.state.transaction import find_leftovers
 
 KILLS = int(os.environ.get("URDFSYNC_KILLS", "20"))
 SEED = secrets.randbelow(10**9) if "URDFSYNC_KILLS" in os.environ else 20
@@ -82,7 +82,8 @@ def test_a_build_that_is_killed_at_any_time_is_finished(tmp_path: Path, capsys: 
     for number in range(KILLS):
         if number % SAME == 0:
             shutil.rmtree(tmp_path / "original", ignore_errors=True)
-            crashes.edited_at_random(tmp_path / "original", random)
+            make = crashes.moved_at_random if number % (2 * SAME) else crashes.edited_at_random
+            make(tmp_path / "original", random)
             twin = crashes.copy(tmp_path / "original", tmp_path / "twin")
             wanted = conflicts(run(twin)), contents(twin)
             seconds = duration(crashes.copy(tmp_path / "original", tmp_path / "work"))
@@ -90,7 +91,7 @@ def test_a_build_that_is_killed_at_any_time_is_finished(tmp_path: Path, capsys: 
         for _ in range(random.choice((1, 1, 1, 2))):  # a build that finishes another one may be killed, too
             kill(project, seconds, random)
             tally["kills"] += 1
-            tally["halfway"] += is_interrupted(project / ".urdfsync")
+            tally["halfway"] += bool(find_leftovers(path for path in project.rglob("*") if path.is_dir()))
         assert (conflicts(run(project)), contents(project)) == wanted, (SEED, number)
         tally["with conflicts"] += bool(wanted[0])
     with capsys.disabled():

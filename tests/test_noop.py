@@ -207,7 +207,6 @@ EDITS: dict[str, Edit] = {
     "a folder that is a class": _edit("modelica/Lab/Arm/Links/Base/package.mo", "absent"),
     "another stray state": _edit(".urdfsync/robots/other.state"),
     "bases that are lost": lambda folder: shutil.rmtree(folder / ".urdfsync/bases/leg"),
-    "an interrupted build": _edit(".urdfsync/planned.json"),
     "a file that may not be read": lambda folder: (folder / URDF).chmod(0),
     "a linked folder": _link_package,
     "a search path that comes": _edit("later/src/leg_meshes/package.xml"),
@@ -406,7 +405,7 @@ PATHS = (
     *(URDF, LEG, "urdfsync.toml", "robots/leg_meshes/base.stl", "robots/arm_meshes/base.stl", "own/link.mo.jinja"),
     *("modelica/Leg/package.order", "modelica/Leg/Links/Tip/package.mo", "modelica/Lab/package.mo"),
     *(".urdfsync/robots/leg.state", ".urdfsync/notes/leg.json"),
-    *("ros/a/package.xml", "ros/group/arm_meshes/package.xml", ".urdfsync/planned.json"),
+    *("ros/a/package.xml", "ros/group/arm_meshes/package.xml"),
 )
 CHANGES = st.tuples(
     st.sampled_from(PATHS),

@@ -13,9 +13,9 @@ IGNORABLE = frozenset(
     "as-recorded broken-state byte-order-mark compiler-warning connector-changed does-not-compile dotted-modifier "
     "empty-cell equal-connections fmu-differs fmu-not-simulated fmu-not-valid kept-save other-part "
     "left-behind limit-passed nested-redeclare no-joints no-package-path no-plot no-users-path no-uses no-variable "
-    "not-checked order-lacks order-twice out-of-step overshoot put-aside recovered rename-done "
+    "not-checked order-lacks order-twice out-of-step overshoot put-aside rename-done "
     "renamed-robot repeated same-but-for-case stray-state stray-template terminated too-long too-many-folders "
-    "units unknown-build unused unused-argument unresolved wrong-kind wrong-within xacro-said".split()
+    "units unused unused-argument unresolved wrong-kind wrong-within xacro-said".split()
 )
 """Codes of warnings and notes that a configuration may ignore, beside the codes of the robot's domain."""
 OF_SOURCES = frozenset("empty-cell units unused unused-argument xacro-said".split())

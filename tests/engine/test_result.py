@@ -57,7 +57,7 @@ def result(*reasons: Reason, **fields: Any) -> Result:
         (result(Reason.UNCHANGED, checked=Checked.INCOMPLETE), "in step, 1 file; checked in part"),
         (result(checked=Checked.WRONG, diagnostics=(FAULT, HINT, FAULT)), "in step, 0 files; checked: 2 errors"),
         (result(failed=True, diagnostics=(HINT, FAULT)), "1 error, nothing was changed"),
-        (result(failed=True, unfinished=True, diagnostics=(FAULT,)), "1 error, the next build finishes the changes"),
+        (result(failed=True, unfinished=True, diagnostics=(FAULT,)), "1 error, the next build writes the rest"),
     ],
 )
 def test_what_happened_is_said_in_a_line(build: Result, summary: str) -> None:

@@ -26,10 +26,10 @@ from support.networks import LADDER, configure, edit
 from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.files import TEMPORARY
+from urdfsync.files import TEMPORARY, shown
 from urdfsync.modelica.stamp import with_stamp
 from urdfsync.state import file_operations
-from urdfsync.state.transaction import is_interrupted
+from urdfsync.state.transaction import find_leftovers
 
 RECORD = f"{LADDER}/Elements/C2Parameters.mo"
 REMOVED = f"{LADDER}/Elements/R2.mo"
@@ -98,10 +98,28 @@ def edited(tmp_path: Path) -> Path:
     return tmp_path / "edited"
 
 
-@pytest.fixture(params=["changed", "project", "moved", "renamed", "edited"])
+@pytest.fixture
+def exchanged(tmp_path: Path) -> Path:
+    """A robot whose source has exchanged the names of two edited links, and changed a number."""
+    project = tmp_path / "exchanged"
+    project.mkdir()
+    (project / "urdfsync.toml").write_text(f'{crashes.CONFIGURATION}on_conflict = "merge"\n')
+    crashes.export_chain(project, ["a1", "a2", "a3"])
+    run(project)
+    for name in ("A1", "A2"):
+        edit(project / f"modelica/Bot/Links/{name}.mo", "equation", f"  Real mine{name} = 1;\nequation")
+    crashes.export_chain(project, ["a2", "a1", "a3"], 0.5)
+    return project
+
+
+@pytest.fixture(params=["changed", "project", "moved", "renamed", "edited", "exchanged"])
 def scenario(request: pytest.FixtureRequest) -> Path:
     path: Path = request.getfixturevalue(request.param)
     return path
+
+
+def leftovers(project: Path) -> list[str]:
+    return find_leftovers(path for path in (project, *project.rglob("*")) if path.is_dir())
 
 
 def without_former(files: Mapping[str, bytes | None]) -> Mapping[str, bytes | None]:
@@ -133,14 +151,15 @@ def every(project: Path, work: Path, names: Sequence[str]) -> Iterator[tuple[Ope
 # Kills
 
 
-ALWAYS = ("exchange", "replace", "write", "write_local", "remove", "sync")
+ALWAYS = ("exchange", "write", "remove", "remove_folder", "sync")
 """Operations of every build that writes."""
 IN_SCENARIO = {
-    "changed": (*ALWAYS, "place"),
-    "project": ("place", "replace", "write", "write_local", "make_folder", "remove", "sync"),
+    "changed": (*ALWAYS, "place", "replace"),
+    "project": ("place", "write", "make_folder", "sync"),
     "moved": crashes.NAMES,
-    "renamed": (*ALWAYS, "place", "make_folder"),
+    "renamed": (*ALWAYS, "place", "make_folder", "replace"),
     "edited": (*ALWAYS, "place", "make_folder"),
+    "exchanged": (*ALWAYS, "place", "make_folder"),
 }
 
 
@@ -157,11 +176,8 @@ def test_a_killed_build_is_finished_by_the_next(scenario: Path, tmp_path: Path, 
     assert_finished(scenario, tmp_path, names)
 
 
-@pytest.mark.parametrize("name", ["write", "write_local"])
-def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(
-    changed: Path, tmp_path: Path, name: str
-) -> None:
-    assert_finished(changed, tmp_path, [name], half=True)
+def test_a_build_killed_in_the_middle_of_a_file_is_finished_by_the_next(changed: Path, tmp_path: Path) -> None:
+    assert_finished(changed, tmp_path, ["write"], half=True)
 
 
 @pytest.mark.parametrize("missing", ["links", "renames"])
@@ -181,11 +197,11 @@ def crashed(changed: Path, tmp_path: Path) -> Path:
     swaps = operations(crashes.copy(changed, tmp_path / "work"), ["exchange"])
     crashed = crashes.copy(changed, tmp_path / "crashed")  # whose build has the same operations
     kill(crashed, swaps[len(swaps) // 2].number)
-    assert is_interrupted(crashed / ".urdfsync")
+    assert leftovers(crashed)
     return crashed
 
 
-def test_a_recovery_may_be_killed_too(crashed: Path, tmp_path: Path) -> None:
+def test_the_build_after_a_killed_one_may_be_killed_too(crashed: Path, tmp_path: Path) -> None:
     wanted = expected(crashed, tmp_path / "clean")
     for operation, project in every(crashed, tmp_path / "work", ["exchange", "replace", "remove", "sync"]):
         kill(project, operation.number)
@@ -249,14 +265,13 @@ def test_a_system_that_refuses_leaves_all_as_it_was(
             continue
         assert result.failed, operation
         assert any(os.strerror(number) in found.message for found in result.diagnostics)
-        assert result.unfinished or contents(project) == before, operation
-        assert lasting or not result.unfinished or is_interrupted(project / ".urdfsync"), operation
+        assert result.unfinished or lasting or contents(project) == before, operation
         tally[f"{errno.errorcode[number]}"] += 1
         assert build_twice(project) == wanted, operation
 
 
-def test_an_interrupt_leaves_all_as_it_was(changed: Path, tmp_path: Path) -> None:
-    before, wanted = contents(changed), expected(changed, tmp_path / "clean")
+def test_a_build_that_is_interrupted_is_finished_by_the_next(changed: Path, tmp_path: Path) -> None:
+    wanted = expected(changed, tmp_path / "clean")
     for operation, project in every(changed, tmp_path / "work", ALWAYS):
 
         def interrupt(found: Operation, first: int = operation.number) -> None:
@@ -265,7 +280,6 @@ def test_an_interrupt_leaves_all_as_it_was(changed: Path, tmp_path: Path) -> Non
 
         with before_each(interrupt), pytest.raises(KeyboardInterrupt):
             run(project)
-        assert contents(project) in (before, wanted[1]), operation
         assert build_twice(project) == wanted, operation
 
 
@@ -350,7 +364,9 @@ def test_a_save_in_the_instant_of_a_kill_survives(scenario: Path, tmp_path: Path
             (tmp_path / "mine").unlink()
             assert not run(project).failed, operation
             if targets[0].suffix == ".order":
-                assert MINE in targets[0].read_bytes(), operation
+                assert any(MINE in path.read_bytes() for path in targets[0].parent.glob("package.order*")), operation
+            elif (kept := Path(f"{targets[0]}.saved")).exists():  # caught by the exchange before the kill
+                assert kept.read_bytes() == mine, (operation, killed_at)
             elif targets[0].exists():
                 # the save may follow the new name
                 saved, mine = (
@@ -375,8 +391,10 @@ def _passing_on(saves: Saves, place: Path) -> Callable[[Operation], None]:
 
 
 def test_what_is_written_through_an_open_handle_survives(changed: Path, tmp_path: Path) -> None:
-    """An editor may have opened the old file before it was exchanged."""
+    """An editor may have opened the old file before it was exchanged. When the record changes, the old file is gone."""
     for operation, project in every(changed, tmp_path / "work", CHANGES):
+        if any(path.suffix == ".state" for path in operation.paths):
+            continue
         with (project / RECORD).open("r+b", buffering=0) as handle:
             handle.seek(0, os.SEEK_END)
 
@@ -395,12 +413,13 @@ def test_what_is_written_through_an_open_handle_survives(changed: Path, tmp_path
 
 def test_a_file_that_is_saved_all_the_time_stops_the_build(changed: Path) -> None:
     """With other line ends each time, which are no edit."""
-    target, endings = changed / RECORD, itertools.cycle((b"\r\n", b"\n"))
+    target, numbers = changed / RECORD, itertools.count(1)
     old = target.read_bytes()
 
     def meddle(found: Operation) -> None:
         if found.name == "sync":
-            target.write_bytes(old.replace(b"\n", next(endings)))
+            number = next(numbers) % old.count(b"\n")
+            target.write_bytes(old.replace(b"\n", b"\r\n", number))
 
     with before_each(meddle):
         result = run(changed)
@@ -431,60 +450,26 @@ def test_what_an_overtaken_build_wrote_is_its_own_after_a_build_of_another_robot
     (result,) = build(loaded, loaded.robots[:1], BuildOptions())
     assert (result.failed, result.conflicts) == (False, []), "what was written then is urdfsync's own"
     assert mine.read_bytes() == MINE
-    assert not is_interrupted(changed / ".urdfsync")
 
 
 # What is found after a crash
 
 
-def test_what_was_recovered_is_said(crashed: Path) -> None:
-    codes = [(found.code, found.message) for found in run(crashed).diagnostics]
-    assert codes[0] == ("recovered", "the last build of robot `ladder` was interrupted; it is finished")
-
-
-def test_a_dry_run_says_that_a_build_was_interrupted(crashed: Path) -> None:
+def test_a_dry_run_leaves_what_a_killed_build_left(crashed: Path) -> None:
     before = contents(crashed)
-    assert [found.code for found in run(crashed, dry=True).diagnostics] == ["interrupted"]
+    result = run(crashed, dry=True)
+    assert (result.failed, result.in_step) == (False, False)
     assert contents(crashed) == before
 
 
-def test_another_robot_recovers_as_well(crashed: Path) -> None:
-    shutil.move(crashed / "ladder.json", crashed / "other.json")
-    text = (crashed / "urdfsync.toml").read_text()
-    (crashed / "urdfsync.toml").write_text(text.replace("ladder", "other").replace('"Ladder"', '"Other"'))
-    result = run(crashed)
-    assert {"recovered", "stray-state"} == {found.code for found in result.diagnostics}
-    assert "R3" in (crashed / LADDER / "Elements/package.order").read_text()
-    assert not is_interrupted(crashed / ".urdfsync")
-
-
-@pytest.mark.parametrize("change", ["copied", "touched", "cut short"])
-def test_planned_hashes_of_another_place_are_not_believed(crashed: Path, change: str) -> None:
-    file, left = crashed / ".urdfsync/planned.json", sorted((crashed / "modelica").rglob(f"*{TEMPORARY}"))
-    if change == "copied":
-        shutil.copy2(file, file.with_name("copy"))
-        file.with_name("copy").replace(file)
-    elif change == "touched":
-        os.utime(file)
-    else:
-        file.write_text("{")
-    assert "unknown-build" in [found.code for found in run(crashed).diagnostics]
-    assert sorted((crashed / "modelica").rglob(f"*{TEMPORARY}")) == left, "they may hold a save"
-    assert left
-    assert not run(crashed).failed
-
-
-@pytest.mark.parametrize("place", ["../victim.mo", "linked/victim.mo"])
-def test_planned_hashes_can_not_reach_files_outside(crashed: Path, tmp_path: Path, place: str) -> None:
-    (tmp_path / "victim.mo").write_text("precious")
-    (crashed / "linked").symlink_to(tmp_path)
-    file = crashed / ".urdfsync/planned.json"
-    edit(file, "modelica/Ladder/Elements/R3.mo", place)
-    crashes.bind(file)
-    before = contents(crashed)
-    assert run(crashed).failed
-    assert contents(crashed) == before
-    assert (tmp_path / "victim.mo").read_text() == "precious"
+def test_a_caught_save_is_kept_and_told(crashed: Path) -> None:
+    (left, *_) = [Path(path) for path in leftovers(crashed) if ".mo." in path and "-none" not in path]
+    left.write_bytes(MINE)
+    target = left.with_name(left.name[1:].partition(".mo.")[0] + ".mo")
+    edit(target, "end ", "// later\nend ")
+    assert ("kept-save", shown(target)) in [(found.code, found.file) for found in run(crashed).diagnostics]
+    assert target.with_name(f"{target.name}.saved").read_bytes() == MINE
+    assert not leftovers(crashed)
 
 
 @pytest.fixture

@@ -17,13 +17,13 @@ from support.crashes import CHANGES, Operation, before_each
 from urdfsync.diagnostics import OutputError
 from urdfsync.files import digest, shown
 from urdfsync.state import file_operations, transaction
-from urdfsync.state.transaction import FileChange, Transactions, UnfinishedError, Writes, is_interrupted, save
+from urdfsync.state.transaction import UNFINISHED, FileChange, Transactions, Writes, find_leftovers, save
 
 
 @pytest.fixture
 def transactions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Transactions:
     monkeypatch.chdir(tmp_path)
-    return Transactions(tmp_path, tmp_path / "state")
+    return Transactions(tmp_path)
 
 
 @pytest.fixture
@@ -46,18 +46,16 @@ def writes(changes: Sequence[FileChange]) -> Writes:
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """All files and empty folders, but for planned hashes."""
+    """All files and empty folders."""
     found = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*")}
     return {
         name: b"" if path.is_dir() else path.read_bytes()
         for name, path in found.items()
-        if path.name != "planned.json" and (path.is_file() or not any(path.iterdir()))
+        if path.is_file() or not any(path.iterdir())
     }
 
 
 DONE = {"renewed.mo": b"new", "b/c/made.mo": b"made", "state/robots/arm.json": b"record"}
-OVERTAKEN = {"renewed.mo": b"new", "b/c/made.mo": b"made", "state/robots": b""}
-"""After a save in between, nothing is recorded."""
 
 
 @pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="only root may give files to any group")
@@ -67,12 +65,12 @@ def test_a_file_gets_the_group_of_its_folder(
     for folder in (tmp_path, tmp_path / "a"):
         os.chown(folder, -1, 4321)
         folder.chmod(0o2775)
-    transactions.apply("arm", writes(changes))
+    transactions.apply(writes(changes))
     assert {(tmp_path / name).stat().st_gid for name in DONE} == {4321}
 
 
 @pytest.mark.parametrize(("number", "is_folder"), [*((number, False) for number in range(4)), (0, True)])
-def test_what_is_not_as_planned_stays(
+def test_what_is_not_as_planned_stays_and_nothing_follows(
     tmp_path: Path, transactions: Transactions, changes: list[FileChange], number: int, is_folder: bool
 ) -> None:
     mine = changes[number].path
@@ -82,24 +80,105 @@ def test_what_is_not_as_planned_stays(
         mine.mkdir()
     else:
         mine.write_bytes(b"mine")
-    applied = transactions.apply("arm", writes(changes), [tmp_path / "a"])
-    assert applied.not_done == tuple(dict.fromkeys([mine, changes[3].path]))
-    after = DONE if number == 3 else OVERTAKEN
-    assert contents(tmp_path) == {**after, mine.relative_to(tmp_path).as_posix(): b"" if is_folder else b"mine"}
+    before = contents(tmp_path)
+    assert transactions.apply(writes(changes), [tmp_path / "a"]).overtaken == mine
+    done = {name: DONE[name] for name in [*DONE][: {0: 0, 2: 1, 1: 2, 3: 2}[number]]}
+    kept = {name: content for name, content in before.items() if number != 3 or name != "a/deleted.mo"}
+    assert contents(tmp_path) == {**kept, **done}
 
 
-@pytest.mark.parametrize("number", [0, 2], ids=["a file is there", "a free name"])
-def test_a_moved_text_that_finds_its_place_taken_is_kept(
-    tmp_path: Path, transactions: Transactions, changes: list[FileChange], number: int
+@pytest.fixture
+def texts(tmp_path: Path) -> dict[str, str]:
+    """Three edited files, and the hash of each."""
+    for name in ("a", "b", "c"):
+        (tmp_path / f"{name}.mo").write_text(f"edited {name}")
+    return {name: digest(f"edited {name}".encode()) for name in ("a", "b", "c")}
+
+
+MOVES = {
+    "free": {"d": "a"},
+    "exchange": {"a": "b", "b": "a"},
+    "cycle": {"a": "b", "b": "c", "c": "a"},
+    "shift": {"b": "a", "c": "b", "d": "c"},
+}
+"""The former name of each moved file by its new one."""
+
+
+def moved(folder: Path, texts: dict[str, str], origins: dict[str, str]) -> Writes:
+    """The changes of files that move, and the deletions of old places."""
+    place = {name: folder / f"{name}.mo" for name in "abcd"}
+    made = [FileChange(place[new], f"moved {old}".encode(), texts.get(new), place[old]) for new, old in origins.items()]
+    gone = [FileChange(place[old], None, texts[old]) for old in {*origins.values()} - origins.keys()]
+    return Writes(files=(*made, *gone))
+
+
+@pytest.mark.parametrize("can_exchange", [True, False])
+@pytest.mark.parametrize("origins", MOVES.values(), ids=MOVES)
+def test_an_edited_file_that_moves_is_in_a_visible_place_at_each_moment(
+    tmp_path: Path,
+    transactions: Transactions,
+    texts: dict[str, str],
+    origins: dict[str, str],
+    can_exchange: bool,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    changes[number] = msgspec.structs.replace(changes[number], content=b"moved", is_moved=True)
-    place = changes[number].path
-    place.parent.mkdir(parents=True, exist_ok=True)
-    place.write_bytes(b"mine")
-    (said,) = transactions.apply("arm", writes(changes)).diagnostics
-    assert (place.read_bytes(), place.with_name(f"{place.name}.saved").read_bytes()) == (b"mine", b"moved")
-    assert said.code == "kept-save"
-    assert f"{place.name}.saved" in said.message
+    if not can_exchange:
+        monkeypatch.setattr(file_operations, "rename", lambda path, target, flag: False)
+
+    def look(operation: Operation) -> None:
+        if operation.name in CHANGES and can_exchange:
+            found = sorted(path.read_text().rpartition(" ")[2] for path in tmp_path.glob("?.mo"))
+            assert found == ["a", "b", "c"]
+
+    with before_each(look):
+        assert transactions.apply(moved(tmp_path, texts, origins)).overtaken is None
+    stayed = {name: f"edited {name}" for name in texts.keys() - origins.keys() - {*origins.values()}}
+    after = {f"{name}.mo": text for name, text in {**stayed, **{n: f"moved {o}" for n, o in origins.items()}}.items()}
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == after
+
+
+@pytest.mark.parametrize("saved", ["a", "d"])
+def test_a_save_at_either_end_of_a_move_stops_it(
+    tmp_path: Path, transactions: Transactions, texts: dict[str, str], saved: str
+) -> None:
+    once = iter([b"mine"])
+
+    def save(operation: Operation) -> None:
+        if operation.name == "place" and (content := next(once, None)):
+            (tmp_path / f"{saved}.mo").write_bytes(content)
+
+    with before_each(save):
+        assert transactions.apply(moved(tmp_path, texts, MOVES["free"])).overtaken == tmp_path / "d.mo"
+    wanted = {"a": "edited a", "b": "edited b", "c": "edited c", saved: "mine"}
+    assert {path.stem: path.read_text() for path in tmp_path.iterdir()} == wanted
+
+
+LEFT = {
+    "half a new file": ("X.mo.{old}-{new}", "ne", "old", ""),
+    "half a first file": ("X.mo.none-{new}", "ne", None, ""),
+    "a new file": ("X.mo.{old}-{new}", "new", "old", ""),
+    "the old file": ("X.mo.{old}-{new}", "old", "new", ""),
+    "a deleted file": ("X.mo.{old}-none", "old", None, ""),
+    "the old file, and a later save": ("X.mo.{old}-{new}", "old", "saved", ""),
+    "a caught save": ("X.mo.{old}-{new}", "saved", "new", "X.mo.saved"),
+    "a save of a deleted file": ("X.mo.{old}-none", "saved", None, "X.mo.saved"),
+    "one of three renames": ("X.mo.{old}-{new}", "old", None, "X.mo"),
+    "two of three renames of a move": ("X.mo.{old}-moves", "old", "new", "X.mo.saved"),
+}
+
+
+@pytest.mark.parametrize(("name", "content", "present", "kept"), LEFT.values(), ids=LEFT)
+def test_a_temporary_name_says_what_becomes_of_the_file(
+    tmp_path: Path, transactions: Transactions, name: str, content: str, present: str | None, kept: str
+) -> None:
+    old, new = digest(b"old")[:12], digest(b"new")[:12]
+    (tmp_path / f".{name.format(old=old, new=new)}.abcdef.urdfsync-tmp").write_text(content)
+    if present:
+        (tmp_path / "X.mo").write_text(present)
+    said = transactions.clear(find_leftovers([tmp_path]))
+    wanted = ({"X.mo": present} if present else {}) | ({kept: content} if kept else {})
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == wanted
+    assert [found.code for found in said] == ["kept-save"] * kept.endswith(".saved")
 
 
 @pytest.mark.parametrize("place", ["../victim.mo", "linked/victim.mo"])
@@ -108,15 +187,15 @@ def test_nothing_is_written_outside(tmp_path: Path, changes: list[FileChange], p
     (root / "linked").symlink_to(tmp_path)
     before = contents(tmp_path)
     with pytest.raises(OutputError):
-        Transactions(root, root / "state").apply("arm", writes([FileChange(root / place, b"", None)]))
+        Transactions(root).apply(writes([FileChange(root / place, b"", None)]))
     assert contents(tmp_path) == before
 
 
 def test_a_power_failure_at_any_moment_loses_nothing(
     tmp_path: Path, transactions: Transactions, changes: list[FileChange], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What takes a place is on the disk, the planned hashes are before anything changes, and all is in the end."""
-    state, at_risk = tmp_path / "state", set[Path]()
+    """What takes a place is on the disk, bases are before files change, files before the record, and all in the end."""
+    at_risk = set[Path]()
 
     def before(name: str, then: Callable[..., None]) -> None:
         real = getattr(file_operations, name)
@@ -130,16 +209,17 @@ def test_a_power_failure_at_any_moment_loses_nothing(
     def take_place(path: str, target: str) -> None:
         folder = Path(target).parent
         assert Path(path) not in at_risk
-        assert folder == state or state not in at_risk
-        assert Path(path).name != "deleted.mo" or (tmp_path / "b/c/made.mo").exists(), "deletions come last"
+        assert folder == tmp_path / "bases" or tmp_path / "bases" not in at_risk
+        assert folder != tmp_path / "state/robots" or not at_risk
+        assert Path(path).name != "deleted.mo" or (tmp_path / "b/c/made.mo").exists(), "deletions come late"
         at_risk.add(folder)
 
-    for name in ("write", "write_local"):
-        before(name, lambda path, *_: at_risk.add(Path(path)))
+    before("write", lambda path, *_: at_risk.add(Path(path)))
     for name in ("exchange", "place", "replace"):
         before(name, take_place)
     before("sync", lambda paths: at_risk.difference_update(map(Path, paths)))
-    transactions.apply("arm", writes(changes))
+    base = FileChange(tmp_path / "bases/a", b"base", None)
+    transactions.apply(msgspec.structs.replace(writes(changes), before=(base,)))
     assert at_risk == set()
 
 
@@ -156,15 +236,6 @@ def test_a_file_of_the_users_is_saved_to_the_disk_before_it_takes_its_place(
     assert (tmp_path / "a.mo").read_text() == "new"
 
 
-@pytest.mark.parametrize("name", [transaction.PLANNED, transaction.DRAFT])
-def test_planned_hashes_are_no_link(tmp_path: Path, transactions: Transactions, name: str) -> None:
-    (tmp_path / "state").mkdir()
-    (tmp_path / "state" / name).symlink_to(tmp_path / "nothing")
-    assert transactions.is_pending()
-    with pytest.raises(OutputError, match="symbolic link"):
-        transactions.recover()
-
-
 def test_what_cant_be_written_leaves_no_trace(
     tmp_path: Path, transactions: Transactions, changes: list[FileChange], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -173,11 +244,11 @@ def test_what_cant_be_written_leaves_no_trace(
     full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     monkeypatch.setattr(file_operations, "write", mock.Mock(side_effect=full))
     with pytest.raises(OutputError, match="No space left"):
-        transactions.apply("arm", writes(changes))
+        transactions.apply(writes(changes))
     assert contents(tmp_path) == before
 
 
-def test_what_cant_be_finished_is_finished_later(
+def test_an_error_in_between_tells_how_many_files_are_written(
     tmp_path: Path, transactions: Transactions, changes: list[FileChange], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     real = file_operations.place
@@ -188,26 +259,16 @@ def test_what_cant_be_finished_is_finished_later(
         real(path, target)
 
     monkeypatch.setattr(file_operations, "place", fail)
-    for attempt in (lambda: transactions.apply("arm", writes(changes), [tmp_path / "a"]), transactions.recover):
-        with pytest.raises(UnfinishedError) as caught:
-            attempt()
-        assert [(found.file, found.code) for found in caught.value.diagnostics] == [("b/c/made.mo", "unfinished")]
-        assert is_interrupted(tmp_path / "state")
+    with pytest.raises(OutputError) as caught:
+        transactions.apply(writes(changes), [tmp_path / "a"])
+    assert [(found.file, found.code, found.message) for found in caught.value.diagnostics] == [
+        ("b/c/made.mo", UNFINISHED, "1 of 4 files are written, then: Permission denied")
+    ]
+    assert contents(tmp_path) == {"renewed.mo": b"new", "a/deleted.mo": b"a/deleted.mo"}
     monkeypatch.undo()
-    (note,) = transactions.recover()
-    assert note.message == "the last build of robot `arm` was interrupted; it is finished"
+    monkeypatch.chdir(tmp_path)
+    transactions.apply(writes(changes[1:]), [tmp_path / "a"])
     assert contents(tmp_path) == DONE
-    assert transactions.recover() == ()
-
-
-def test_planned_hashes_that_were_cut_short_before_anything_changed_leave_no_trace(
-    tmp_path: Path, transactions: Transactions
-) -> None:
-    (tmp_path / "state").mkdir()
-    (tmp_path / "state" / transaction.DRAFT).write_bytes(b'{"robot": "cut sh')
-    assert transactions.is_pending()
-    assert transactions.recover() == ()
-    assert not transactions.is_pending()
 
 
 @pytest.mark.parametrize("can_exchange", [True, False])
@@ -279,7 +340,7 @@ def test_bases_are_there_first_and_go_last_and_the_record_comes_after_all(
             order.extend(path for path in operation.paths if path in paths)
 
     with before_each(note):
-        transactions.apply("arm", Writes((old_base, base), (old_file, file), (record,)))
+        transactions.apply(Writes((old_base, base), (old_file, file), (record,)))
     assert order == paths
 
 
@@ -294,8 +355,8 @@ def test_what_is_written_through_an_open_handle_takes_its_place_again(
                 handle.write(b"mine")
 
         with before_each(write):
-            applied = transactions.apply("arm", writes(changes))
-    assert applied.not_done == (changes[0].path, changes[3].path)
+            applied = transactions.apply(writes(changes))
+    assert applied.overtaken == changes[0].path
     assert changes[0].path.read_bytes().startswith(b"mine")
 
 
@@ -310,14 +371,6 @@ def test_of_saves_between_look_and_change_the_last_counts(
             path.write_bytes(text)
 
     with before_each(save):
-        applied = transactions.apply("arm", writes(changes))
-    assert applied.not_done == (path, changes[3].path)
+        applied = transactions.apply(writes(changes))
+    assert applied.overtaken == path
     assert path.read_bytes() == (b"first" if number else b"second"), "a deletion is not tried again"
-
-
-def test_an_overtaken_build_leaves_no_planned_hashes(
-    tmp_path: Path, transactions: Transactions, changes: list[FileChange]
-) -> None:
-    changes[0].path.write_bytes(b"mine")
-    assert transactions.apply("arm", writes(changes)).not_done
-    assert not is_interrupted(tmp_path / "state")

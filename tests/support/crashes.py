@@ -19,16 +19,14 @@ from support import edits
 from support.choices import options
 from support.urdfs import joint, limit, link, robot
 from urdfsync import config
-from urdfsync.dependencies import localfile
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result
 from urdfsync.state import file_operations
 from urdfsync.state.store import Store
 
 CHANGES = ("exchange", "place", "replace")
-"""Operations on targets, and on the planned hashes."""
-NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "write_local", "remove", "sync")
-WRITES = ("write", "write_local")
+"""Operations on targets."""
+NAMES = (*CHANGES, "make_folder", "remove_folder", "write", "remove", "sync")
 CONFIGURATION = '[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\n'
 ALL = "URDFSYNC_CRASHES"
 """Environment variable that chooses all operations, whatever its value."""
@@ -112,7 +110,7 @@ def kill(project: Path, number: int, half: bool = False, earlier: Hook = lambda 
     def hook(operation: Operation) -> None:
         earlier(operation)
         if operation.number == number:
-            if half and operation.name in WRITES:
+            if half and operation.name == "write":
                 with operation.paths[0].open("ab") as file:  # only `append` finds a file
                     file.write(b'{"robot": "cut sh')
             os.kill(os.getpid(), signal.SIGKILL)
@@ -151,6 +149,44 @@ def edited_at_random(project: Path, random: Random) -> None:
     _export(project, random.random(), random.sample(["b1", "b2", "b3", "b4", "b5"], random.randint(1, 3)))
 
 
+def moved_at_random(project: Path, random: Random) -> None:
+    """Make a project with a built robot and edits, of which an export then renames, exchanges or shifts the names.
+
+    Sometimes its package has another name, too, and merges are allowed.
+    """
+    project.mkdir(parents=True)
+    merges = 'on_conflict = "merge"\n' if random.random() < 0.6 else ""
+    (project / "urdfsync.toml").write_text(CONFIGURATION + merges)
+    names = ["a1", "a2", "a3", "a4"]
+    export_chain(project, names)
+    run(project)
+    hand = edits.Hand(random)
+    for _ in range(random.randint(1, 6)):
+        hand.edit(project / "modelica/Bot")
+    if random.random() < 0.5:
+        run(project)
+    new = random.choice(
+        (random.sample(names, 4), ["a2", "a1", "a3", "a4"], ["a2", "a3", "a4", "a5"], ["a1", "b", *names[2:]])
+    )
+    export_chain(project, new, random.choice((0, random.random())))
+    if random.random() < 0.3:
+        (project / "urdfsync.toml").write_text(
+            CONFIGURATION.replace('"Bot"', '"Plant.Bat"') + merges + "create_parents = true\n"
+        )
+
+
+def export_chain(project: Path, names: Sequence[str], mass: float = 0) -> None:
+    """A chain of links without two alike joints: the last link has so much more mass."""
+    masses = [1.0 + 0.7 * number for number in range(len(names) + 1)]
+    elements = [link(*one) for one in zip(["base", *names], [*masses[:-1], masses[-1] + mass], strict=True)]
+    axes, ends = ("1 0 0", "0 1 0", "0 0 1", "0 0.6 0.8"), itertools.pairwise(["base", *names])
+    elements += [
+        joint(f"j{number}", "revolute", *pair, axis=axes[number % 4], inside=[limit()])
+        for number, pair in enumerate(ends)
+    ]
+    (project / "bot.urdf").write_text(robot(*elements))
+
+
 def _export(project: Path, mass: float, renamed: Sequence[str]) -> None:
     """A chain of links, some with another name and a new sibling."""
     names = ["base", *(f"{name}x" if name in renamed else name for name in ("b1", "b2", "b3", "b4", "b5"))]
@@ -167,17 +203,7 @@ def copy(project: Path, to: Path) -> Path:
     if to.exists():
         shutil.rmtree(to)
     shutil.copytree(project, to)
-    for place in ("planned.json", ".planned.json.urdfsync-tmp"):
-        if (to / ".urdfsync" / place).is_file():
-            bind(to / ".urdfsync" / place)
     return to
-
-
-def bind(file: Path) -> None:
-    """Make copied planned hashes count as written in their present place."""
-    content = file.read_bytes().partition(b"\n")[2]
-    file.unlink()
-    localfile.write(file, content)
 
 
 def contents(project: Path) -> Mapping[str, bytes | None]:

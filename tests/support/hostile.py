@@ -112,14 +112,13 @@ class Stranger:
         self.write("evil-1.0.dist-info/entry_points.txt", "[urdfsync.domains]\nevil = selectors:DOMAIN\n")
         self.write("evil.pth", f"import os; os.mkdir({str(self.outside / 'pth')!r})\n")
 
-    def planned(self, path: str) -> None:
-        """Planned hashes of a build that has stopped before it changed a file, with the new content beside the file."""
-        old = _digest((self.project / path).read_bytes()) if (self.project / path).exists() else None
-        files = [{"path": path, "old": old, "new": _digest(b"evil")}]
-        values = {"robot": "arm", "token": "12", "files": files, "emptied": ["modelica/Other"]}
-        self.write(".urdfsync/planned.json", json.dumps({**values, "inode": 1, "written": 1}))
-        if not path.startswith(("..", ".git/")):
-            self.write(f"{Path(path).parent}/.12-0.urdfsync-tmp", b"evil")
+    def leftover(self, path: str) -> None:
+        """A temporary file of a build that was killed just before, or just after, it changed a file."""
+        old = _digest((self.project / path).read_bytes())[:12] if (self.project / path).exists() else "none"
+        folder, name, new = str(Path(path).parent), Path(path).name, _digest(b"evil")[:12]
+        self.write(f"{folder}/.{name}.{old}-{new}.abcdef.urdfsync-tmp", b"evil")
+        self.write(f"{folder}/.{name}.{new}-{old}.abcdef.urdfsync-tmp", b"evil")
+        self.write(f"{folder}/.{name}.{new}-none.abcdef.urdfsync-tmp~", b"more evil")
 
     def manifest_file(self, path: str) -> None:
         """Record a file with its hash as a generated file, although no build generates it."""
@@ -225,10 +224,8 @@ COMMITTED: Mapping[str, Attack] = {
         "<% macro m() %><< m() >><% endmacro %><< m() >>", "link/model.mo.jinja"
     ),
     "a template that is a link": lambda one: one.link(one.template("", "robot/model.mo.jinja"), "victim.mo"),
-    "planned hashes of git's hooks": lambda one: one.planned(".git/hooks/pre-commit"),
-    "planned hashes of a file outside": lambda one: one.planned(one.out("victim.mo")),
-    "planned hashes of the user's file": lambda one: one.planned(MINE),
-    "deep planned hashes": lambda one: one.write(".urdfsync/planned.json", '{"files":' + "[" * 200_000),
+    "leftovers of the user's file": lambda one: one.leftover(MINE),
+    "leftovers of a record": lambda one: one.leftover(MANIFEST),
     "a manifest with a file outside": lambda one: one.manifest_file(one.out("victim.mo")),
     "a manifest with the user's file": lambda one: one.manifest_file(MINE),
     "a manifest with the configuration": lambda one: one.manifest_file("urdfsync.toml"),
@@ -237,9 +234,8 @@ COMMITTED: Mapping[str, Attack] = {
     "state that is a link": lambda one: one.link(".urdfsync", "state"),
     "manifests that are a link": lambda one: one.link(".urdfsync/robots", "state"),
     "a manifest that is a link": lambda one: one.link(MANIFEST, "victim.mo"),
-    "planned hashes that are a link": lambda one: one.link(".urdfsync/planned.json", "victim.mo"),
-    "temporary planned hashes that are a link": lambda one: one.link(
-        ".urdfsync/.planned.json.urdfsync-tmp", "victim.mo"
+    "a leftover that is a link": lambda one: one.link(
+        f".urdfsync/.lock.{'0' * 12}-{'0' * 12}.abcdef.urdfsync-tmp", "victim.mo"
     ),
     "bases that are a link": lambda one: one.link(".urdfsync/bases/arm", "folder"),
     "a record that is a link": lambda one: one.link(".urdfsync/deps/arm.robot", "victim.mo"),

@@ -7,7 +7,9 @@ until all robots are built.
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import msgspec
@@ -22,7 +24,6 @@ from urdfsync.diagnostics import (
     OutputError,
     Severity,
     SourceError,
-    StateError,
     UrdfsyncError,
     findings_of,
 )
@@ -38,7 +39,7 @@ from urdfsync.processes import machine
 from urdfsync.state import notes
 from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
-from urdfsync.state.transaction import Transactions, UnfinishedError, is_interrupted
+from urdfsync.state.transaction import UNFINISHED, Transactions, find_leftovers
 
 if TYPE_CHECKING:
     from urdfsync.engine.pool import Planned
@@ -108,16 +109,13 @@ class _Builder:
         self.plans: Generator[tuple[RobotConfig, Planned]] | None = None
         """The plans of the robots that are not remembered, if there are many."""
         self._state_folder = config.root / STATE_FOLDER
-        outputs = {robot.output for robot in config.robots}
-        self._transactions = Transactions(config.root, self._state_folder, outputs)
+        self._transactions = Transactions(config.root, {robot.output for robot in config.robots})
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
     def recall(self, robots: Iterable[RobotConfig]) -> dict[str, _Built]:
         """Return what is remembered, by name of robot; robots whose package leaves something to do have none."""
         known = dict[str, _Built]()
-        if self._transactions.is_pending():
-            return known
         for robot in robots:
             if not robot.output.is_relative_to(self._config.root):
                 continue  # it matters who trusts the folder
@@ -136,20 +134,21 @@ class _Builder:
             warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
             return self._plan_and_write(robot)._replace(warnings=warnings)
         except Exception as error:  # noqa: BLE001 - other robots go on: each build reads all from the disk
+            findings = findings_of(error)
             failure = {
                 "failed": True,
                 "locked": isinstance(error, LockedError),
-                "unfinished": isinstance(error, UnfinishedError),
+                "unfinished": any(finding.code == UNFINISHED for finding in findings),
                 "source_error": error if isinstance(error, SourceError) else None,
             }
-            return _Built(Outlook(diagnostics=findings_of(error)), self._reads.entries, failure=failure)
+            return _Built(Outlook(diagnostics=findings), self._reads.entries, failure=failure)
 
     def _plan_and_write(self, robot: RobotConfig) -> _Built:
         """Plan, and write unless the run is dry. Repeat if another build or a save made the plan outdated."""
-        saved = robot.folder
+        saved, folders = robot.folder, self._folders(robot)
         for attempt in range(_ATTEMPTS):
             with Reads() as self._reads:
-                self._recover()
+                leftovers = self._clear_leftovers(folders)
                 if self.plans and not attempt:
                     planned, others = next(planned for other, planned in self.plans if other is robot)
                     include(others)
@@ -160,23 +159,23 @@ class _Builder:
                     plan = plan_robot(self._config, robot, self._options, self._reads)
             if not self._options.removes and (refused := _refuse(robot, plan.outlook)) is not None:
                 return _Built(refused, self._reads.entries, failure={"failed": True})
-            if self._options.dry:
-                if self._is_current(plan):
-                    return self._finish(robot, plan, {})
-                continue
-            if not (plan.outlook.writes or plan.writes or self._transactions.is_pending()):
+            folders |= {*plan.emptied, *(change.path.parent for change in plan.writes.in_order())}  # the last package's
+            is_writing = not self._options.dry and bool(plan.outlook.writes or plan.writes)
+            if is_writing:
+                self._lock.acquire(self._wait)
+            if find_leftovers(folders) != leftovers or not Store(self._config.root).is_unchanged(plan.state):
+                continue  # another build has written, or begun to write, since the plan was made
+            if not is_writing:
                 return self._finish(robot, plan, {})
-            self._lock.acquire(self._wait)
-            if not self._is_current(plan):
-                continue
             files = PackageFiles(self._config, robot)
             shared = [change for file in plan.shared if (change := shared_change(file, files)) is not None]
             writes = msgspec.structs.replace(plan.writes, files=(*shared, *plan.writes.files))
-            applied = self._transactions.apply(robot.name, writes, plan.emptied)
+            self._note_edits(robot, plan)
+            applied = self._transactions.apply(writes, plan.emptied)
             self.notes += applied.diagnostics
-            if not applied.not_done:  # empty unless somebody saved a file meanwhile
+            if applied.overtaken is None:
                 return self._finish(robot, plan, applied.written)
-            saved = applied.not_done[0]
+            saved = applied.overtaken
         message = "it keeps changing during the build"
         hint = "close the program that writes it, then build again"
         raise OutputError.of("restless", message, shown(saved), hint=hint)
@@ -196,23 +195,33 @@ class _Builder:
             self._records.remember(robot, result)
         return _Built(plan.outlook, facts)
 
-    def _is_current(self, plan: Plan) -> bool:
-        """Return whether no other build has written, or begun to write, since the plan was made."""
-        return not self._transactions.is_pending() and Store(self._config.root).is_unchanged(plan.state)
+    def _note_edits(self, robot: RobotConfig, plan: Plan) -> None:
+        """Note the parts of the edits before the plan moves them: if this build is killed, the next one asks nobody."""
+        known = Store(self._config.root).notes(robot.name)
+        if plan.notes and plan.notes.edits != known.edits:
+            notes.save(self._state_folder, robot.name, msgspec.structs.replace(known, edits=plan.notes.edits))
 
-    def _recover(self) -> None:
-        """Wait for a build that is writing; finish a killed build."""
-        if not self._transactions.is_pending():
-            return
-        if not self._options.dry:
+    def _folders(self, robot: RobotConfig) -> set[Path]:
+        """Return the folders in which a killed build of a robot may have left temporary files."""
+        state, above = self._state_folder, robot.folder.parents
+        trees = robot.folder, *(state / kind / robot.name for kind in ("aside", "bases", "conflicts"))
+        around = above[: 1 + above.index(robot.output)]
+        return {Path(folder) for tree in trees for folder, _, _ in os.walk(tree)} | {
+            *around,
+            state,
+            *(state / kind for kind in ("notes", "robots", "svg")),
+        }
+
+    def _clear_leftovers(self, folders: Iterable[Path]) -> list[str]:
+        """Wait for a build that is writing; clear what a killed one left. Return what a dry run leaves there."""
+        if (found := find_leftovers(folders)) and self._options.dry:
+            with contextlib.suppress(OutputError), build_lock(self._state_folder, self._options.wait) as lock:
+                lock.acquire(self._wait)  # without a lock in this folder, no process writes
+            return find_leftovers(folders)
+        if found:
             self._lock.acquire(self._wait)
-            self.notes += self._transactions.recover()
-            return
-        with contextlib.suppress(OutputError), build_lock(self._state_folder, self._options.wait) as lock:
-            lock.acquire(self._wait)  # without a lock in this folder, no process writes
-        if is_interrupted(self._state_folder):
-            message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
-            raise StateError.of("interrupted", message, shown(self._state_folder), hint=hint)
+            self.notes += self._transactions.clear(find_leftovers(folders))
+        return []
 
     def _wait(self) -> None:
         self._options.progress(f"{WAITING} {self._lock.holder()}, which is building", 0, 1)

@@ -15,7 +15,7 @@ from urdfsync.changes import Changes
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies.facts import Dependencies
 from urdfsync.dependencies.places import is_clone
-from urdfsync.dependencies.reads import Reads, depend_on
+from urdfsync.dependencies.reads import Reads
 from urdfsync.dependencies.record import CONFIGURATION, ROBOT, Record, Records
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
@@ -23,7 +23,6 @@ from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Outlook, Result
 from urdfsync.files import digest, shown
-from urdfsync.state.transaction import DRAFT, PLANNED
 
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.UNKNOWN})
 """Reasons of actions that `build` does not list."""
@@ -99,8 +98,6 @@ def remember_configuration(config: Config, reads: Reads) -> None:
         if (robot.on_build == "check" and not is_clone()) or not is_plain:
             return  # these builds do more than compare
     with reads:
-        for name in (PLANNED, DRAFT):
-            depend_on(config.root / STATE_FOLDER / name)
         strays = read_stray_states(config)
     if reads.complete and not strays:
         robots = RobotRecords(config, BuildOptions())

@@ -150,7 +150,7 @@ class Result(Outlook, frozen=True, kw_only=True):
     locked: bool = False
     """Whether the build failed because another process is building."""
     unfinished: bool = False
-    """Whether the build failed after it had changed files; the next build finishes the changes."""
+    """Whether the build failed after it had changed files; the next build writes the rest."""
     source_error: SourceError | None = None
     """The error if the source is not a readable model; an exporter may be writing the file."""
     dry: bool = False
@@ -209,7 +209,7 @@ class Result(Outlook, frozen=True, kw_only=True):
     def summary(self) -> str:
         """The changes of the package, as the rest of a line that names the robot."""
         if self.failed:
-            end = "the next build finishes the changes" if self.unfinished else "nothing was changed"
+            end = "the next build writes the rest" if self.unfinished else "nothing was changed"
             return f"{error_count(self.diagnostics)}, {end}"
         parts = [*(["inputs changed since the last build"] if self.stale else []), *self.counts()]
         if self.in_step and not any(action.writes for action in self.actions.decided):

@@ -1,6 +1,6 @@
 """The file operations of a transaction.
 
-A crash can interrupt only `write` and `write_local`, which write files under temporary names. Tests put kills, errors
+A crash can interrupt only `write`, which writes files under temporary names. Tests put kills, errors
 and saves between any two operations. All operations raise OSError. They follow no symbolic link: they create only new
 files, and they rename a link itself.
 """
@@ -16,12 +16,12 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from urdfsync.dependencies import localfile
-
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _FEW = 32
 """The greatest number of files that are synced one by one. With 400 files, syncing the machine is ten times faster."""
 
+SPARE = "~"
+"""The end of the third name for a swap by three renames."""
 _HERE, _NOREPLACE, _EXCHANGE = -100, 1, 2
 """AT_FDCWD, RENAME_NOREPLACE and RENAME_EXCHANGE of Linux."""
 _NO_RENAMES = {errno.EINVAL, errno.ENOSYS, errno.ENOTSUP}
@@ -70,30 +70,26 @@ def write(path: str | Path, content: bytes, like: str | Path | None) -> None:
         os.close(descriptor)
 
 
-def write_local(path: Path, content: bytes) -> None:
-    """Write a new file that only this machine believes (see `dependencies.localfile`)."""
-    localfile.write(path, content)
+def exchange(path: str | Path, target: str | Path, third: str = "") -> None:
+    """Swap two files, or finish an interrupted swap.
 
-
-def exchange(path: str | Path, target: str | Path) -> None:
-    """Swap two files of one folder, or finish an interrupted swap.
-
-    If the system can't swap files, three renames do, and the target is missing for some microseconds. A plain
-    replacement would lose a save after the last check of the target. Raises FileNotFoundError or FileExistsError if
-    another program created or deleted one of the files meanwhile.
+    If the system can't swap files, three renames do, by the name `third` or `spare(path)`, and the target is missing
+    for some microseconds. A plain replacement would lose a save after the last check of the target. Raises
+    FileNotFoundError or FileExistsError if another program created or deleted one of the files meanwhile.
     """
-    if not os.path.lexists(spare(path)):
+    third = third or spare(path)
+    if not os.path.lexists(third):
         if rename(path, target, _EXCHANGE):
             return
-        replace(target, spare(path))
+        replace(target, third)
     if os.path.lexists(path):
         place(path, target)
-    replace(spare(path), path)
+    replace(third, path)
 
 
 def spare(path: str | Path) -> str:
     """The third name for a swap of `path` by three renames."""
-    return f"{path}~"
+    return f"{path}{SPARE}"
 
 
 def replace(path: str | Path, target: str | Path) -> None:

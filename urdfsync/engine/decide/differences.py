@@ -143,7 +143,7 @@ def agrees(inputs: Inputs, owners: Collection[str]) -> bool:
     for path, artifact in package.artifacts.items():
         if artifact.owner in owners and artifact.role is Role.RECORD:
             on_disk = inputs.files.hash(last.folder.key(path), Role.RECORD)
-            recorded = last.files.get(last.folder.key(path))
+            recorded = last.record.files.get(last.folder.key(path))
             if last.record.open and on_disk and last.has_written(on_disk):
                 continue  # an incomplete build has written this file since
             if on_disk == recorded and package.hash(path) != on_disk:
@@ -233,14 +233,14 @@ def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
             there = files.stamp(target)
             is_there = there is not None and there.id == file_id and there.base != files.hash(target, Role.MODEL)
             is_edited = files.hash(key, Role.MODEL) != stamp.base
-            if is_there or (is_edited and not _is_in_place(last.base(stamp.base), last.target, folder.path(key))):
+            if is_there or (is_edited and not is_in_place(last.base(stamp.base), last.target, folder.path(key))):
                 continue  # the class is the user's own: a copy, or with another name
             place = as_file(key)  # if the class is a folder, the file that it was
             moves.setdefault(target, place if place in last.record.files else key)
     return moves
 
 
-def _is_in_place(base: str | None, target: Target, path: str) -> bool:
+def is_in_place(base: str | None, target: Target, path: str) -> bool:
     """Return whether the file at this path is where its base was generated: a copy has another name or folder."""
     *folders, name = (*target.package.split("."), *class_parts(path))
     within = f"within {re.escape('.'.join(folders))};\n" if folders else ""

@@ -104,7 +104,8 @@ def _doubt(inputs: Inputs, generation: Generation, differences: Differences, act
         return _named(inputs, lines, found, generation.now.snapshot)
     if element in found:
         return found[element]
-    if moved_to := differences.renames.get(element):  # the file can't move to the new name
+    is_seen = last.edits.get(action.mine or "", "") == differences.ids.get(inputs.folder.path(action.path))
+    if (moved_to := differences.renames.get(element)) and not is_seen:  # the file can't move to the new name
         return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
     # if only numbers changed, no element is new, and most builds need no features
     is_new_element = last.version is not None and differences.is_structural and element not in last.elements

@@ -84,14 +84,21 @@ def _removable_lines(
     two states, this looks for each line's class: the other branch may have renamed it.
     """
     folder = order.removesuffix("package.order")
-    paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
+    deletions = {action.path for action in actions if action.is_deletion}
+    paths = (path.removesuffix("/package.mo").removesuffix(".mo") for path in sorted(deletions))
     deleted = [path.removeprefix(folder) for path in paths if path.rpartition("/")[0] == folder.rstrip("/")]
     listed = {line.strip() for line in text.splitlines()}
     is_united = inputs.last.is_united and order.startswith(inputs.folder.key(""))
     candidates = listed if is_united else listed.intersection(recorded)
     names = filter(is_identifier, candidates.difference(deleted))
-    missing = [name for name in names if not inputs.files.has_class(folder, name)]
-    mentioned = set(re.findall(r"\w+", inputs.files.text(f"{folder}package.mo") or "")) if missing else set()
+    # a killed build may have moved or deleted some files of the package before the others
+    missing = [
+        name
+        for name in names
+        if not inputs.files.has_class(folder, name) or frozenset() < inputs.files.classes(folder + name) <= deletions
+    ]
+    is_asked = missing and f"{folder}package.mo" not in deletions
+    mentioned = set(re.findall(r"\w+", inputs.files.text(f"{folder}package.mo") or "")) if is_asked else set()
     return [*deleted, *(name for name in missing if name not in mentioned)]
 
 

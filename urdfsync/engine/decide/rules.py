@@ -129,11 +129,11 @@ def file_records_after(actions: Iterable[Action], recorded: Mapping[str, str], *
     """Return the records of a package's files after a build.
 
     A complete build renews the records of all files. An incomplete build renews only the records of files that it wrote
-    or found in step.
+    or found in step, or that have taken their generated text into account: a killed build may have written them.
     """
     records = {} if is_complete else dict(recorded)
     for action in actions:
-        is_generated = action.reason is Reason.UNCHANGED or action.writes
+        is_generated = action.reason is Reason.UNCHANGED or action.writes or action.base == action.generated
         if action.role is Role.ORDER or not (is_complete or is_generated):
             continue
         if action.generated is not None:

@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DISPUTED, Action, Reason
-from urdfsync.engine.decide.differences import Differences
+from urdfsync.engine.decide.differences import Differences, is_in_place
 from urdfsync.engine.decide.doubts import find_doubts
 from urdfsync.engine.decide.package_names import renamed_names
 from urdfsync.engine.decide.parts import is_of_part
@@ -39,6 +39,7 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
     """Decide on every file by hashes; ask about edits that may belong to other parts."""
     package, origins = generation.package, frozenset(differences.moves.values())
     decided = decide(_find_files(inputs, generation, differences), differences.moves)
+    decided = tuple(_as_moved(inputs, differences, action) for action in decided)
     doubts = find_doubts(inputs, generation, differences, decided)
     actions = tuple(_adjust(inputs, package, action, doubts, differences.ids) for action in decided)
     names: Mapping[str, str] = {}
@@ -76,6 +77,20 @@ def _find_files(inputs: Inputs, generation: Generation, differences: Differences
         old = last.package.artifacts.get(path) if last.package else None
         add(key, old.role if old else role_of(path), old.owner if old else "", None)
     return files
+
+
+def _as_moved(inputs: Inputs, differences: Differences, action: Action) -> Action:
+    """Return the action of a move for an edited file that is at the new path of its part already, with its old text.
+
+    A killed build, git or the user has brought it there.
+    """
+    path, stamp = inputs.folder.path(action.path), None
+    if action.reason is Reason.CONFLICT and path in differences.ids:
+        stamp = inputs.files.stamp(action.path)
+    if stamp is None or stamp.id != differences.ids[path] or (base := inputs.last.base(action.base)) is None:
+        return action
+    is_moved = not is_in_place(base, inputs.robot.target, path)
+    return msgspec.structs.replace(action, reason=Reason.MOVE) if is_moved else action
 
 
 def find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:

@@ -127,9 +127,14 @@ def _actions_after(actions: Actions, settled: Settled) -> Actions:
 
 
 def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
-    """Return the folders of the package and the state that may become empty, innermost first."""
+    """Return the folders of the package and the state that may become empty, innermost first.
+
+    A killed build may have deleted some of the recorded files.
+    """
     above = {inputs.files.path(inputs.last.folder).parent, inputs.store.folder}
-    folders = {folder for change in changes if change.content is None for folder in change.path.parents}
+    places = {change.path.parent for change in changes if change.content is None}
+    places |= {*map(inputs.files.path, {key.rpartition("/")[0] for key in inputs.last.record.files})}
+    folders = {folder for place in places for folder in (place, *place.parents)}
     below = [folder for folder in folders if not above.isdisjoint(folder.parents)]
     return tuple(sorted(below, key=lambda folder: len(folder.parts), reverse=True))
 
@@ -140,10 +145,10 @@ def _file_changes(inputs: Inputs, generation: Generation, decision: Decision) ->
     shared = {inputs.files.key(file.path) for file in decision.shared}
     decided = {action.path: action for action in decision.actions}
 
-    def change(key: str, content: bytes | None, *, is_moved: bool = False) -> None:
+    def change(key: str, content: bytes | None, origin: str | None = None) -> None:
         state = inputs.files.state_on_disk(key)
-        old = state.sha256 if state else None
-        changes[key] = FileChange(inputs.files.path(key), content, old, is_moved)
+        old, moved_from = state.sha256 if state else None, inputs.files.path(origin) if origin else None
+        changes[key] = FileChange(inputs.files.path(key), content, old, moved_from)
 
     for key, content in inputs.settled.contents.items():
         if not (key in decided and decided[key].writes) and content != inputs.files.read_on_disk(key):
@@ -151,7 +156,7 @@ def _file_changes(inputs: Inputs, generation: Generation, decision: Decision) ->
     for action in decision.actions:
         if action.writes and action.path not in shared:
             content = None if action.is_deletion else _content(inputs, generation, decision, action)
-            change(action.path, content, is_moved=action.origin is not None and action.path in decision.texts)
+            change(action.path, content, action.origin if action.path in decision.texts else None)
     return changes
 
 
