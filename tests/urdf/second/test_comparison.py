@@ -27,7 +27,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Box, Dynamics, Joint, Link, Loop, Origin, Robot, Servo
 
 UNCOMPARED = {f"{kind}.{path}" for kind in ("visual", "collision") for path in ("lower", "upper", "color", "opacity")}
-UNCOMPARED |= {"reach", "start", "height", "collisionCorners"}
+UNCOMPARED |= {"reach", "start", "height", "collisionCorners", "translations", "rotations", "childRotations"}
 """What only the files of meshes have, and what follows from other numbers: of loops, of the stance."""
 
 
@@ -376,37 +376,16 @@ def test_a_loop_that_is_read_otherwise_is_found(fault: str) -> None:
     assert (file, quantity) in {(each.file, each.quantity) for each in found}
 
 
-@pytest.mark.parametrize(("old", "new", "file", "quantity"), [
-    *(("translations = [1, 0, 0; 0, 1, 0]", f"translations = {other}", "Joints/Rocker_pinParameters.mo", "translations")
-      for other in ("[1, 0, 0; 1, 0, 0]", "{1, 2}", "2*x")),
-])  # fmt: skip
-def test_wrong_equations_of_a_loop_are_found(old: str, new: str, file: str, quantity: str) -> None:
-    def change(texts: Any) -> Any:
-        assert old in texts[file]
-        return {**texts, file: texts[file].replace(old, new)}
-
-    numbers = compare(FOUR_BAR.source, change, **msgspec.structs.asdict(FOUR_BAR.options))
-    assert (file, quantity) in {(each.file, each.quantity) for each in numbers.differences}
-
-
-@pytest.mark.parametrize(("robot", "old", "new"), [
-    (HINGE, "otations = [1, 0, 0; 0, 0.96, -0.28]", "otations = [1, 0, 0; 0, 1, 0]"),
-    (HINGE, "[0, 0.28, 0.96; 0, 0.28, 0.96]", "[0, 0.28, 0.96; 1, 0, 0]"),
-    (UNIVERSAL, "otations = [0, 0, 1]", "otations = [1, 0, 0]"),
-    (UNIVERSAL, "otations = [0, 1, 0]", "otations = [1, 0, 0]"),
-    (WELD, "otations = [0, 1, 0]", "otations = [1, 0, 0]"),
-])  # fmt: skip
-def test_a_wrong_axis_of_a_loop_is_found(robot: Robot, old: str, new: str) -> None:
-    """Only loops in space state directions: a loop in a plane has no equations about them."""
-
-    def change(texts: Any) -> Any:
-        changed = {path: text.replace(old, new) for path, text in texts.items()}
-        assert changed != texts
-        return changed
-
+@pytest.mark.parametrize(("robot", "axes"), [(HINGE, {"axis"}), (UNIVERSAL, {"axis", "childAxis"}), (WELD, set())])
+def test_axes_of_a_loop_that_are_read_otherwise_are_found(robot: Robot, axes: set[str]) -> None:
+    """A weld has no axis."""
     source, options = to_urdf(robot).encode(), to_options(robot)
-    assert compare(source, **options).differences == ()
-    assert "rotations" in {each.quantity for each in compare(source, change, **options).differences}
+    own = generate(source, BOT, **options)
+    assert of_package(own, source, own.texts).differences == ()
+    turned = {"axis": (0.6, 0.0, 0.8), "child_axis": (0.0, 0.6, 0.8)}
+    wrong = replace(own.robot, loops=tuple(replace(loop, **turned) for loop in own.robot.loops))
+    numbers = of_package(dataclasses.replace(own, robot=wrong), source, own.texts)
+    assert {each.quantity for each in numbers.differences} == axes
 
 
 def test_the_axis_of_a_loop_joint_is_read_alike() -> None:

@@ -26,7 +26,6 @@ from urdfsync.urdf.second.plain import SHAPES
 from urdfsync.urdf.second.reading import (
     TENSOR,
     ZERO,
-    SecondElement,
     SecondReading,
     Stated,
     read_again,
@@ -177,8 +176,6 @@ class _Comparison:
         if kind == "joint":
             given.append(Value("type", "", type_, named.line))
             expected["type"] = Stated(f"{element.type.capitalize()}Joint", element.line)
-        elif kind == "loop":
-            expected |= _equations(element, {value.path: literals(value.text) for value in values})
         elif not whole and element is self.massless_root:  # Modelica's frames need a body: its mass is 0
             del expected["hasInertial"]
             expected |= {path: Stated(number, element.line) for path, number in _NO_MASS.items()}
@@ -256,27 +253,6 @@ def _read(text: str) -> Any:
     """Return the value of a literal, or an expression in one line."""
     value = literals(text)
     return " ".join(text.split()) if value is None else value
-
-
-def _equations(loop: SecondElement, given: Mapping[str, Any]) -> dict[str, Stated]:
-    """Return the expected equations of a loop: the given equations, if they are possible for the kind of the loop."""
-    keys = ("translations", "rotations", "childRotations")
-    numbers = [given.get(key) for key in keys]
-    whole = [each if isinstance(each, tuple) and len(each) % 3 == 0 else (math.nan,) * 3 for each in numbers]
-    moves, u, v = (np.reshape(each, (-1, 3)) for each in whole)
-    axis, child_axis = loop.axes
-    is_right = len(moves) + len(u) > 0 and len(u) == len(v) and np.allclose(moves @ moves.T, np.eye(len(moves)))
-    match loop.type if is_right else "":
-        case "revolute":
-            is_right = len(u) <= 2 and np.allclose(v, axis) and np.allclose(u @ axis, 0)
-        case "universal":
-            is_right = len(u) <= 1 and np.allclose(u, axis) and (child_axis is None or np.allclose(v, child_axis))
-        case "fixed":
-            is_right = len(u) <= 3 and np.allclose((u * v).sum(axis=1), 0)
-        case _:
-            is_right = is_right and not len(u)
-    right = dict(zip(keys, numbers if is_right else [f"those of a {loop.type} joint"] * 3, strict=True))
-    return {key: loop.state(value) for key, value in right.items()}
 
 
 def _shown(value: Any) -> str:
