@@ -323,7 +323,7 @@ _SAME = tuple(f"tests/{name}" for name in (
     *(f"identification/test_{name}" for name in ("excite", "fit", "records", "run", "signals")),
     # other formats and checks, but for their processes and for rumoca
     *("mjcf/", "sdf/", "checks/compilers/test_omc", "watch/test_checks", "watch/test_report", "watch/test_view"),
-    *(f"checks/test_{name}" for name in ("afterbuild", "fingerprint", "flags", "names", "packed", "report", "robot")),
+    *(f"checks/test_{name}" for name in ("afterbuild", "fingerprint", "names", "packed", "report", "robot")),
     "checks/test_texts",
     # git's merges
     *("test_edits_meet_exports", "test_merge", "test_unions", "test_unite"),

@@ -37,7 +37,7 @@ class Edit(NamedTuple):
     """Further quantities that the edit may change."""
 
 
-DYNAMICS = Quantity.EFFORT, Quantity.REACTION, Quantity.ACCELERATION, Quantity.WARNING, Quantity.GROUND
+DYNAMICS = Quantity.EFFORT, Quantity.REACTION, Quantity.ACCELERATION
 WEIGHT = *DYNAMICS, Quantity.MASS, Quantity.CENTRE
 PLACE = *DYNAMICS, Quantity.POSITION, Quantity.ORIENTATION, Quantity.CENTRE
 EDITS = (

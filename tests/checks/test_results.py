@@ -23,7 +23,6 @@ from urdfsync.engine.result import Exit
 
 ELBOW = Deviation(Quantity.EFFORT, "joint elbow", 0.4, 12.5, 60.0, "N·m", Aspect.LOSSES)
 MASS = Deviation(Quantity.MASS, "robot", 0.0, 25.0, 25.0, "kg")
-GROUND = Deviation(Quantity.GROUND, "robot", 0.5, 100.0, 100.0, "N", Aspect.CONTACTS)
 CHANGED = ToolResult(effects=(EditEffect(("a.mo",), (ELBOW,)),))
 OFF, SAME_MASS = ToolResult(deviations=(ELBOW,)), ToolResult(deviations=(MASS,))
 GAP = "the effect of your edits was not measured: the robot can't be simulated"
@@ -43,7 +42,6 @@ PLAIN = "syntax and layout; "
     ({"between": (ELBOW,)}, False, f"differs: {PLAIN}"),
     ({"between_edited": (ELBOW,)}, False, f"differs: {PLAIN}"),
     ({"tools": (SAME_MASS,)}, False, f"right: {PLAIN}rigid bodies right; "),
-    ({"tools": (ToolResult(deviations=(GROUND,)),)}, False, f"right: {PLAIN}contacts plausible; "),
     ({"tools": (OFF,), "diagnostics": (ERROR, WARNING, ERROR)}, False, "failed: 2 errors; friction and gears differ"),
     ({"tools": (USERS, ToolResult(failing=("Part", "Other"))), "freedoms": 1}, False,
         "right: 1 model compiles, and 1 of yours; 2 of yours do not; 1 degree of freedom; "),

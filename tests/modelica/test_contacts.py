@@ -259,7 +259,22 @@ HEIGHTS = {f"robot.{wheel}.frame_a.r_0[3]": RADIUS for wheel in ("left", "right"
 TURNED = [f"robot.drive_{wheel}Axis.phi" for wheel in ("left", "right")]
 
 
-@pytest.mark.large  # other tests of this file roll
+def test_the_ground_of_a_mobile_bench_is_designed_for_its_load(modelica_library: Path) -> None:
+    text = """
+model Case
+  import Modelica;
+  extends UrdfSync.Robots.PartialMobileBench(
+    load = 500, stance(height = 1), world(enableAnimation = false), ground(animation = false));
+  Modelica.Mechanics.MultiBody.Parts.Body body(m = 1, r_CM = {0, 0, 0});
+  Real weight = ground.load;
+equation
+  connect(base.frame_b, body.frame_a);
+end Case;
+"""
+    (series,) = simulate(modelica_library, [], [Task(text, "Case", [Run(0.01, 0.01)], ["weight"])])
+    assert series.values["weight"][-1] == 500
+
+
 def test_the_wheels_of_a_cart_stand_on_their_shapes_and_take_it_as_far_as_they_roll(
     modelica_library: Path, tmp_path: Path
 ) -> None:

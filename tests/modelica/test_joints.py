@@ -149,7 +149,7 @@ def test_balls_move_as_pinocchio_says(modelica_library: Path, tmp_path: Path) ->
     *right, undamped, turned = physics.compare(modelica_library, tmp_path, cases)
     for found in right:
         assert physics.fault(found) is None
-        assert max(each.relative for each in found if each.quantity is not Quantity.SWEEP) < 1e-9  # it is integrated
+        assert max(each.relative for each in found) < 1e-9
     faults = [physics.fault(found) for found in (undamped, turned)]
     assert [fault and (fault.element, fault.quantity) for fault in faults] == [
         ("joint pivot", Quantity.ACCELERATION),
@@ -167,11 +167,9 @@ def test_openmodelica_moves_balls_as_pinocchio_says(
         monkeypatch.delenv("OPENMODELICAHOME", raising=False)
     robots = {"Pendulum": PENDULUM, "Shoulder": SHOULDER, "Leg": LEG}
     cases = [physics.prepare(text.encode(), name).only("motion") for name, text in robots.items()]
-    if tool == "recorded":
-        cases = [case.without("range", "balance") for case in cases]
     for found in physics.compare(modelica_library, tmp_path, cases, tool="omc", record="Balls"):
         assert physics.fault(found) is None
-        assert max(each.relative for each in found if each.quantity is not Quantity.SWEEP) < 1e-9
+        assert max(each.relative for each in found) < 1e-9
 
 
 class Flange(NamedTuple):

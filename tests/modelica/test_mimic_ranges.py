@@ -12,7 +12,7 @@ from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
 
-pytestmark = [pytest.mark.slow, pytest.mark.large]  # `check --physics` compares the ranges of followers
+pytestmark = pytest.mark.slow
 
 INF = float("inf")
 

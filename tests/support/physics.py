@@ -13,7 +13,6 @@ from support import recorded_omc
 from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
 from urdfsync.checks import compilation
-from urdfsync.checks.flags import flagged
 from urdfsync.domain import Target
 from urdfsync.domain.experiment import Deviation, Experiment, Sample
 from urdfsync.urdf.domain import DOMAIN
@@ -31,16 +30,6 @@ class Case:
         """The case with only the simulations of these names."""
         trials = tuple(each for each in self.experiment.trials if each.name in names)
         return Case(msgspec.structs.replace(self.experiment, trials=trials), self.package)
-
-    def without(self, *beginnings: str) -> Case:
-        """The case without variables of the probe that begin so: a recorded answer may be older."""
-        trials = []
-        for trial in self.experiment.trials:
-            values = tuple(name for name in trial.probe.values if not name.startswith(beginnings))
-            compared = tuple(each for each in trial.compared if set(each.values) <= set(values))
-            probe = msgspec.structs.replace(trial.probe, values=values)
-            trials.append(msgspec.structs.replace(trial, probe=probe, compared=compared))
-        return Case(msgspec.structs.replace(self.experiment, trials=tuple(trials)), self.package)
 
     def changed(self, file: str, old: str, new: str) -> Case:
         """The case with another text in one file."""
@@ -70,13 +59,8 @@ def compare(
     See `recorded_omc` for `record`, the name of a conversation with OpenModelica.
     """
     folders = [case.package.write(folder) for case in cases]
-    for file in (file for package in folders for file in package.rglob("*.mo")):
-        file.write_text(flagged(file.read_text("utf-8")), "utf-8")
     probes = [trial.probe for case in cases for trial in case.experiment.trials]
-    tasks = [
-        Task(p.source, p.model, [Run(p.stop, p.step, tolerance=p.tolerance)], p.values, "|".join(p.optional))
-        for p in probes
-    ]
+    tasks = [Task(p.source, p.model, [Run(p.stop, p.step, tolerance=p.tolerance)], p.values) for p in probes]
     series = simulate(library, folders, tasks, own, tool) if tasks else []
     if record and recorded_omc.RECORDER:
         recorded_omc.keep(record, series)

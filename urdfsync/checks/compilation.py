@@ -25,7 +25,6 @@ from urdfsync.checks.compilers.compiler import (
     compile_task,
     one_line,
 )
-from urdfsync.checks.flags import with_flags
 from urdfsync.checks.jobs import Jobs
 from urdfsync.checks.libraries import Libraries
 from urdfsync.checks.package import PackageTexts, RobotPackage, UsersModels
@@ -111,14 +110,12 @@ class Compilation:
         text = msgspec.structs.replace(source, content=experiment.content, companions=experiment.companions)
         amended = text, experiment.options
         is_same = amended == (source, package.robot.options)
-        self._completed = package.generated if is_same else generated_texts(package.inputs, package.generation, amended)
-        jobs: dict[str, _Job] = {"completed": (with_flags(self._completed), move)}
-        if experiment.laws:
-            jobs["laws"] = package.generated, [_task(experiment.laws)]
+        completed = package.generated if is_same else generated_texts(package.inputs, package.generation, amended)
+        jobs: dict[str, _Job] = {"completed": (completed, move)}
         if package.edits and experiment.options == package.robot.options:
-            jobs["edited"] = with_flags(package.files.texts), move
+            jobs["edited"] = package.files.texts, move
             if not is_same:
-                jobs["generated"] = with_flags(package.generated), move
+                jobs["generated"] = package.generated, move
         return jobs
 
     def _compare(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> None:
@@ -129,7 +126,7 @@ class Compilation:
         self.result.times = tuple(TrialTime(trial.name, answer.seconds) for trial, answer in times if answer.seconds)
         self.diagnostics += faults
         if self.generated:
-            self.result.deviations = (*compare_all(trials, self.generated), *self._laws(experiment, done))
+            self.result.deviations = compare_all(trials, self.generated)
             self.result.curves = tuple(curves(trials[0], self.generated[trials[0].name]))
         if "edited" not in done:
             return
@@ -179,20 +176,12 @@ class Compilation:
     ) -> dict[str, list[Deviation]]:
         """Return the changes of each version of the package that all trials can simulate, by the version's file."""
         tasks, changes = [_task(trial) for trial in trials], dict[str, list[Deviation]]()
-        done = self._run_all({f"{label} {file}": (with_flags(texts), tasks) for file, texts in versions.items()})
+        done = self._run_all({f"{label} {file}": (texts, tasks) for file, texts in versions.items()})
         for file, answers in zip(versions, done.values(), strict=True):
             if len(answers) == len(trials) and not any(each.problem or each.runs[0].problem for each in answers):
                 series = {trial.name: each.runs[0].values for trial, each in zip(trials, answers, strict=True)}
                 changes[file] = find_changes(trials, series, motions)
         return changes
-
-    def _laws(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> Sequence[Deviation]:
-        """Return the deviations from laws that the other trials do not exercise. A failed simulation is a gap."""
-        if not experiment.laws:
-            return ()
-        motions, faults = self._motions(done["laws"], [experiment.laws])
-        self.gaps += [f"{experiment.laws.name} were not compared: {fault.message}" for fault in faults]
-        return compare_all([experiment.laws], motions)
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Return jobs that compile all models: the package's in `count` parts, then the user's."""
@@ -322,8 +311,7 @@ def _failing(job: _Job, answers: Sequence[CompileResult]) -> Iterator[CompileTas
 def _task(trial: Trial) -> CompileTask:
     probe = trial.probe
     run, title = Simulation(probe.stop, probe.step, tolerance=probe.tolerance), f"the comparison ({trial.name})"
-    optional = "|".join(map(re.escape, probe.optional))
-    return CompileTask(probe.model, probe.source, (run,), probe.values, optional, title=title)
+    return CompileTask(probe.model, probe.source, (run,), probe.values, title=title)
 
 
 def _as_part(finding: Diagnostic) -> Diagnostic:

@@ -25,7 +25,7 @@ LibraryVersion: TypeAlias = tuple[int, ...]
 OLDEST: LibraryVersion = (4, 1)  # the embedded compiler accepts no older ones
 NEXT: LibraryVersion = (5,)  # newer versions are untested, and used only without an older one
 
-_COPY_REVISION = 7  # raise this number when libraries are taken apart in another way
+_COPY_REVISION = 8  # raise this number when libraries are taken apart in another way
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()[^\S\n]*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*+(?:"|\\?\Z)|//[^\n]*+|/\*.*?(?:\*/|\Z)', re.DOTALL)

@@ -28,13 +28,7 @@ _MARKS = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.DIFFERS: Mark.WRONG, CheckSt
 _ADVICE = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
 _MOST = 3
 """The greatest number of differing numbers of one file that are reported."""
-_STATED = {
-    Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
-    Quantity.ENERGY: "{detail} gives energy away",
-    Quantity.LAW: "the effort of its {detail} contradicts its numbers",
-}
-"""Sentences for differences that have no amount."""
-_FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction ", Quantity.GROUND: "ground "}
+_FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction "}
 """Quantities whose unit tells whether they are forces or torques, with the word that comes first."""
 
 
@@ -104,13 +98,9 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
     for deviation, others in _by_kind([deviation for deviation in deviations if not deviation.agrees]):
         what, amount = _amount(deviation)
-        by = "its own numbers" if deviation.part in (Aspect.CONTACTS, Aspect.BENCHES) else reference
-        fault = f"{what} differs from {by} by {amount}"
-        if stated := _STATED.get(deviation.quantity):
-            fault = stated.format(detail=deviation.detail)
-        yield f"{deviation.element}: {fault}{others}{advice}", "bold red"
+        yield f"{deviation.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"
         if deviation.unit in ("N·m", "N", "kg"):
-            yield f"  its largest {what} by {by} is {_digits(deviation.value)} {deviation.unit}", "dim"
+            yield f"  its largest {what} by {reference} is {_digits(deviation.value)} {deviation.unit}", "dim"
         advice = ""
 
 
@@ -127,13 +117,9 @@ def _details(result: CheckResult) -> Iterator[str]:
         for trial in tool.times:
             yield f"{trial.name}: {trial.seconds:.1f} s{by}"
         for deviation in tool.deviations or ():
-            if deviation.quantity in _STATED:
-                continue
             what, amount = _amount(deviation)
             yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e}){by}"
     for deviation in result.between or ():
-        if deviation.quantity in _STATED:
-            continue
         what, amount = _amount(deviation)
         yield f"{deviation.element}: {what} differs by {amount} between the compilers"
     for effect in result.effects:
@@ -259,8 +245,7 @@ def _edited(effect: EditEffect) -> str:
 
 def _change(deviation: Deviation, others: str = "") -> str:
     what, amount = _amount(deviation)
-    by = "" if deviation.quantity in _STATED else f" by {amount}"
-    return f"the {what} of {deviation.element}{by}{others}"
+    return f"the {what} of {deviation.element} by {amount}{others}"
 
 
 def _amount(deviation: Deviation) -> tuple[str, str]:
@@ -269,8 +254,6 @@ def _amount(deviation: Deviation) -> tuple[str, str]:
     Lengths are in mm; a difference of rotation matrices is given as an angle.
     """
     what, unit, value = str(deviation.quantity), deviation.unit, deviation.difference
-    if deviation.quantity in _STATED:
-        return f"{what} “{deviation.detail}”", "more than nothing"
     if deviation.quantity in _FORCES:
         what = f"{_FORCES[deviation.quantity]}{'force' if unit == 'N' else 'torque'}"
     if deviation.quantity is Quantity.ORIENTATION:

@@ -21,7 +21,6 @@ MOST_SINGLE_EDITS = 6
 """The greatest number of edited files that are tried taken back one by one; more are not told apart."""
 
 _FIRST = (
-    (Quantity.GRAVITY,),
     (Quantity.POSITION, Quantity.ORIENTATION),
     (Quantity.EFFORT, Quantity.REACTION),
     (Quantity.MASS, Quantity.CENTRE),
@@ -345,6 +344,4 @@ def listed(names: Sequence[str]) -> str:
 
 def part_word(deviation: Deviation) -> str:
     """Return the verdict on a part of the model by its greatest deviation."""
-    if deviation.agrees:
-        return "plausible" if deviation.part is Aspect.CONTACTS else "right"
-    return f"differ ({deviation.element})"
+    return "right" if deviation.agrees else f"differ ({deviation.element})"

@@ -22,9 +22,6 @@ class Aspect(enum.StrEnum):
     LOOPS = "loops"
     """Gaps, and the forces that close them."""
     SENSORS = "sensors"
-    LIMITS = "limits"
-    CONTACTS = "contacts"
-    BENCHES = "Run and Test"
 
 
 class Quantity(enum.StrEnum):
@@ -41,30 +38,13 @@ class Quantity(enum.StrEnum):
     ACCELERATION = "acceleration"
     READING = "reading"
     """Output of a sensor."""
-    WARNING = "warning"
-    """Whether a limit is passed: 1 if so, else 0."""
-    GROUND = "ground force"
     CLOSURE = "gap"
     """Vector from one frame of a loop to the other."""
-    GRAVITY = "gravity"
-    """Gravity in Run and Test."""
-    SWEEP = "way in Test"
-    """Positions at which a drive of Test begins, turns back and ends."""
-    LAW = "law"
-    """By how much the effort of a friction or a spring differs from its equation."""
-    ENERGY = "energy"
-    """Energy that a friction or a spring returns beyond what it received, as a fraction of the exchanged energy."""
 
 
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
-_TOLERANCES = {
-    Quantity.ACCELERATION: 1e-7,  # solving equations for them loses digits
-    Quantity.GROUND: 1e-2,  # compared with its own equation; an error of 1 % in depth is 1 % in force
-    Quantity.SWEEP: 1e-3,  # the integration has errors of up to 2e-5
-    Quantity.ENERGY: 1e-2,  # the integration passes jumps of dry friction
-    Quantity.LAW: 1e-6,
-}
+_TOLERANCES = {Quantity.ACCELERATION: 1e-7}  # solving equations for them loses digits
 
 
 class Deviation(msgspec.Struct, frozen=True):
@@ -84,7 +64,7 @@ class Deviation(msgspec.Struct, frozen=True):
     unit: str
     part: Aspect = Aspect.BODIES
     detail: str = ""
-    """Distinguishes several deviations of one element: `below its lower position limit`."""
+    """Distinguishes several deviations of one element: the output of a sensor."""
     least_tolerance: float = 0.0
     """See `Compared.least_tolerance`."""
 
@@ -159,8 +139,6 @@ class Probe(msgspec.Struct, frozen=True):
     step: float
     """Interval of results, in s."""
     values: tuple[str, ...]
-    optional: tuple[str, ...] = ()
-    """Variables that are handed back as well, if the package has them."""
     tolerance: float | None = None
     """Tolerance of the integration; None for the compiler's own."""
 
@@ -211,8 +189,6 @@ class Experiment(msgspec.Struct, frozen=True):
 
     Without the result of the first simulation there is no comparison.
     """
-    laws: Trial | None = None
-    """The simulation of parts that `options` leave out, in the package that is generated from the given source."""
     notes: tuple[str, ...] = ()
     """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()

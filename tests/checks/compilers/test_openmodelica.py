@@ -16,7 +16,6 @@ from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers import omc
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus
 from urdfsync.checks.robot import check_robot
-from urdfsync.domain.experiment import Quantity
 
 pytestmark = [
     pytest.mark.slow,
@@ -58,7 +57,7 @@ def test_two_compilers_and_pinocchio_agree() -> None:
     assert (status(result, strict=True), result.diagnostics) == (CheckStatus.RIGHT, ())
     assert [one.tool.partition(" ")[0] for one in result.tools] == ["rumoca", "OpenModelica"]
     assert [one.model for one in result.tools[1].compiled] == ["Arm", "ArmRun", "ArmTest"]
-    found = [one for one in (*result.deviations, *(result.between or ())) if one.quantity is not Quantity.SWEEP]
+    found = [*result.deviations, *(result.between or ())]
     assert 0 < max(one.relative for one in found) < 1e-12
 
 
@@ -93,8 +92,7 @@ def test_a_fault_is_told_at_its_line(package: Path, edit: Edit, place: tuple[str
 def test_what_an_edit_does_is_the_same_by_both(package: Path, edit: Edit, quantity: str, element: str) -> None:
     edit(package)
     result = check("both", physics=True)
-    solved = [one for one in result.between_edited if one.quantity is not Quantity.SWEEP]  # which is integrated
-    assert max(one.relative for one in solved) < 1e-12
+    assert max(one.relative for one in result.between_edited) < 1e-12
     (effect,) = result.effects
     assert (quantity, element) in [(str(one.quantity), one.element) for one in effect.deviations]
     assert status(result, strict=False) is CheckStatus.RIGHT

@@ -16,14 +16,12 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.physics import completion, motion, probe, quantities
 from urdfsync.urdf.physics.closing import OpenLoopError
-from urdfsync.urdf.physics.laws import laws_trial
-from urdfsync.urdf.physics.motion import Instant
+from urdfsync.urdf.physics.motion import COMPARED
 from urdfsync.urdf.physics.probe import RobotVariables
 from urdfsync.urdf.physics.reference import pinocchio
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.urdf.second.companions import read_companions
-from urdfsync.urdf.second.reading import read_again
 
 _ITERATED = 1e-7
 """The least tolerance for robots with loops: compilers close loops by iteration."""
@@ -70,14 +68,12 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         for approach in options.approach:
             if approach == "package" or has_record:
                 trials += _trials(subject, approach, step)
-    second = read_again(sample.content, options, *sample.companions)
     return Experiment(
         reference=f"Pinocchio {pinocchio().__version__}",
         content=completed,
         options=simplified,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        laws=laws_trial(subject, second) if has_package else None,
         companions=catalogue,
         unchecked=(*_simplified(subject, options), *_not_compared(subject), *subject.unchecked),
     )
@@ -88,26 +84,17 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
     pairs = list(quantities.bodies(subject, names))
-    pairs += quantities.ranges(subject, names)
-    limits = list[quantities.Pair]()
     if approach == "package":
         pairs += quantities.sensors(subject, names)
-        pairs += quantities.motors(subject)
-        pairs += quantities.ground(subject)
         pairs += quantities.loops(subject, names)
-        limits += quantities.limits(subject)
-    needed, optional = ([v for compared, _ in some for v in compared.values] for some in (pairs, limits))
-    moving = probe.moving_probe(subject, names, needed, optional, step or 1.0)
-    table = quantities.table([*pairs, *limits], list(map(float, Instant)))
+    needed = [value for compared, _ in pairs for value in compared.values]
+    moving = probe.moving_probe(subject, names, needed, step or 1.0)
+    table = quantities.table(pairs, COMPARED)
     over_time = list(quantities.over_time(subject, names, step)) if step else []
     times = over_time[0][0].instants if over_time else ()
     every = [Trial(f"motion{label}", moving, *table, *quantities.table(over_time, times))]
     if approach == "record" or len(subject.axes) <= _MOST_AXES:
         every += _free(subject, names, f"free motion{label}")
-    if approach == "package" and (sweeps := list(quantities.sweeps(subject))):
-        values = [value for compared, _ in sweeps for value in compared.values]
-        table = quantities.table(sweeps, quantities.SWEEP_TIMES)
-        every.append(Trial("ways in Test", probe.sweeping_probe(subject, values), *table))
     for each in every:
         least = _ITERATED if subject.tree.loops else 0.0
         compared = tuple(
@@ -146,11 +133,6 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
         root = f"link {subject.tree.links[0].name}"
         compared = Compared(Quantity.ACCELERATION, root, "m/s²", gained, time, Aspect.FREE_MOTION)
         pairs.append((compared, [reference.base_gain(state, gains)]))
-        weight = Compared(Quantity.GROUND, "bench", "N", ("weight",), time, Aspect.BENCHES)
-        pairs.append((weight, [[motion.BENCH_LOAD]]))
-    gravity = tuple(f"gravity[{i}]" for i in (1, 2, 3))
-    bench = Compared(Quantity.GRAVITY, "bench", "m/s²", gravity, time, Aspect.BENCHES)
-    pairs.append((bench, [(0.0, 0.0, -motion.BENCH_GRAVITY)]))
     table = quantities.table(pairs, [0.0])
     values = [value for compared, _ in pairs for value in compared.values]
     pushed = [float(effort) for effort in efforts]
@@ -177,10 +159,7 @@ def _simplified(subject: Subject, options: Options) -> Iterator[str]:
 def _not_compared(subject: Subject) -> Iterator[str]:
     """Yield the parts that are not compared."""
     options, axes = subject.options, len(subject.axes)
-    in_loops = [joint.name for joint in subject.axes if subject.is_in_loop(joint)]
-    if in_loops:
-        yield f"the limits of joints in loops beyond the motion of {', '.join(in_loops)}"
-    yield "the motion of Run, and models around the robot (they are only compiled)"
+    yield "warnings at limits, contacts, motors, and the motion of Run and Test (they are only compiled)"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes: a compiler would need too much memory"
     if "record" in options.approach and subject.tree.loops:
@@ -188,7 +167,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     elif "record" in options.approach and obstacles(subject.tree.joints):
         yield "the record, which has no tables for robots with ball joints"
     elif "record" in options.approach:
-        yield "warnings, sensors, shapes, contacts and `frame_b` of the generic robot"
+        yield "sensors, shapes and `frame_b` of the generic robot"
 
 
 def _robot(reading: RobotReading) -> Robot:

@@ -21,8 +21,6 @@ from urdfsync.urdf.robot import MOTIONS, Joint, Vector
 GRAVITY = 9.81
 """In m/s², along -z of the world."""
 
-ENDLESS = 1e300
-"""A larger limit counts as no limit: results would be infinite."""
 _FARTHEST = 10.0  # m or rad; wider limits do not show where a joint works, and cost digits
 
 
@@ -46,11 +44,7 @@ class Course(NamedTuple):
 
 
 class Instant(enum.IntEnum):
-    """The instants, in s.
-
-    Instants up to `TURNED` are compared with Pinocchio. The next six instants check limits, the last four the force of
-    the ground.
-    """
+    """The instants of the comparison, in s."""
 
     START = 0
     """At rest under gravity, as at the beginning of Run and Test, but with accelerations."""
@@ -61,43 +55,9 @@ class Instant(enum.IntEnum):
     FAST = 3
     TURNED = 4
     """Fast in the other direction."""
-    BELOW = 5
-    """Just below the lower end of the range, just too fast, and speeding up just too much."""
-    LOW = 6
-    """Just within the range, and just slow enough."""
-    HIGH = 7
-    ABOVE = 8
-    """Just above the upper end of the range, and slowing down just too much."""
-    STRAINED = 9
-    """The effort is just above its limit, in the negative direction: this shows a lost sign."""
-    LOADED = 10
-    """The effort is just below its limit, in the positive direction."""
-    STANDING = 11
-    """The robot stands on the ground, if one of its shapes can touch the ground."""
-    SLIDING = 12
-    SINKING = 13
-    RISING = 14
 
 
-COMPARED = tuple(map(float, list(Instant)[: Instant.TURNED + 1]))
-"""At these instants, all quantities are compared."""
-JUST = 1e-3
-"""Distance of a value from its limit, as a fraction of the limit."""
-LOADS = {Instant.STRAINED: -1 - JUST, Instant.LOADED: 1 - JUST}
-"""The effort on each axis at these instants, as a fraction of its limit."""
-PERIOD = 10.0
-"""In s: duration of the motion of Test, there and back."""
-GROUND_DEPTH = 1e3
-"""In m: depth of the ground, beyond the reach of any robot, but small enough to keep digits."""
-ON_GROUND: Mapping[Instant, Vector] = {
-    Instant.STANDING: (0.0, 0.0, 0.0),
-    Instant.SLIDING: (0.003, -0.002, 0.0),
-    Instant.SINKING: (0.0, 0.0, -0.005),
-    Instant.RISING: (0.0, 0.0, 1.0),
-}
-"""Velocity of a standing robot's base at each instant. It slides so slowly that the slip speed has an effect."""
-TILT = 1e-3
-"""In rad: angle of the base while the robot sinks. With an angle, the forms of shapes have an effect."""
+COMPARED = tuple(map(float, Instant))
 _SWINGS = {
     Instant.START: (0.0, 0.0, 0.0),
     Instant.SLOW: (0.5, 2e-3, 0.7),
@@ -121,11 +81,11 @@ def ways(courses: Sequence[Course]) -> list[tuple[float, ...]]:
     return [course.way_to(goal) for course, goal in itertools.pairwise([*courses, courses[-1].ahead(1.0)])]
 
 
-def _swinging(start: float, swing: float, shift: float) -> list[Course]:
-    """Return the courses of a coordinate at the instants up to `TURNED`."""
+def _swinging(start: float, swing: float, shift: float) -> tuple[Course, ...]:
+    """Return the courses of a coordinate at the instants."""
     rows = (zip(_SWINGS[instant], _SHIFTS[instant], strict=True) for instant in _SWINGS)
     courses = ([swing * a + shift * b for a, b in row] for row in rows)
-    return [Course(start + position, speed, gain) for position, speed, gain in courses]
+    return tuple(Course(start + position, speed, gain) for position, speed, gain in courses)
 
 
 PATH = (Course(0.4, -0.6, 1.1), Course(-0.3, 0.8, -0.7), Course(0.9, 0.5, 1.6))
@@ -143,8 +103,6 @@ FREE_START: Mapping[str, Vector] = {
     "w_start": (0.7, -1.1, 0.6),
 }
 """The start of a free base, resolved in the world. All angles differ, so that a wrong order shows."""
-BENCH_LOAD = 500.0
-"""In N: weight for which the ground of a bench is designed."""
 BENCH_GRAVITY = 9.80665
 """Gravity of the standard library's world, as in Run and Test."""
 
@@ -168,48 +126,15 @@ def axis_course(joint: Joint) -> Course:
     return Course(position, signed(0.25, 0.5), signed(0.5, 1.0))
 
 
-def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = {}) -> tuple[Course, ...]:
-    """Return the courses of a driven axis from its `start`; `strains` are its accelerations under load."""
-    course, (lower, upper) = axis_course(joint), own_range(joint)
-    middle, reach = (lower + upper) / 2, (upper - lower) / 2
-    if not reach < ENDLESS:
-        middle, reach = start, 0.5
-    speed = joint.limit.velocity if joint.limit and joint.limit.velocity is not None else math.inf
-    speed = speed if speed < ENDLESS else abs(course.speed)
-    courses = _swinging(start, course.speed, course.acceleration / 2)
-    up, down = (gain if gain < ENDLESS else 0.0 for gain in greatest_gains(joint))
-    for side, just, gain in ((-1, JUST, up), (-1, -JUST, up), (1, -JUST, down), (1, JUST, down)):
-        courses.append(Course(middle + side * reach * (1 + just), side * speed * (1 + just), -gain * (1 + just)))
-    courses += [Course(middle, 0.0, strains.get(instant, 0.0)) for instant in LOADS]
-    return (*courses, *(Course(start, 0.0, 0.0) for _ in ON_GROUND))
-
-
-def greatest_gains(joint: Joint) -> tuple[float, float]:
-    """Return the limits of a joint's acceleration and deceleration."""
-    up = joint.limit.acceleration if joint.limit and joint.limit.acceleration is not None else math.inf
-    return up, joint.limit.deceleration if joint.limit and joint.limit.deceleration is not None else up
-
-
-def loop_courses(joint: Joint, start: float, share: float) -> tuple[Course, ...]:
-    """Return the courses of an axis in a loop: a `share` of the usual motion, within all limits."""
+def axis_courses(joint: Joint, start: float, share: float = 1.0) -> tuple[Course, ...]:
+    """Return the courses of a driven axis from its `start`, with a `share` of the usual motion."""
     course = axis_course(joint)
-    moving = _swinging(start, share * course.speed, share * course.acceleration / 2)
-    return (*moving, *(Course(start, 0.0, 0.0) for _ in range(len(Instant) - len(moving))))
+    return _swinging(start, share * course.speed, share * course.acceleration / 2)
 
 
-def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]:
-    """Return the courses of the base's x, y, z and angle.
-
-    The base rests while joints are at their limits. `depth` is the depth of the standing robot in the ground.
-    """
-    every = list[tuple[Course, ...]]()
-    for k, course in enumerate((*PATH, TURN)):
-        moving, place = _swinging(*course), -GROUND_DEPTH - depth if k == 2 else 0.0
-        resting = [Course(course.position, 0.0, 0.0) for _ in range(len(Instant) - len(moving) - len(ON_GROUND))]
-        places = [TILT * (k == 3 and at is Instant.SINKING) + place for at in ON_GROUND]
-        standing = [Course(p, (*v, 0.0)[k], 0.0) for p, v in zip(places, ON_GROUND.values(), strict=True)]
-        every.append((*moving, *resting, *standing))
-    return tuple(every)
+def base_courses() -> tuple[tuple[Course, ...], ...]:
+    """Return the courses of the base's x, y, z and angle."""
+    return tuple(_swinging(*course) for course in (*PATH, TURN))
 
 
 def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:

@@ -6,7 +6,7 @@ The text uses only `m` and the variables below, so that it also works with edite
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -15,12 +15,11 @@ from urdfsync.domain import Target
 from urdfsync.domain.experiment import Probe
 from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
-from urdfsync.urdf.model.loop import loop_reaches
 from urdfsync.urdf.options import USES
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Origin
 
 _FAR_GROUND = -1e9  # in m: so deep that nothing touches the ground
 _PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
@@ -105,22 +104,13 @@ def moving_probe(
     subject: Subject,
     names: RobotVariables,
     values: Iterable[str],
-    optional: Iterable[str],
     step: float,
 ) -> Probe:
-    """Return a model in which base and axes of the robot move through all instants.
-
-    If the robot can stand, the ground is below its last position. `step` is the interval of the results, in s.
-    """
-    target, options = subject.target, subject.options
+    """Return a model in which base and axes move through all instants; `step` is the interval of results, in s."""
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
     declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
-    if options.base == "floating":
-        height = repr(_FAR_GROUND)
-        if subject.stand and names.is_package:
-            declarations.append(f"parameter {target.package}.{target.name}Stance stance")
-            height = f"{-motion.GROUND_DEPTH!r} - stance.height, load = robot.m*world.g"
-        declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {height})")
+    if subject.options.base == "floating":
+        declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {_FAR_GROUND!r})")
     declaration = f"{names.declaration}fixedStart = false)"
     if subject.balls:
         declaration = "Driven_ robot(animation = false, fixedStart = false)"
@@ -132,17 +122,6 @@ def moving_probe(
         drive = MOTION_KINDS[joint.type].capitalize()
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
-    for k, (joint, *_) in enumerate(subject.sweeps, 1):
-        limits = list(_range(subject, joint, names.joints))
-        declarations.append(f"Real range{k}[{len(limits)}] = {{{', '.join(limits)}}}")
-    if names.is_package:
-        for k, (name, torque) in enumerate(subject.motor_torques.items(), 1):
-            declarations.append(
-                f"Modelica.Mechanics.Rotational.Sources.ConstantTorque motor{k}(tau_constant = {torque!r})"
-            )
-            connections.append(f"motor{k}.flange, robot.{subject.connectors.drives[name].motor}")
-    else:
-        declarations += _sweeps_of_record(subject)
     for k, loop in enumerate(subject.tree.loops, 1):
         ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
         parent, child = (_place(f"robot.{subject.tree.link(link).component}", origin) for link, origin in ends)
@@ -152,66 +131,11 @@ def moving_probe(
     base = zip(("x", "y", "z", "turn"), subject.base, strict=True)
     tables = ", ".join(f"{name} = {matrix(motion.ways(courses), 6)}" for name, courses in base)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
-    source = text(target, "", declarations, connections, _driven_balls(subject))
+    source = text(subject.target, "", declarations, connections, _driven_balls(subject))
     last = float(max(motion.Instant))
     # integration closes loops: its error, times the square of its decay rate, adds to the accelerations
     tolerance = 3e-12 if subject.tree.loops else None
-    return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
-
-
-def sweeping_probe(subject: Subject, values: Iterable[str]) -> Probe:
-    """Return a model of drives as in Test, each connected only to a weight and a housing.
-
-    The drives get expected numbers, which `moving_probe` compares with those of the robot. Together with the robot, the
-    drives would double a compiler's time.
-    """
-    declarations, connections = list[str](), list[str]()
-    for k, (joint, way) in enumerate(subject.sweeps, 1):
-        kind = MOTION_KINDS[joint.type]
-        q, v, effort = ("phi", "w", "tau") if kind == "rotational" else ("s", "v", "f")
-        numbers = zip((f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max", "reach"), way.numbers, strict=False)
-        modifiers = [f"{name} = {number!r}" for name, number in numbers if abs(number) < motion.ENDLESS]
-        modifiers += (f"{q}(fixed = true)", f"{v}(fixed = true)")
-        components = f"Modelica.Mechanics.{kind.capitalize()}.Components"
-        declarations += (
-            f"UrdfSync.Drives.{kind.capitalize()}Sweep sweep{k}({', '.join(modifiers)})",
-            f"{components}.Fixed housing{k}",
-            f"{components}.Inertia weight{k}(J = 1)" if q == "phi" else f"{components}.Mass weight{k}(m = 1)",
-            f"Real balance{k} = sweep{k}.flange.{effort} + sweep{k}.support.{effort}",
-        )
-        connections += (f"sweep{k}.support, housing{k}.flange", f"sweep{k}.flange, weight{k}.flange_a")
-    source = text(subject.target, "", declarations, connections)
-    return Probe(source, "Probe_.Probe", motion.PERIOD, motion.PERIOD / 2, tuple(values))
-
-
-def _range(subject: Subject, joint: Joint, components: Mapping[str, str]) -> Iterator[str]:
-    """Yield start, range and greatest speed of an axis of the robot; for an axis in loops, also its reach in Test."""
-    q, v = ("phi", "w") if MOTION_KINDS[joint.type] == "rotational" else ("s", "v")
-    own = components.get(joint.name)
-    for name in (f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max"):
-        yield f"{own}.{name}" if own else f"robot.{name}[{_number(subject, joint)}]"
-    if own and (reach := loop_reaches(subject.closed).get(joint.name)):
-        yield f"robot.startPositions.{reach['parameter']}"
-
-
-def _sweeps_of_record(subject: Subject) -> Iterator[str]:
-    """Yield the sweeps of the axes in the bench of the generic robot."""
-    for kind in MOTIONS:
-        if axes := subject.tree.axes(kind):
-            q, v, reach = ("phi", "w", 1) if kind == "rotational" else ("s", "v", 0.1)
-            starts = vector([subject.starts[joint.name] for joint in axes])
-            limits = f"lower = robot.{q}_min, upper = robot.{q}_max, velocity = robot.{v}_max, reach = {reach}"
-            yield f"UrdfSync.Robots.AxisSweeps {kind}Sweep(n = {len(axes)}, start = {starts}, {limits})"
-
-
-def swept(subject: Subject, joint: Joint) -> str:
-    """Return the position of an axis in the bench of the generic robot."""
-    return f"{MOTION_KINDS[joint.type]}Sweep.y[{_number(subject, joint)}]"
-
-
-def _number(subject: Subject, joint: Joint) -> int:
-    """Return the number of an axis of the generic robot."""
-    return [each.name for each in subject.tree.axes(MOTION_KINDS[joint.type])].index(joint.name) + 1
+    return Probe(source, "Probe_.Probe", last, step, tuple(values), tolerance)
 
 
 def _driven_balls(subject: Subject) -> list[str]:
@@ -269,7 +193,7 @@ def free_probe(
     if options.base == "floating":
         connections = ["base.frame_b, robot.frame_a"]
         start = ", ".join(f"{name} = {vector(value)}" for name, value in motion.FREE_START.items() if name != "r_start")
-        start += f", stance(height = {motion.FREE_START['r_start'][2]!r}), load = {motion.BENCH_LOAD!r}"
+        start += f", stance(height = {motion.FREE_START['r_start'][2]!r})"
         ground = f"ground(height = {_FAR_GROUND!r}, animation = false)"
         bench = f"UrdfSync.Robots.PartialMobileBench({start}, world(enableAnimation = false), {ground})"
     for k, (joint, effort) in enumerate(zip(axes, efforts, strict=True), 1):
@@ -285,9 +209,6 @@ def free_probe(
                 f"Real speed{k} = der(push{k}.flange.{'phi' if MOTION_KINDS[joint.type] == 'rotational' else 's'})",
                 f"Real gain{k} = der(speed{k})",
             ]
-    declarations.append("Real gravity[3] = world.g*world.n")
-    if options.base == "floating":
-        declarations.append("Real weight = ground.load")
     source = text(subject.target, bench, declarations, connections)
     return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
 
@@ -301,18 +222,6 @@ def free_course(subject: Subject, number: int) -> Course:
     course = motion.axis_course(joint)
     is_at_start = subject.is_in_loop(joint) or (number % 2 == 0 and joint.type != "ball")
     return course._replace(position=subject.starts[joint.name]) if is_at_start else course
-
-
-def limit_variable(subject: Subject, joint: Joint, ending: str) -> str:
-    """Return the variable of a warning about a joint.
-
-    The robot model checks the effort of a leader, which carries the load of followers, and of joints that share a
-    motor.
-    """
-    component, name = subject.tree.joint(joint.name).component, "warning_getInstanceName"
-    if ending.endswith("effort_limit") and joint.name in subject.checked_by_robot:
-        return f"robot.{name}_{component}_joint_{component}_parameters_name_{ending}"
-    return f"robot.{component}.{name}_joint_parameters_name_{ending}"
 
 
 def _place(link: str, origin: Origin) -> str:

@@ -1,4 +1,4 @@
-"""The compared quantities, each with its expected values from Pinocchio or from the source."""
+"""The compared quantities, each with its expected values from Pinocchio."""
 
 from __future__ import annotations
 
@@ -10,23 +10,16 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.domain.experiment import Aspect, Compared, Quantity
-from urdfsync.urdf.kinematics.poses import own_range
-from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, Instant
 from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
-from urdfsync.urdf.physics.reference import Array, Solution
+from urdfsync.urdf.physics.reference import Solution
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, SENSOR_KINDS, Joint, Output
+from urdfsync.urdf.robot import MOTION_KINDS, SENSOR_KINDS, Output
 from urdfsync.urdf.second.reading import origin, pose
 
 Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 """A quantity, and its expected values at each of its instants."""
-
-SWEEP_TIMES = (0.0, motion.PERIOD / 2, motion.PERIOD)
-"""Times at which motions of Test are compared."""
-_CLEAR = 1e-5
-"""At a greater relative distance, a value clearly passes or keeps a limit: warnings have some slack."""
 
 
 def poses(
@@ -72,8 +65,7 @@ def _efforts(
             unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
             number, value = subject.reference.axes.index(joint.name), (f"{names.flanges[joint.name]}.{effort}",)
             compared = Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, times)
-            by_motors = subject.pushed_by_motors(joint.name) if names.is_package else 0.0
-            yield compared, [[float(each.efforts[number]) - by_motors] for each in solved]
+            yield compared, [[float(each.efforts[number])] for each in solved]
 
 
 def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[Pair]:
@@ -87,66 +79,20 @@ def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[
     yield from poses(subject, names, every, times, Aspect.BODIES)
 
 
-def motors(subject: Subject) -> Iterator[Pair]:
-    """Yield the positions of the motors behind gears."""
-    rows, positions = subject.reference.coordinates(), [subject.states[time].positions for time in COMPARED]
-    for name, drive in subject.connectors.drives.items():
-        if drive.motor:
-            gear = subject.second.joints[name]
-            reduction, offset = (gear.number(f"transmission.{field}") for field in ("reduction", "offset"))
-            other = gear.number("transmission.otherReduction") if gear.shares else 0.0
-            turns = [[reduction * (q[rows[name]] - offset) + other * q[rows[gear.shares or name]]] for q in positions]
-            value = (f"robot.{drive.motor}.phi",)
-            yield Compared(Quantity.POSITION, f"motor of joint {name}", "rad", value, COMPARED, Aspect.LOSSES), turns
-
-
 def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield the gap of each loop, and the force in its joint, if the force is unique."""
-    solved = [subject.solved[float(instant)] for instant in Instant]
+    solved = [subject.solved[time] for time in COMPARED]
     for k, loop in enumerate(subject.tree.loops):
         element, values = f"loop {loop.name}", tuple(f"gap{k + 1}[{i}]" for i in (1, 2, 3))
         reactions = [instant.reactions[k] for instant in solved]
-        times = tuple(map(float, Instant))
-        yield Compared(Quantity.CLOSURE, element, "m", values, times, Aspect.LOOPS), [each.gap for each in reactions]
+        yield Compared(Quantity.CLOSURE, element, "m", values, COMPARED, Aspect.LOOPS), [each.gap for each in reactions]
         if subject.closed.closures[loop.name].weaker:
             subject.unchecked[f"the force in loop {loop.name}, which depends on the omitted equations"] = None
             continue
         for unit, variable in (("N", "f"), ("N·m", "t")):
             values = tuple(f"{names.loops[loop.name]}.{variable}[{i}]" for i in (1, 2, 3))
-            expected = [each.force if unit == "N" else each.torque for each in reactions[: len(COMPARED)]]
+            expected = [each.force if unit == "N" else each.torque for each in reactions]
             yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Aspect.LOOPS), expected
-
-
-def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield start, range and greatest speed of the axes, and the motion of axes in the generic robot's bench."""
-    for k, (joint, way) in enumerate(subject.sweeps, 1):
-        given = way.numbers if names.is_package and joint.name in subject.closed.reach else way.numbers[:4]
-        numbers = {f"range{k}[{i}]": number for i, number in enumerate(given, 1) if abs(number) < motion.ENDLESS}
-        what = f"joint {joint.name}{'' if names.is_package else ' of the generic robot'}"
-        range_ = Compared(Quantity.SWEEP, what, _unit(joint), tuple(numbers), (0.0,), Aspect.BENCHES, "range")
-        yield range_, [numbers.values()]
-        if not names.is_package:
-            swept = Compared(
-                Quantity.SWEEP, what, _unit(joint), (probe.swept(subject, joint),), SWEEP_TIMES, Aspect.BENCHES
-            )
-            yield swept, [[way.numbers[0]], [way.end], [way.numbers[0]]]
-
-
-def sweeps(subject: Subject) -> Iterator[Pair]:
-    """Yield the motion of Test's drives, and the sums of their efforts at axis and housing."""
-    for k, (joint, way) in enumerate(subject.sweeps, 1):
-        what, unit = f"joint {joint.name}", _unit(joint)
-        (q, effort), start = ("phi", "N·m") if unit == "rad" else ("s", "N"), way.numbers[0]
-        swept = Compared(Quantity.SWEEP, what, unit, (f"sweep{k}.{q}",), SWEEP_TIMES, Aspect.BENCHES)
-        yield swept, [[start], [way.end], [start]]
-        yield (
-            Compared(Quantity.EFFORT, what, effort, (f"balance{k}",), SWEEP_TIMES, Aspect.BENCHES, "Test"),
-            [[0.0]] * 3,
-        )
-
-
-def _unit(joint: Joint) -> str:
-    return "rad" if MOTION_KINDS[joint.type] == "rotational" else "m"
 
 
 def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
@@ -176,60 +122,6 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 def _outputs(name: str) -> Iterable[Output]:
     """Return all outputs of a class of the library's `Sensors`; Run may have only some of them."""
     return dict.fromkeys(output for kind in SENSOR_KINDS.values() if kind.name == name for output in kind.outputs)
-
-
-def limits(subject: Subject) -> Iterator[Pair]:
-    """Yield the warnings of each joint at instants with a clear answer: 1 for an expected warning."""
-    coordinates = subject.reference.coordinates()
-    for joint in subject.tree.joints:
-        if joint.type not in MOTION_KINDS:
-            continue
-        row, passed = coordinates[joint.name], dict[str, dict[float, bool]]()
-        lower, upper = own_range(joint)
-        speed = joint.limit.velocity if joint.limit else None
-        effort = joint.limit.effort if joint.limit else None
-        # later, the ground changes the efforts
-        for time, state in list(subject.states.items())[: Instant.STANDING]:
-            q, v = float(state.positions[row]), abs(float(state.v[row]))
-            a, gain = abs(float(state.a[row])), float(state.a[row] * state.v[row])
-            tests = {
-                "is_below_its_lower_position_limit": (lower, q, -1.0),
-                "is_above_its_upper_position_limit": (upper, q, 1.0),
-                "is_faster_than_its_velocity_limit": (math.inf if speed is None else speed, v, 1.0),
-            }
-            up, down = motion.greatest_gains(joint)
-            if min(up, down) < math.inf and abs(gain) > _CLEAR:
-                tests["speeds_up_faster_than_its_acceleration_limit"] = up, a * (gain > 0), 1.0
-                tests["slows_down_faster_than_its_deceleration_limit"] = down, a * (gain < 0), 1.0
-            if joint.name in subject.reference.axes:
-                load = abs(float(subject.solved[time].efforts[subject.reference.axes.index(joint.name)]))
-                tests["is_driven_above_its_effort_limit"] = (math.inf if effort is None else effort, load, 1.0)
-            for ending, (limit, value, sign) in tests.items():
-                if "position" in ending and not JOINT_KINDS[joint.type].has_limits:
-                    continue
-                excess = sign * (value - limit)
-                if not abs(excess) < _CLEAR * max(1.0, abs(limit) if math.isfinite(limit) else 1.0):
-                    passed.setdefault(ending, {})[time] = excess > 0
-        for ending, flags in passed.items():
-            variable = probe.limit_variable(subject, joint, ending)
-            detail = ending.replace("_", " ")
-            compared = Compared(
-                Quantity.WARNING, f"joint {joint.name}", "", (variable,), tuple(flags), Aspect.LIMITS, detail
-            )
-            yield compared, [[float(flag)] for flag in flags.values()]
-
-
-def ground(subject: Subject) -> Iterator[Pair]:
-    """Yield the part of the force and torque on a standing robot that the ground does not carry."""
-    if subject.stand is None:
-        return
-    times, rows, root = tuple(map(float, motion.ON_GROUND)), list[Array](), subject.tree.links[0].name
-    for time, (*slide, rise) in zip(times, motion.ON_GROUND.values(), strict=True):
-        held = subject.solved[time]
-        rows.append(subject.stand.wrench(rise, slide, held.frame(root)[1]) - [*held.force, *held.torque])
-    for unit, values, part in (("N", FORCE, slice(0, 3)), ("N·m", TORQUE, slice(3, 6))):
-        compared = Compared(Quantity.GROUND, "robot", unit, values, times, Aspect.CONTACTS)
-        yield compared, [row[part] for row in rows]
 
 
 def table(pairs: Iterable[Pair], times: Sequence[float]) -> tuple[tuple[Compared, ...], dict[str, tuple[float, ...]]]:

@@ -221,11 +221,6 @@ class Reference:
         """Return the velocity coordinate of each moving joint."""
         return {name: joint.idx_v for name, joint in zip(self.model.names, self.model.joints, strict=True)}
 
-    def effort_gains(self, state: Configuration, efforts: Array, columns: Sequence[int]) -> Array:
-        """Return the accelerations that additional efforts add to some axes; other axes keep their accelerations."""
-        ways = state.ways[:, columns]
-        return self._solved(ways.T @ self._mass(state.q) @ ways, efforts)
-
     def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> tuple[Array, float] | None:
         """Return the accelerations of all coordinates; None if the efforts of the axes do not determine these.
 

@@ -5,7 +5,7 @@ The first reading has them in a `Robot`, the second one in elements. If one has 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from urdfsync.urdf.drives import wanted_joints
@@ -35,7 +35,8 @@ def first_attributes(robot: Robot, options: Options) -> Iterator[tuple[tuple[str
         }
         yield ("joint", joint.name), attributes
     for loop in robot.loops:
-        yield ("loop", loop.name), {"parent": loop.parent, "child": loop.child, "kind": loop.kind}
+        directions = {"axis": _direction(loop.axis), "childAxis": _direction(loop.child_axis)}
+        yield ("loop", loop.name), {"parent": loop.parent, "child": loop.child, "kind": loop.kind, **directions}
     for sensor in robot.sensors:
         axes = _axes(in_parent=sensor.in_parent, on_child=sensor.on_child)
         yield ("sensor", sensor.name), {"at": sensor.at, "kind": sensor.kind, "axes": axes}
@@ -57,7 +58,10 @@ def second_attributes(kind: str, element: SecondElement) -> Attributes:
                 attributes["start"] = _number(element.number("start") if "start" in element.values else None)
             return attributes
         case "loop":
-            return {"parent": element.parent, "child": element.child, "kind": element.type}
+            attributes = {"parent": element.parent, "child": element.child, "kind": element.type}
+            count = {"revolute": 1, "universal": 2}.get(element.type, 0)  # other kinds have no axis
+            directions = zip(("axis", "childAxis"), element.axes[:count], strict=False)
+            return attributes | {name: _direction(axis) for name, axis in directions if axis is not None}
         case "sensor":
             in_parent, on_child = element.axes
             axes = _axes(in_parent=in_parent, on_child=on_child)
@@ -67,6 +71,10 @@ def second_attributes(kind: str, element: SecondElement) -> Attributes:
 
 def _number(number: float | None) -> str:
     return "" if number is None else repr(number + 0.0)  # 1 is 1.0, and -0.0 is 0.0
+
+
+def _direction(axis: Sequence[float]) -> str:
+    return " ".join(f"{round(part, 6) + 0.0:.6f}" for part in axis)
 
 
 def _axes(*, in_parent: bool, on_child: bool) -> str:

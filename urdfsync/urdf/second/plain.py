@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import copy
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from lxml import etree
 
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.second.companions import PATHS, Companions
+from urdfsync.urdf.second.companions import PATHS, CatalogueNumbers, Companions
 
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
 """Elements whose text SDFormat uses instead of an attribute."""
@@ -57,6 +57,18 @@ def plain_root(content: bytes, joints: Collection[str] | None = None, companions
     `joints` are the names of joints in the first reading. A ball joint without such a name becomes a chain of hinges.
     """
     root = _parse(content)
+    _replace_joints_of_several_axes(root, joints, companions.axes)
+    elements = [element for top in root if top.tag in ("link", "joint") for element in top.iter()]
+    for element in elements:
+        _write_pose_as_origin(element)
+        _write_texts_as_attributes(element)
+    _write_springs_of_gazebo(root)
+    _write_rows(root, companions.rows)
+    return root
+
+
+def _replace_joints_of_several_axes(root: Any, names: Collection[str] | None, axes: Mapping[str, str]) -> None:
+    """Replace universal joints, joints with several `axes` by the YAML, and ball joints without a name in `names`."""
     for joint in [part for part in root if part.tag in ("joint", "drake:joint")]:
         name, kind = joint.get("name", ""), joint.get("type")
         if joint.tag == "drake:joint" and kind in ("ball", "planar", "universal"):
@@ -65,26 +77,40 @@ def plain_root(content: bytes, joints: Collection[str] | None = None, companions
                 _make_chain(root, joint, "xy", has_damping=True)
         if kind in ("spherical", "ball"):
             joint.set("type", "ball")
-            if joints is not None and name not in joints:
+            if names is not None and name not in names:
                 _make_chain(root, joint, "xyz", has_damping=True)
-        if name in companions.axes:
-            _make_chain(root, joint, companions.axes[name], has_damping=False)
-    for element in [part for top in root if top.tag in ("link", "joint") for part in top.iter()]:
-        for part in element.xpath("axis/limit | axis/dynamics"):
-            if element.find(part.tag) is None:
-                element.append(part)
-        place = next((part for part in element if part.tag in ("origin", "pose")), None)
-        numbers = "" if place is None or place.attrib else (place.text or "").split()
-        if place is not None and len(numbers) == 6:
-            place.tag = "origin"
-            place.attrib.update({"xyz": " ".join(numbers[:3]), "rpy": " ".join(numbers[3:])})
-        parts = element if element.tag in _HOLDERS else ()
-        texts = {part.tag: part.text for part in parts if not part.attrib and not len(part)}
-        if element.tag in _ALONE and not element.attrib:
-            texts = texts or {_ALONE[element.tag]: element.text}
-        for name, text in texts.items():
-            if name not in element.attrib and (text or "").strip():
-                element.set(name, text.strip())
+        if name in axes:
+            _make_chain(root, joint, axes[name], has_damping=False)
+
+
+def _write_pose_as_origin(element: Any) -> None:
+    """Write a pose of six numbers as the attributes of an origin."""
+    place = next((part for part in element if part.tag in ("origin", "pose")), None)
+    numbers = "" if place is None or place.attrib else (place.text or "").split()
+    if place is not None and len(numbers) == 6:
+        place.tag = "origin"
+        place.attrib.update({"xyz": " ".join(numbers[:3]), "rpy": " ".join(numbers[3:])})
+
+
+def _write_texts_as_attributes(element: Any) -> None:
+    """Write the text of an element, or of the elements in it, as attributes. Existing attributes stay.
+
+    SDFormat has limits and losses in `<axis>`; they move to the joint.
+    """
+    for part in element.xpath("axis/limit | axis/dynamics"):
+        if element.find(part.tag) is None:
+            element.append(part)
+    parts = element if element.tag in _HOLDERS else ()
+    texts = {part.tag: part.text for part in parts if not part.attrib and not len(part)}
+    if element.tag in _ALONE and not element.attrib:
+        texts = texts or {_ALONE[element.tag]: element.text}
+    for name, text in texts.items():
+        if name not in element.attrib and (text or "").strip():
+            element.set(name, text.strip())
+
+
+def _write_springs_of_gazebo(root: Any) -> None:
+    """Write the springs of joints in `<gazebo>` as attributes of `<dynamics>`."""
     for number in root.xpath("gazebo/springStiffness | gazebo/springReference"):
         field = f"spring_{number.tag.removeprefix('spring').lower()}"
         for joint in root.xpath("joint[@name=$name]", name=number.getparent().get("reference", "")):
@@ -93,13 +119,16 @@ def plain_root(content: bytes, joints: Collection[str] | None = None, companions
                 part.sourceline = joint.sourceline
             if field not in part.attrib:
                 part.set(field, (number.get("value") or number.text or "").strip())
-    for name, row in companions.rows.items():
+
+
+def _write_rows(root: Any, rows: Mapping[str, CatalogueNumbers]) -> None:
+    """Write the numbers of the catalogue as attributes of joints, except the numbers of gears."""
+    for name, row in rows.items():
         for number, size in row.numbers.items():
             tag = PATHS[number].partition(".")[0].replace("limits", "limit")
             for joint in root.xpath("joint[@name=$name]", name=name) if tag != "transmission" else ():
                 part = joint.find(tag)
                 (etree.SubElement(joint, tag) if part is None else part).set(number, repr(size))
-    return root
 
 
 def decimal(text: str) -> float:

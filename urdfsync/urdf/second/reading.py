@@ -97,12 +97,6 @@ class SecondElement(msgspec.Struct):
     """Whether the source or the configuration names the joint as driven."""
     is_measured: bool = False
     """Whether the source only measures the joint."""
-    friction: str = ""
-    """The friction law of the joint; empty without losses."""
-    is_elastic: bool = False
-    """Whether a spring is between drive and joint."""
-    is_saturated: bool = False
-    """Whether the drive keeps the limits of the joint."""
     in_loop: bool = False
     has_limit: bool = False
     shares: str = ""
@@ -358,13 +352,6 @@ def _joints(
             joint.command = ""
         joint.is_named = (
             joint.name in chosen if chosen is not None else joint.is_named or joint.name in options.commands
-        )
-        law = options.friction if isinstance(options.friction, str) else options.friction.get(joint.name, "smooth")
-        if "dynamics.damping" in joint.values:
-            joint.friction = "smooth" if joint.leader else law
-        joint.is_elastic, joint.is_saturated = (
-            bool(joint.command) and (names == "all" or (not isinstance(names, str) and joint.name in names))
-            for names in (options.elastic, options.saturated)
         )
         if joint.shares and not {joint.name, joint.shares} <= turning:
             joint.shares = ""
