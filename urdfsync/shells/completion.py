@@ -7,6 +7,7 @@ empty. Names with special characters of shells are left out: a stranger may have
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 
@@ -87,7 +88,8 @@ def _joints(words: list[str]) -> list[str]:
             if size > _LARGEST_STATES:
                 break
             texts.append(read_unrecorded(path).decode())
-    except (OSError, ValueError):
+        lines = (line for text in texts for line in text.splitlines() if line.startswith("{"))
+        names = [str(name) for line in lines for name in json.loads(line)["snapshot"]["joints"]]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return []
-    names = (line.partition('"')[0] for text in texts for line in text.split('["joints","')[1:])
     return [name for name in names if name.isidentifier() and name.isascii()]
