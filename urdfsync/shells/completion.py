@@ -7,7 +7,6 @@ empty. Names with special characters of shells are left out: a stranger may have
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 
@@ -78,6 +77,8 @@ def _robots(words: list[str]) -> list[str]:
 
 def _joints(words: list[str]) -> list[str]:
     """Return the joints of the last build whose names are component names: of the robots on the line, else of all."""
+    import json  # takes 3 ms: other completions need no state
+
     folder = os.path.join(os.path.dirname(noop.find_config(words) or ""), _STATE)
     try:
         states = sorted(os.listdir(folder))
