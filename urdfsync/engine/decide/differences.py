@@ -232,7 +232,7 @@ def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
                 continue
             there = files.stamp(target)
             is_there = there is not None and there.id == file_id and there.base != files.hash(target, Role.MODEL)
-            is_edited = files.hash(key, Role.MODEL) != stamp.base
+            is_edited = files.hash(key, Role.MODEL) != stamp.base and not files.is_chosen(key)
             if is_there or (is_edited and not is_in_place(last.base(stamp.base), last.target, folder.path(key))):
                 continue  # the class is the user's own: a copy, or with another name
             place = as_file(key)  # if the class is a folder, the file that it was
