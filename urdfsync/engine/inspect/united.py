@@ -100,11 +100,11 @@ def _sides(base: str | None, ours: str, theirs: str) -> Sides:
     return Sides(None if base is None else base_text, our_text, their_text, (base_stamp, our_stamp, their_stamp))
 
 
-def _merge_edits(last: LastBuild, sides: Sides) -> _Meant | Merge | None:
+def _merge_edits(last: LastBuild, sides: Sides) -> _Meant | Merge:
     """Merge two versions by their elements; if that fails, merge their edits into our generated text.
 
     The second way ignores differences between exports: these are no contradictions between people, and the build merges
-    them next. Returns None if neither the common ancestor nor both generated texts are known.
+    them next.
     """
     from urdfsync.merge.texts import merge, merge_branches  # imports the parser
 
@@ -117,8 +117,8 @@ def _merge_edits(last: LastBuild, sides: Sides) -> _Meant | Merge | None:
     if our_base is not None and their_base is not None:
         moved = merge(their_base, sides.theirs, our_base, is_modelica=True).text
         merges += [(merge_branches(our_base, sides.ours, moved), ours)] if moved is not None else []
-    if not merges:
-        return None
+    if not merges:  # both branches added the file
+        merges.append((merge_branches("", sides.ours, sides.theirs), ours))
     best, stamp = min(merges, key=lambda one: len(one[0].contradictions))
     return best if best.text is None else _Meant(best.text, stamp)
 
