@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -62,6 +62,8 @@ def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
         is_edited = isinstance(on_disk, str) and on_disk not in (text, last.base_of(key, role))
         found = _find_meant_text(inputs, key) if is_edited or key in inputs.unmerged else None
         if isinstance(found, _Meant):
+            contents |= found.elsewhere
+            left |= dict.fromkeys(found.elsewhere)
             if (text_hash(found.text), found.stamp) == (files.hash(key, role), files.stamp(key)):
                 continue  # the file has the meant text already, and only `git add` is missing
             contents[key], left[key] = with_stamp(encode(found.text), found.stamp), None
@@ -76,6 +78,8 @@ class _Meant(NamedTuple):
     text: str
     stamp: Stamp | None
     """The stamp with the base of this text."""
+    elsewhere: Mapping[str, bytes] = {}
+    """The edited version of another part, whose name this file had, by the key of that part's file."""
 
 
 def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
@@ -84,14 +88,27 @@ def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
     staged, text = _read_staged(inputs.files.path(key)) if key in inputs.unmerged else None, split(content)[0]
     if markers.find_markers(content):
         if staged and _is_untouched(text, staged):
-            is_edited = not _are_generated(last, staged[1:3])
-            return _merge_edits(last, staged) if is_edited else _Meant(staged.ours, staged.stamps[1])
+            if _are_generated(last, staged[1:3]):
+                return _Meant(staged.ours, staged.stamps[1])
+            return _take_apart(inputs, staged) or _merge_edits(last, staged)
         (ours, stamp), (theirs, _) = (split(side) for side in markers.read_sides(content))
         return _Meant(ours, stamp) if _are_generated(last, (ours, theirs)) else None  # no edit is lost
     if staged is None or text not in staged[1:3] or _is_chosen(inputs, key, text, staged):
         return None
     other = staged.theirs if text == staged.ours else staged.ours
     return _Meant(text, split(content)[1]) if _are_generated(last, [other]) else _merge_edits(last, staged)
+
+
+def _take_apart(inputs: Inputs, sides: Sides) -> _Meant | None:
+    """Return the unedited version, and the edited one for its own file, if they are of different parts; else None."""
+    versions = [(sides.ours, sides.stamps[1]), (sides.theirs, sides.stamps[2])]
+    (text, stamp), (edited, other) = sorted(versions, key=lambda one: not _are_generated(inputs.last, one[:1]))
+    if stamp is None or other is None or stamp.id == other.id or not _are_generated(inputs.last, [text]):
+        return None
+    for key, there in inputs.files.stamps(inputs.folder).items():
+        if there.id == other.id and there.base == inputs.files.hash(key, Role.MODEL):
+            return _Meant(text, stamp, {key: with_stamp(encode(edited), other)})
+    return None
 
 
 def _sides(base: str | None, ours: str, theirs: str) -> Sides:
