@@ -280,6 +280,8 @@ class Search:
                 if math.isclose(factor, math.radians(1), rel_tol=1e-6):
                     return f"it is in degrees in {at}"
                 return f"it is computed from the number in {at}"
+        if any(b"\0" in content for content in self._contents.values()):
+            return "a workbook is no text: change its cell"
         line = "{}:{}".format(*self.before.places[owner]) if (owner := self._owner(value)) in self.before.places else ""
         return f"no number of the source{line and f' ({line})'} is this one: it is computed, or a default"
 
