@@ -43,9 +43,9 @@ class PastCommit(msgspec.Struct, frozen=True):
 
 def read_commits(root: Path, files: PackageFiles) -> Iterator[PastCommit]:
     """Yield the commits that an edit may have been picked from: of branches, and those that were checked out last."""
-    if (top := git.find_top(root)) is None:
+    if git.find_top(root) is None:
         return
-    reads.depend_on_commits(top)
+    reads.cannot_record()  # branches come and go without a change of a file
     try:
         repository = open_repository(root)
     except SourceError:  # the repository can't be read: for example, it belongs to another user
