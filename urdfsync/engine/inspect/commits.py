@@ -32,13 +32,12 @@ class PastCommit(msgspec.Struct, frozen=True):
 
     def texts(self, keys: Iterable[str]) -> dict[str, tuple[str, Stamp | None]]:
         """Return the bare texts and the stamps of files of the package, by key."""
-        paths = {key: self._files.path(key) for key in keys}
         try:
-            contents = dict(self._revision.contents([*paths.values()]))
+            found = {key: self._revision.find(str(self._files.path(key))) for key in keys}
         except SourceError:
             return {}
-        found = {key: contents[path] for key, path in paths.items() if path in contents}
-        return {key: split(plain(content.decode(errors="replace"))) for key, content in found.items()}
+        contents = {key: content for key, content in found.items() if isinstance(content, bytes)}
+        return {key: split(plain(content.decode(errors="replace"))) for key, content in contents.items()}
 
 
 def read_commits(root: Path, files: PackageFiles) -> Iterator[PastCommit]:
