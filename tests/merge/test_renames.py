@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from urdfsync.merge import merge
-from urdfsync.merge.renames import rename, without_clashes
+from urdfsync.merge.renames import find_uses_of, rename, without_clashes
 
 BASE = """\
 model Arm
@@ -90,3 +90,24 @@ def test_a_component_that_the_user_renamed_takes_what_the_export_changes(
     texts = (f"model A\n  {text}\nequation\n  c = 1;\nend A;\n" for text in (base, mine, generated))
     expected = None if merged is None else f"model A\n  {merged}\nequation\n  c = 1;\nend A;\n"
     assert merge(*texts, is_modelica=True).text == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "renamed"),
+    [
+        ("Arm arm(upper(mass = 1))", "Arm arm(big(mass = 1))"),
+        ("Plant.Arm arm[2](each upper(mass = 1))", "Plant.Arm arm[2](each big(mass = 1))"),
+        ("Arm[2] arms(final upper = 1)", "Arm[2] arms(final big = 1)"),
+        ("extends Plant.Arm(upper(mass = 1))", "extends Plant.Arm(big(mass = 1))"),
+        ("extends Scene(redeclare Arm arm(upper(mass = 1)))", "extends Scene(redeclare Arm arm(big(mass = 1)))"),
+        ("Arm arm(elbow(limits(upper = 1)))", None),
+        ("extends UrdfSync.Records.Revolute(limits(lower = 0, upper = 1), upper = 2)", None),
+        ("Modelica.Blocks.Sources.Constant constant(upper = 1)", None),
+        ("parameters = Parameters(upper = 1)", None),
+        ("equation\n  y = f(upper = 1)", None),
+    ],
+)
+def test_only_elements_of_a_robot_are_renamed_in_modifiers(text: str, renamed: str | None) -> None:
+    """Limits have an `upper`, and inertias a `mass`, whatever links are called."""
+    assert rename(text, text, {"upper": "big"}) == ((renamed or text,) * 2)
+    assert [*find_uses_of(text, {"upper": "big"})] == ([("upper", text.index("upper"))] if renamed else [])

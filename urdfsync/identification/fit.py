@@ -36,7 +36,7 @@ _TENSOR = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 """Rows and columns of the numbers of a tensor, in the order of `NUMBERS`."""
 _ROUNDS = 3
 """Each round of the fit weighs the joints by the residuals of the round before."""
-_SURE = 3.0
+SURE = 3.0
 """A change of so many standard errors is sure."""
 _SPREAD = 0.35
 """Of a number's natural size: so far may the source be wrong."""
@@ -297,7 +297,7 @@ def sure_places(problem: LeastSquares, result: Fit) -> list[int]:
     places = [int(place) for place in np.flatnonzero(result.is_fitted) if place < problem.count]
     while places:
         surenesses = np.abs(changes[places]) / np.sqrt(covariance[places, places])
-        if surenesses.min() >= _SURE:
+        if surenesses.min() >= SURE:
             break
         place = places.pop(int(surenesses.argmin()))
         effect = covariance[:, place] / covariance[place, place]

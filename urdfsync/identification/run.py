@@ -16,7 +16,7 @@ from urdfsync.domain.regressor import NUMBERS, QUANTITIES, Array, MovingLink, Re
 from urdfsync.engine.options import Progress
 from urdfsync.files import shown
 from urdfsync.identification import signals
-from urdfsync.identification.fit import Evidence, Fit, LeastSquares, fit, is_body, sure_places
+from urdfsync.identification.fit import SURE, Evidence, Fit, LeastSquares, fit, is_body, sure_places
 from urdfsync.identification.gains import VISIBLE, find_gains
 from urdfsync.identification.log import Log
 from urdfsync.identification.records import Records, read_records
@@ -173,7 +173,7 @@ def identify(
     doubts = [finding for finding in found if finding.severity is Severity.ERROR]
     sure, result = [] if doubts else sure_places(problem, first), before if doubts else first
     if not doubts and not options.unsure:
-        result = _fitted(problem, measured, [*sure, *_of_log(problem)])
+        sure, result = _sure_fit(problem, measured, sure)
     numbers = () if doubts else _numbers(problem, first, result, sure, records)
     chosen = [number for number in numbers if number.is_sure or options.unsure]
     written = records.write(chosen) if write else ()
@@ -362,6 +362,19 @@ def _fitted(problem: LeastSquares, measured: Measured, fitted: Sequence[int]) ->
         signals.alike(each[used]) if used.any() else 1.0 for each, used in zip(left, series.is_used.T, strict=True)
     ]
     return fit(problem, measured.evidence, fitted, sizes, spread, np.array(alike))
+
+
+def _sure_fit(problem: LeastSquares, measured: Measured, sure: Sequence[int]) -> tuple[list[int], Fit]:
+    """Fit some numbers; return those whose change is still sure if the others stay, and the fit of these."""
+    places = list(sure)
+    while True:
+        result = _fitted(problem, measured, [*places, *_of_log(problem)])
+        fitted = [place for place in places if result.is_fitted[place]]
+        changes = {place: abs(result.after[place] - problem.start[place]) for place in fitted}
+        surenesses = {place: changes[place] / result.conditional_errors[place] for place in fitted}
+        if not fitted or min(surenesses.values()) >= SURE:
+            return places, result
+        places.remove(min(fitted, key=surenesses.__getitem__))
 
 
 def _name(problem: LeastSquares, place: int) -> tuple[str, str]:

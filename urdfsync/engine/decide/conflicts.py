@@ -81,11 +81,15 @@ def find_conflict(
 
 
 def only_names_changed(conflict: Conflict, names: Mapping[str, str]) -> bool:
-    """Return whether the generated text is its base with new names (`names`, by old names), also in descriptions."""
+    """Return whether the generated text is its base with new names (`names`, by old names), also in descriptions.
+
+    Some words may stay: a link may be called as an argument is, such as `upper`.
+    """
     if conflict.base in (None, conflict.generated) or not names:
         return False
-    listed = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
-    return re.sub(rf"(?<!\w)(?:{listed})(?!\w)", lambda old: names[old[0]], str(conflict.base)) == conflict.generated
+    listed = "|".join(map(re.escape, sorted({*names, *names.values()}, key=len, reverse=True)))
+    nameless = (re.sub(rf"(?<!\w)(?:{listed})(?!\w)", "\0", str(text)) for text in (conflict.base, conflict.generated))
+    return len(set(nameless)) == 1
 
 
 def resolve(

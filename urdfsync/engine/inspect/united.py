@@ -39,8 +39,8 @@ class Sides(NamedTuple):
     """The text in the common ancestor; None without one."""
     ours: str
     theirs: str
-    stamps: tuple[Stamp | None, Stamp | None]
-    """The stamps of both sides."""
+    stamps: tuple[Stamp | None, Stamp | None, Stamp | None]
+    """The stamps of all three."""
 
 
 def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
@@ -61,53 +61,66 @@ def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
             continue  # most files are in step
         is_edited = isinstance(on_disk, str) and on_disk not in (text, last.base_of(key, role))
         found = _find_meant_text(inputs, key) if is_edited or key in inputs.unmerged else None
-        if isinstance(found, str) and text_hash(found) == files.hash(key, role):
-            continue  # the file has the meant text already, and only `git add` is missing
-        if isinstance(found, str):
-            contents[key], left[key] = with_stamp(encode(found), files.stamp(key)), None
+        if isinstance(found, _Meant):
+            if (text_hash(found.text), found.stamp) == (files.hash(key, role), files.stamp(key)):
+                continue  # the file has the meant text already, and only `git add` is missing
+            contents[key], left[key] = with_stamp(encode(found.text), found.stamp), None
         elif found is not None:
             left[key] = found
     return inputs.laid_over(contents, left) if left else inputs
 
 
-def _find_meant_text(inputs: Inputs, key: str) -> str | Merge | None:
+class _Meant(NamedTuple):
+    """The text that both branches meant."""
+
+    text: str
+    stamp: Stamp | None
+    """The stamp with the base of this text."""
+
+
+def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
     """Return the text that both branches meant, or their merge if they contradict each other; None for other files."""
     last, content = inputs.last, plain((inputs.files.read(key) or b"").decode(errors="surrogateescape"))
     staged, text = _read_staged(inputs.files.path(key)) if key in inputs.unmerged else None, split(content)[0]
     if markers.find_markers(content):
         if staged and _is_untouched(text, staged):
-            return staged.ours if _are_generated(last, staged[1:3]) else _merge_edits(last, staged)
-        ours, theirs = (split(side)[0] for side in markers.read_sides(content))
-        return ours if _are_generated(last, (ours, theirs)) else None  # no edit is lost
+            is_edited = not _are_generated(last, staged[1:3])
+            return _merge_edits(last, staged) if is_edited else _Meant(staged.ours, staged.stamps[1])
+        (ours, stamp), (theirs, _) = (split(side) for side in markers.read_sides(content))
+        return _Meant(ours, stamp) if _are_generated(last, (ours, theirs)) else None  # no edit is lost
     if staged is None or text not in staged[1:3] or _is_chosen(inputs, key, text, staged):
         return None
     other = staged.theirs if text == staged.ours else staged.ours
-    return text if _are_generated(last, [other]) else _merge_edits(last, staged)
+    return _Meant(text, split(content)[1]) if _are_generated(last, [other]) else _merge_edits(last, staged)
 
 
 def _sides(base: str | None, ours: str, theirs: str) -> Sides:
     """Return the versions of a file by their texts with stamps."""
-    (our_text, our_stamp), (their_text, their_stamp) = split(ours), split(theirs)
-    return Sides(None if base is None else split(base)[0], our_text, their_text, (our_stamp, their_stamp))
+    (base_text, base_stamp), (our_text, our_stamp), (their_text, their_stamp) = map(split, (base or "", ours, theirs))
+    return Sides(None if base is None else base_text, our_text, their_text, (base_stamp, our_stamp, their_stamp))
 
 
-def _merge_edits(last: LastBuild, sides: Sides) -> str | Merge | None:
-    """Merge two versions by their elements; if that fails, merge their edits into the same generated text.
+def _merge_edits(last: LastBuild, sides: Sides) -> _Meant | Merge:
+    """Merge two versions by their elements; if that fails, merge their edits into our generated text.
 
-    The second way ignores differences between exports: these are no contradictions between people. Returns None if
-    neither the common ancestor nor both generated texts are known.
+    The second way ignores differences between exports: these are no contradictions between people, and the build merges
+    them next.
     """
     from urdfsync.merge.texts import merge, merge_branches  # imports the parser
 
-    merges = [] if sides.base is None else [merge_branches(sides.base, sides.ours, sides.theirs)]
-    our_base, their_base = (last.base(stamp.base) if stamp else None for stamp in sides.stamps)
+    before, ours, theirs = sides.stamps
+    merges: list[tuple[Merge, Stamp | None]] = []
+    if sides.base is not None:  # the merge has the export of the side that exported
+        has_exported = ours is None or before is None or ours.base != before.base
+        merges.append((merge_branches(sides.base, sides.ours, sides.theirs), ours if has_exported else theirs))
+    our_base, their_base = (last.base(stamp.base) if stamp else None for stamp in (ours, theirs))
     if our_base is not None and their_base is not None:
         moved = merge(their_base, sides.theirs, our_base, is_modelica=True).text
-        merges += [merge_branches(our_base, sides.ours, moved)] if moved is not None else []
-    if not merges:
-        return None
-    best = min(merges, key=lambda one: len(one.contradictions))
-    return best if best.text is None else best.text
+        merges += [(merge_branches(our_base, sides.ours, moved), ours)] if moved is not None else []
+    if not merges:  # both branches added the file
+        merges.append((merge_branches("", sides.ours, sides.theirs), ours))
+    best, stamp = min(merges, key=lambda one: len(one[0].contradictions))
+    return best if best.text is None else _Meant(best.text, stamp)
 
 
 def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:

@@ -185,6 +185,8 @@ def _state_changes(
 ) -> tuple[list[FileChange], list[FileChange]]:
     """Return the changes of the bases, and those of the rest of the state: the record is the last one."""
     store, last = inputs.store, inputs.last
+    if inputs.unmerged_paths and not (is_writing or decision.is_complete):
+        return [], []  # else `git merge --abort` would refuse to overwrite the state
     # without other writes, `status` and some other commands leave a complete state
     if last.record.files and decision.is_complete and not (is_writing or inputs.options.renews):
         return [], []
