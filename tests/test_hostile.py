@@ -211,7 +211,14 @@ def clone(tmp_path_factory: pytest.TempPathFactory, stale: Path) -> Clone:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "command",
-    [*READING, ["diff", "HEAD"], ["check"], ["resolve", "--all", "--keep", "--dry-run"], ["record", "arm.urdf"]],
+    [
+        *READING,
+        ["diff", "HEAD"],
+        ["diff", "--against", "HEAD"],
+        ["check"],
+        ["resolve", "--all", "--keep", "--dry-run"],
+        ["record", "arm.urdf"],
+    ],
     ids=" ".join,
 )
 def test_a_program_that_reads_is_safe_in_a_clone_with_all_attacks(clone: Clone, command: Sequence[str]) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from urdfsync.dependencies.facts import Facts, read_unrecorded
+from urdfsync.dependencies.places import label
 from urdfsync.dependencies.reads import depend_on, file_type, read_file, read_stat, unrecorded, walk_files
 from urdfsync.diagnostics import OutputError
 
@@ -28,17 +29,21 @@ _HINTS = {
 
 
 def shown(path: str | Path) -> str:
-    """Return a path for messages, as a user would type it: relative to the working folder if that is shorter."""
+    """Return a path for messages, as a user would type it: relative to the working folder if that is shorter.
+
+    A file of a revision is named as by git: `HEAD:arm.urdf`.
+    """
     text = str(path)
+    revision = label(text)
     try:
         current = os.getcwd()  # noqa: PTH109 - every message calls this, and a Path takes five times as long
     except FileNotFoundError:  # it was deleted
         return text
     inside = os.path.join(current, "")  # noqa: PTH118
     if os.path.normcase(text).startswith(os.path.normcase(inside)):
-        return text[len(inside) :]
+        return revision + text[len(inside) :]
     try:
-        return min(os.path.relpath(text), text, key=len) if os.path.isabs(text) else text  # noqa: PTH117
+        return revision + (min(os.path.relpath(text), text, key=len) if os.path.isabs(text) else text)  # noqa: PTH117
     except ValueError:  # on another drive
         return text
 

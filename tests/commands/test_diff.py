@@ -229,6 +229,66 @@ def test_a_mesh_in_large_file_storage(arm: Path, execute: Execute, monkeypatch: 
     assert said(execute, "arm.urdf", "--against", "HEAD") == (0, ["arm.urdf: nothing changed since HEAD"])
 
 
+OBJECT = """mtllib tip.mtl
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1
+usemtl red
+f 1 3 2
+f 1 2 4
+usemtl blue
+f 2 3 4
+f 1 4 3
+"""
+
+
+def _write_object(arm: Path, folder: str, text: str) -> None:
+    (arm / folder / "tip.obj").write_text(text)
+    (arm / folder / "tip.mtl").write_text("newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n")
+
+
+def _move_the_package(arm: Path) -> None:
+    (arm / "parts").rename(arm / "moved")
+    _write_object(arm, "moved", OBJECT.replace("1 0 0", "2 0 0"))
+
+
+def _turn_the_link(arm: Path) -> None:
+    (arm / "other").mkdir()
+    _write_object(arm, "other", OBJECT.replace("1 0 0", "2 0 0"))
+    (arm / "linked").unlink()
+    (arm / "linked").symlink_to("other")
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize(
+    ("mesh", "change", "told"),
+    [
+        ("parts/tip.obj", lambda arm: _write_object(arm, "parts", f"# again\n{OBJECT}"), "nothing changed since HEAD"),
+        ("package://tool/tip.obj", _move_the_package, "1 parameter change since HEAD"),
+        ("linked/tip.obj", _turn_the_link, "1 parameter change since HEAD"),
+    ],
+    ids=["the colours of an object", "a package of ROS", "a link"],
+)
+def test_a_revision_has_its_own_files_around_a_mesh(
+    arm: Path,
+    execute: Execute,
+    monkeypatch: pytest.MonkeyPatch,
+    mesh: str,
+    change: Callable[[Path], object],
+    told: str,
+) -> None:
+    (arm / "parts").mkdir()
+    (arm / "parts/package.xml").write_text("<package><name>tool</name></package>")
+    (arm / "linked").symlink_to("parts")
+    _write_object(arm, "parts", OBJECT)
+    (arm / "arm.urdf").write_text(ARM.replace("tip.stl", mesh))
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(arm))
+    Repository(arm, monkeypatch).commit()
+    change(arm)
+    assert said(execute, "arm.urdf", "--against", "HEAD")[1][0] == f"arm.urdf: {told}"
+
+
 @NEEDS_GIT
 def test_mistakes_in_an_older_version_are_those_of_that_version(
     arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch

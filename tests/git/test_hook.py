@@ -68,7 +68,6 @@ CHANGES: dict[str, Callable[[Repository], object]] = {
     "another configuration": _stage("robots/urdfsync.toml"),
     "another clone": lambda repository: write_into_clone(repository, "robots/leg.urdf"),
     "a mesh less in the clone": lambda repository: (clone(repository) / "robots/leg_meshes/base.stl").unlink(),
-    "a merge that is under way": lambda repository: (repository.folder / ".git/MERGE_HEAD").touch(),
     "an export that was killed": lambda repository: (clone(repository).parent / "deps/export").unlink(),
     "half an export": lambda repository: (clone(repository).parent / "deps/export").write_text("1\0\0"),
 }

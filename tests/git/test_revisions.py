@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import tempfile
 import zlib
 from pathlib import Path
 from unittest import mock
@@ -11,7 +12,9 @@ import pygit2
 import pytest
 from support.git import NEEDS_GIT, Repository
 
+from urdfsync.dependencies.reads import file_type, is_file, list_folder, read_file
 from urdfsync.diagnostics import SourceError
+from urdfsync.files import shown
 from urdfsync.git.revisions import Revision, open_repository
 
 pytestmark = NEEDS_GIT
@@ -67,6 +70,51 @@ def test_what_belongs_to_another_repository_is_not_asked_for(repository: Path) -
     assert not revision.holds(inner / "tip.stl")
     assert revision.holds(repository / "cad/arm.urdf")
     assert not revision.holds(repository.parent / "arm.urdf")
+
+
+def test_a_view_has_the_files_of_the_revision(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A link that leads out is none of its files, nor is an untracked file; those of another repository are on disk."""
+    made, outside = Repository(repository, monkeypatch), repository.parent / "outside"
+    outside.mkdir()
+    (outside / "secret").write_bytes(b"secret")
+    for name, target in {"out": "../../outside", "up": "../cad", "round": "round"}.items():
+        (repository / "cad" / name).symlink_to(target)
+    made.commit()
+    for name in ("out", "up"):
+        (repository / "cad" / name).unlink()
+    (repository / "cad/later").write_bytes(b"later")
+    (repository / "inner/.git").mkdir(parents=True)
+    (repository / "inner/tip.stl").write_bytes(b"solid")
+    monkeypatch.chdir(repository)
+    arm = repository / "cad/arm.urdf"
+    with Revision(repository, "main~1").view():
+        assert (read_file(arm), shown(arm)) == (b"two\n", "main~1:cad/arm.urdf")
+    with Revision(repository, "HEAD").view():
+        assert read_file(arm) == read_file("cad/up/up/arm.urdf") == b"three\n"
+        assert read_file("inner/tip.stl") == b"solid"
+        names = "cad/out/secret", "cad/out", "cad/round", "cad/later"
+        assert [file_type(name) for name in names] == [0, 0, 0, 0]
+    assert shown(arm) == "cad/arm.urdf"
+
+
+def test_a_view_writes_what_is_read(repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = Repository(repository, monkeypatch)
+    (repository / "cad/film.mp4").write_bytes(bytes(10_000))
+    (repository / "cad/huge.stl").write_bytes(bytes(10_000))
+    made.commit()
+    (repository / "cad/film.mp4").unlink()
+    (tmp_path / "temporary").mkdir()
+    for module in ("git.revisions", "dependencies.facts"):
+        monkeypatch.setattr(f"urdfsync.{module}.MAX_FILE", 9_999)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
+    with Revision(repository, "HEAD").view():
+        assert is_file(repository / "cad/arm.urdf")
+        assert len(list_folder(repository / "cad")) == 3
+        sizes = {path.name: path.stat().st_size for path in (tmp_path / "temporary").rglob("*.*") if path.is_file()}
+        assert sizes == {"arm.urdf": 6, "film.mp4": 0, "huge.stl": 0}
+        with pytest.raises(OSError, match="it has more than 9,999 bytes"):
+            read_file(repository / "cad/huge.stl")
+    assert list((tmp_path / "temporary").iterdir()) == []
 
 
 def test_a_repository_of_committed_files_is_passed_over(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:

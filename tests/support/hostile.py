@@ -283,7 +283,7 @@ ATTACKS = {**COMMITTED, **LOCAL}
 TOGETHER = (
     *("modules", "a template that leaves the sandbox", "a template without end", "a template that is a link"),
     *("a manifest with a file outside", "a manifest with the user's file", "a manifest with the configuration"),
-    *("a manifest of a package outside", "deep planned hashes"),
+    "a manifest of a package outside",
     *("bases that are a link", "a record that is a link", "a lock that is a link", "conflicts that are a link"),
     *("a drawing that is a link", "an output that is a link", "an output folder outside", "a base that is no text"),
     *("huge numbers", "names for the terminal", "a manifest for the terminal", "attributes of git"),

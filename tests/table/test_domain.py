@@ -129,9 +129,7 @@ def test_connections_never_vanish_in_silence(folder: Path, execute: Execute) -> 
     table.rename("drives.csv")
     assert "motors: in step" in execute("build").words
     connections.rename("away.csv")
-    missing = (
-        "`connections` names motors.connections.csv, which can't be read: No such file or directory; put the file there"
-    )
+    missing = "`connections` names motors.connections.csv, which can't be read: it does not exist; put the file there"
     for command in ("build", "check", "diff"):
         found = execute(command, code=Exit.ERROR).words
         assert f"urdfsync.toml:11: error: robot `motors`: {missing}, or correct `connections` [no-source]" in found

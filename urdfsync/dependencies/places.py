@@ -29,6 +29,9 @@ _PROGRAM = (
 class Clone:
     """A clone at `folder` that stands for the repository at `top`; both are absolute and without links."""
 
+    label = ""
+    """What messages put before the names of its files."""
+
     def __init__(self, top: str, folder: str) -> None:
         self.top, self.folder = top, folder
         self._below = os.path.join(top, "")
@@ -85,6 +88,11 @@ _current: Clone | None = Clone(*map(os.environ.__getitem__, _VARIABLES)) if _VAR
 def is_clone() -> bool:
     """Return whether the program looks at a clone."""
     return _current is not None
+
+
+def label(path: str) -> str:
+    """Return what messages put before the name of a file: that of a revision, or nothing."""
+    return _current.label if _current is not None and _current.label and _current.inside(path) is not None else ""
 
 
 def place(path: str | os.PathLike[str]) -> str:

@@ -29,10 +29,6 @@ from urdfsync.dependencies.facts import (
     scan,
     unmerged_paths,
 )
-from urdfsync.dependencies.places import is_clone
-
-PARENTS = "urdfsync-parents"
-"""A file in the `.git` of the hook's clone: the parents of its commit."""
 
 
 class Reads:
@@ -100,18 +96,6 @@ def cannot_record() -> None:
     """Note that the present work reads what no entry shows: its result is not remembered."""
     if (reads := _current.get()) is not None:
         reads.complete = False
-
-
-def depend_on_commits(top: str | os.PathLike[str] | None) -> None:
-    """Record that commits of the repository at `top` are read.
-
-    They may change the result without changing a file, so nothing is remembered. In the hook's clone, a file has the
-    parents of its commit.
-    """
-    if top and is_clone():
-        depend_on(os.path.join(top, ".git", PARENTS))
-    else:
-        cannot_record()
 
 
 def include(other: Reads) -> None:

@@ -57,7 +57,7 @@ def find_top(folder: str | os.PathLike[str]) -> str | None:
     """Return the folder, or the nearest folder above, that has a `.git`; None if there is none.
 
     A bare repository, without a `.git`, is skipped: a stranger may have committed its files. Git never commits or
-    checks out a `.git`. This runs no git, and records no read: callers use `depend_on_commits`.
+    checks out a `.git`. This runs no git, and records no read.
     """
     ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "").split(os.pathsep)
     limits = {os.path.realpath(ceiling) for ceiling in ceilings if ceiling}

@@ -20,7 +20,6 @@ import msgspec
 
 from urdfsync.dependencies import localfile
 from urdfsync.dependencies.places import Clone
-from urdfsync.dependencies.reads import PARENTS
 from urdfsync.diagnostics import SourceError
 from urdfsync.files import digest
 from urdfsync.git import GitError, Repository, hook, list_paths, run
@@ -90,15 +89,14 @@ def _export(repository: Repository, folder: Path) -> Commit:
     run("read-tree", "-u", "--reset", tree, clone=clone)
     view = Clone(repository.top, clone)
     _relink(view, [path for path, mode, _ in entries if mode == _LINK])
-    parents = [parent for name in ("HEAD", "MERGE_HEAD") for parent in _find_commits(repository, name)]
-    _set_head(clone, tree, parents)
     is_complete = _export_submodules(clone, modules, repository.folder, repository.top)
     localfile.replace(str(record), conversions.encode())
     configurations, lost = hook.find_configurations(names)
     if is_complete:
         hook.remember(repository, content, configurations, lost)
     lost = [path for path in lost if Path(repository.top, path).is_file()]
-    changed = dict(_changes(clone, parents[0], tree)) if parents else None
+    head = _find_head()
+    changed = dict(_changes(clone, head, tree)) if head else None
     return Commit(repository, view, configurations, lost, frozenset(names), changed)
 
 
@@ -126,27 +124,12 @@ def _prepare(clone: str, objects: str) -> None:
     borrowed.write_text(f"{os.path.relpath(objects, f'{clone}/.git/objects')}\n", errors="surrogateescape")
 
 
-def _set_head(clone: str, tree: str, parents: Sequence[str]) -> None:
-    """Let HEAD of the clone be a commit of this tree: a build looks for edits in the commits that were merged."""
-    person = {f"GIT_{role}_{key}": "urdfsync" for role in ("AUTHOR", "COMMITTER") for key in ("NAME", "EMAIL")}
-    dates = {f"GIT_{role}_DATE": "@0 +0000" for role in ("AUTHOR", "COMMITTER")}
-    after = [word for parent in parents for word in ("-p", parent)]
-    commit = run("commit-tree", "-m", "next", *after, tree, clone=clone, **person, **dates)
-    Path(clone, ".git/HEAD").write_text(commit)
-    file, text = Path(clone, ".git", PARENTS), "\n".join(parents)
-    if not file.is_file() or file.read_text() != text:
-        file.write_text(text)
-
-
-def _find_commits(repository: Repository, name: str) -> list[str]:
-    """Return the commits that HEAD or MERGE_HEAD names; none if there is no such commit."""
-    if name != "HEAD":
-        file = Path(repository.folder, name)
-        return file.read_text().split() if file.is_file() else []
+def _find_head() -> str | None:
+    """Return the commit that HEAD names; None if there is none yet."""
     try:
-        return [run("rev-parse", "-q", "--verify", "HEAD").strip()]
-    except GitError:  # there is no commit yet
-        return []
+        return run("rev-parse", "-q", "--verify", "HEAD").strip()
+    except GitError:
+        return None
 
 
 def _list(clone: str, tree: str) -> list[tuple[str, str, str]]:

@@ -31,12 +31,8 @@ def is_answered(arguments: list[str]) -> bool:
 
 
 def remember(repository: git.Repository, index: bytes, configurations: Sequence[str], lost: Iterable[str]) -> None:
-    """Remember that the clone has the files of this index, until there is a merge or one of the `lost` files.
-
-    Another merge has other parents, perhaps without another index.
-    """
-    absent = f"{repository.folder}/MERGE_HEAD", *(f"{repository.top}/{path}" for path in lost)
-    dependencies = {(PATH, path): hash(NOTHING) for path in absent}
+    """Remember that the clone has the files of this index, until there is one of the `lost` files."""
+    dependencies = {(PATH, f"{repository.top}/{path}"): hash(NOTHING) for path in lost}
     Records(f"{repository.folder}/urdfsync").save(_EXPORT, _identify(index), Record(dependencies, configurations))
 
 

@@ -1,23 +1,22 @@
-"""Reads sources in git revisions, and the files that these sources refer to.
+"""Reads git revisions: single files, or a whole revision in the place of the working tree.
 
 libgit2 reads the object database: this runs no program, fetches nothing, and changes nothing in the repository.
 """
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import os
 import re
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
-import msgspec
-
-from urdfsync.dependencies.facts import read_unrecorded
-from urdfsync.dependencies.places import named, place, real
+from urdfsync.dependencies.facts import MAX_FILE
+from urdfsync.dependencies.places import Clone, named, place
 from urdfsync.diagnostics import SourceError
-from urdfsync.domain import Dependency
 from urdfsync.files import digest, shown
 
 if TYPE_CHECKING:
@@ -26,6 +25,8 @@ if TYPE_CHECKING:
 _HINT = "name an existing file, or a branch, tag or commit such as HEAD~1"
 _LFS_POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
 """Content of a Git LFS pointer in git."""
+_MOST_LINKS = 40
+"""The greatest number of links in a path, as on Linux. A longer chain has no end."""
 
 
 def open_repository(folder: Path) -> pygit2.Repository | None:
@@ -60,55 +61,68 @@ class Revision:
             message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
             raise SourceError.of("no-repository", message, hint=_HINT)
         self.repository = repository
-        self.top = Path(named(os.path.realpath(repository.workdir)))
+        self.top = named(os.path.realpath(repository.workdir))
+        self._inside = Clone(self.top, self.top).inside
         try:
             self._tree = repository.revparse_single(name).peel(pygit2.Commit).tree
         except (pygit2.GitError, KeyError, ValueError):
             message = f"{name!r} is neither a file nor a revision of the git repository {self.top}"
             raise SourceError.of("unknown-revision", message, hint=_HINT) from None
 
-    def label(self, file: Path) -> str:
-        """Return the name of a file of this revision in messages."""
-        return f"{self.name}:{shown(file)}"
-
     def read(self, file: Path) -> bytes:
         """Return the content of a file in this revision. Raises SourceError if there is none."""
-        content = self.contents([file]).get(file)
-        if content is None:
+        content = self.find(str(file))
+        if not isinstance(content, bytes):
             message = f"{shown(file)} does not exist in revision {self.name!r}"
             hint = "if it had another path then, save it with `git show REVISION:PATH > FILE`, and use --against ./FILE"
-            raise SourceError.of("not-in-revision", message, self.label(file), hint=hint)
+            raise SourceError.of("not-in-revision", message, f"{self.name}:{shown(file)}", hint=hint)
         return content
 
-    def holds(self, file: Path) -> bool:
-        """Return whether a revision of this repository can have a file at this path; False inside of a submodule."""
-        path = Path(real(file))
-        if self.top not in path.parents:
-            return False
-        inside = itertools.takewhile(lambda folder: folder != self.top, path.parents)
-        return not any(Path(place(folder / ".git")).exists() for folder in inside)
+    def find(self, path: str, links: int = _MOST_LINKS) -> bytes | list[str] | None:
+        """Return the content of a file, or the names of files and folders in a folder, which end with a slash.
 
-    def contents(self, files: Sequence[Path]) -> Mapping[Path, bytes]:
-        """Return the contents of those files that this revision has.
-
-        Raises SourceError if the clone lacks a content.
+        Return None for neither. Links on the way are those of the revision; if it has nothing there, those of the
+        working tree. Raises SourceError if the clone lacks a content.
         """
         import pygit2
 
-        contents = {}
-        for file in filter(self.holds, files):
-            path = Path(real(file)).relative_to(self.top).as_posix()
-            try:
-                entry = self._tree[path]
-            except KeyError:
-                continue
-            try:
-                if isinstance(entry, pygit2.Blob):
-                    contents[file] = entry.data
-            except (pygit2.GitError, KeyError) as problem:
-                message, hint = f"git does not have its content: {problem}", "fetch it, or use --against ./FILE"
-                raise SourceError.of("git", message, self.label(file), hint=hint) from None
-        return contents
+        if (inside := self._inside(path)) is None or not links:
+            return None
+        link = pygit2.enums.FileMode.LINK
+        entry: pygit2.Object | None = self._tree
+        names = PurePosixPath(inside).parts
+        try:
+            for depth, name in enumerate(names):
+                entry = entry / name if isinstance(entry, pygit2.Tree) and name in entry else None
+                if isinstance(entry, pygit2.Blob) and entry.filemode == link:
+                    target = Path(self.top, *names[:depth], os.fsdecode(entry.data), *names[depth + 1 :])
+                    return self.find(os.path.normpath(target), links - 1)
+            if isinstance(entry, pygit2.Tree):
+                entries = (each for each in entry if each.filemode != link)
+                return [f"{each.name}{'' if isinstance(each, pygit2.Blob) else '/'}" for each in entries]
+            if isinstance(entry, pygit2.Blob):
+                return memoryview(entry)[: MAX_FILE + 1].tobytes()  # readers refuse more
+        except (pygit2.GitError, KeyError) as problem:
+            message, hint = f"git does not have its content: {problem}", "fetch it, or use --against ./FILE"
+            raise SourceError.of("git", message, f"{self.name}:{shown(path)}", hint=hint) from None
+        end = os.path.realpath(path)
+        return self.find(end, links - 1) if entry is None and end != path else None
+
+    def holds(self, path: str | Path) -> bool:
+        """Return whether a revision of this repository can have a file at this path; False inside of a submodule."""
+        end, top = Path(os.path.realpath(path)), Path(self.top)
+        inside = itertools.takewhile(lambda folder: folder != top, (end, *end.parents))
+        return top in end.parents and not any((folder / ".git").exists() for folder in inside)
+
+    @contextlib.contextmanager
+    def view(self) -> Iterator[None]:
+        """Let the program find the files of this revision in the place of the working tree's, in a `with` block.
+
+        Messages name them as git does, `HEAD:arm.urdf`. Submodules and other repositories inside are those on disk. A
+        folder may list further names of files that are only on disk: the view does not have these files.
+        """
+        with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder, _View(self, folder):
+            yield
 
     def export(self, folder: Path) -> None:
         """Write all files of this revision to a folder, as a checkout does, without submodules.
@@ -125,31 +139,49 @@ class Revision:
             message, hint = f"revision {self.name!r} can't be checked out: {problem}", "fetch it, or name another one"
             raise SourceError.of("git", message, hint=hint) from None
 
-    def locate(self, dependencies: Sequence[Dependency], scratch: Path) -> Sequence[Dependency]:
-        """Replace candidates by this revision's files; candidates outside of the repository stay.
 
-        This writes files that are missing or different on disk to `scratch`.
-        """
-        held = {path for dependency in dependencies for path in dependency.candidates if self.holds(path)}
-        places = {}
-        for number, (path, content) in enumerate(self.contents(sorted(held)).items()):
-            places[path] = path if _is_on_disk(path, content) else scratch / str(number) / path.name
-            if places[path] != path:
-                places[path].parent.mkdir()
-                places[path].write_bytes(content)
-        located = []
-        for dependency in dependencies:
-            paths = tuple(
-                places.get(path, path) for path in dependency.candidates if path in places or path not in held
-            )
-            located.append(msgspec.structs.replace(dependency, candidates=paths))
-        return located
+class _View(Clone):
+    """A clone of a revision that gets a file or folder when it is asked for: the others may be many, and large.
+
+    It gets no links. A folder is that on disk if it has all names: writing 20,000 names takes seconds. Processes that
+    this program starts can't ask for files.
+    """
+
+    def __init__(self, revision: Revision, folder: str) -> None:
+        super().__init__(revision.top, os.path.realpath(folder))
+        self.label = f"{revision.name}:"
+        self._revision = revision
+        self._places: dict[str, str] = {}
+        """Places of all paths that were asked for."""
+
+    def place(self, path: str) -> str:
+        """Return where to find the file or folder at a path, once it is written; on disk if the repository lacks it."""
+        if path not in self._places:
+            content, copy = self._revision.find(path), super().place(path)
+            is_elsewhere = _is_on_disk(path, content) if content is not None else not self._revision.holds(path)
+            if content is not None and not is_elsewhere:
+                _write(Path(copy), content)
+            self._places[path] = path if is_elsewhere else copy
+        return self._places[path]
 
 
-def _is_on_disk(path: Path, content: bytes) -> bool:
-    """Return whether the file on disk has this content; for a Git LFS pointer, the content that the pointer names."""
-    try:
-        now, pointer = read_unrecorded(path), _LFS_POINTER.match(content)
-    except OSError:
+def _write(place: Path, content: bytes | list[str]) -> None:
+    """Write a file; or a folder, with empty files and folders of these names."""
+    folder = place if isinstance(content, list) else place.parent
+    folder.mkdir(parents=True, exist_ok=True)
+    if isinstance(content, bytes):
+        place.write_bytes(content)
+        return
+    for path, name in ((place / name, name) for name in content):
+        if path.parent == place and path.name not in ("..", ".git"):  # a stranger may have made the folder
+            path.mkdir(exist_ok=True) if name.endswith("/") else path.touch()
+
+
+def _is_on_disk(path: str, content: bytes | list[str]) -> bool:
+    """Return whether a folder on disk has all names, or the content is a Git LFS pointer to the file on disk."""
+    if isinstance(content, list):  # others do no harm: the files of this folder are asked for, too
+        with contextlib.suppress(OSError), os.scandir(path) as entries:
+            return {f"{entry.name}{'/' * entry.is_dir()}" for entry in entries}.issuperset(content)
         return False
-    return now == content or (pointer is not None and digest(now) == pointer[1].decode())
+    pointer = _LFS_POINTER.match(content)
+    return pointer is not None and Path(path).is_file() and digest(Path(path).read_bytes()) == pointer[1].decode()

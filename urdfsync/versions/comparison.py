@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import itertools
 import os
-import tempfile
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
@@ -17,8 +16,7 @@ import msgspec
 
 from urdfsync import changes, registry
 from urdfsync.changes import Changes
-from urdfsync.config import FILE_NAME, Config, RobotConfig
-from urdfsync.config.load import parse as parse_config
+from urdfsync.config import FILE_NAME, Config, RobotConfig, load
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, findings_of
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Lookup, Reading, Target, Version
 from urdfsync.domain.changes import Effect
@@ -33,14 +31,12 @@ from urdfsync.engine.result import Exit, Outlook, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.sources import source as source_files
 from urdfsync.engine.sources.source import Source
-from urdfsync.engine.sources.translators import find_translator, is_xacro
 from urdfsync.engine.stage.findings import CONNECTORS
 from urdfsync.files import shown
 from urdfsync.git.revisions import Revision
 from urdfsync.matching import Matching
 from urdfsync.modelica.names import class_name
 from urdfsync.output.phrases import change_counts, generator_change
-from urdfsync.state import expansion
 from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
@@ -247,15 +243,15 @@ def _is_file(against: str, source: Path, folder: Path) -> bool:
     return False
 
 
-class _VersionedSource(NamedTuple):
-    """The content of a source in one version."""
+class _ReadVersion(NamedTuple):
+    """One version of a source."""
 
     text: Source
-    places: tuple[Path, ...]
-    """Absolute paths to which references in the source are relative, best first."""
-    revision: Revision | None = None
-    scratch: Path = Path()
-    """For a revision, a folder for the revision's other files."""
+    model: Version
+    imported: imports.Imported
+    reading: Reading
+    told: tuple[Diagnostic, ...]
+    """Findings about source and imports."""
 
 
 def _with_version(
@@ -271,30 +267,20 @@ def _with_version(
     """Compare a source with another version; `result` is that of a dry run."""
     if result.failed:
         return Comparison(result, shown(robot.source), against)
-    domain = registry.domain(robot.domain)
-    with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
-        source = robot.source
-        arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
-        if is_pair or _is_file(against, source, folder):
-            file = folder / against
-            text = source_files.read_file_source(domain, file, arguments, folders, robot.options)
-            other = _VersionedSource(source_files.with_named_companions(config, robot, text), (file, source))
-        else:
-            revision = Revision(source.parent, against)
-            before = _configured_in(revision, robot, config)
-            text = _in_revision(revision, before, config)
-            text = source_files.with_named_companions(config, before, text, revision)
-            other = _VersionedSource(text, (before.source,), revision, Path(scratch))
-        if config and not robot.command:  # the file may be an expanded source
-            text = source_files.read_source(config, robot, Store(config.root), options)
-        else:
-            text = source_files.read_file_source(domain, source, arguments, folders, robot.options)
-            text = source_files.with_named_companions(config, robot, text)
-        current = _VersionedSource(text, (source,))
-        new, imported, reading, told = _read(domain, robot, current, imports.Imported(), options)
-        old, imported_before, _, told_before = _read(domain, robot, other, imported, options)
-    known = {(finding.code, finding.statement) for finding in told_before}
-    has_other_format = is_pair or text.format != other.text.format
+    domain, source = registry.domain(robot.domain), robot.source
+    revision = None if is_pair or _is_file(against, source, folder) else Revision(source.parent, against)
+    text = _read_text(robot, config, options)
+    now = _read(robot, text, (source,), imports.Imported(), options)
+    if revision is None:
+        file = folder / against
+        former_text = _read_file(msgspec.structs.replace(robot, source=file), config, options)
+        former = _read(robot, former_text, (file, source), now.imported, options)
+    else:
+        former = _read_revision(revision, robot, config, now.imported, options)
+    old, new = former.model, now.model
+    known = {(finding.code, finding.statement) for finding in former.told}
+    findings = [finding for finding in now.told if (finding.code, finding.statement) not in known]
+    has_other_format = is_pair or text.format != former.text.format
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed, has_other_format=has_other_format)
     if is_pair:
         formats = domain.formats
@@ -307,19 +293,15 @@ def _with_version(
     differences = changes.compare(old, new, domain, robot.options, matching)
     name = shown(robot.source)
     if is_pair:
-        told = tuple(
-            robot.without_ignored(finding for finding in told if (finding.code, finding.statement) not in known)
-        )
-        result = msgspec.structs.replace(result, diagnostics=told)
+        result = msgspec.structs.replace(result, diagnostics=tuple(robot.without_ignored(findings)))
         asked = domain.effects
         effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
         news = differences if differences.changes else None
         return Comparison(result, name, against, changes=news, effects=effects, is_pair=True)
     new = msgspec.structs.replace(new, snapshot=domain.numbered(new, [old], lambda _: matching.renames))
-    findings = [*judge(domain, new, reading, current.text.name, old, differences)]
-    findings += find_jumps(domain, new, reading, current.text.name, old, differences.renames)
-    findings = [current.text.locate(finding) for finding in findings if finding.is_new]
-    findings += [finding for finding in told if (finding.code, finding.statement) not in known]
+    judged = [*judge(domain, new, now.reading, text.name, old, differences)]
+    judged += find_jumps(domain, new, now.reading, text.name, old, differences.renames)
+    findings = [*(text.locate(finding) for finding in judged if finding.is_new), *findings]
     findings += [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
     encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]
     is_reordered = old.snapshot == new.snapshot and encoded[0] != encoded[1]
@@ -338,41 +320,49 @@ def _with_version(
         effects = _effects(domain, old, new, differences, robot)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(findings))
     news = differences if differences.changes else None
-    versions = (old, imported_before.contents), (new, imported.contents)
+    versions = (old, former.imported.contents), (new, now.imported.contents)
     return Comparison(result, name, against, "", news, files, effects, versions=versions)
 
 
-def _configured_in(revision: Revision, robot: RobotConfig, config: Config | None) -> RobotConfig:
-    """Return a robot as configured in a revision; with default options if the revision has no such robot."""
-    if config is None or not revision.holds(config.file):
+def _read_text(robot: RobotConfig, config: Config | None, options: BuildOptions) -> Source:
+    """Read the source of a robot as a build does; without a configuration, read the file."""
+    if config is None or robot.command:  # the file may be an expanded source
+        return _read_file(robot, config, options)
+    return source_files.read_source(config, robot, Store(config.root), options)
+
+
+def _read_file(robot: RobotConfig, config: Config | None, options: BuildOptions) -> Source:
+    """Read the file of a source with its companions; a translator may read it first."""
+    folders = (*robot.package_paths, *options.package_paths)
+    domain, arguments = registry.domain(robot.domain), robot.arguments or {}
+    text = source_files.read_file_source(domain, robot.source, arguments, folders, robot.options)
+    return source_files.with_named_companions(config, robot, text)
+
+
+def _read_revision(
+    revision: Revision, robot: RobotConfig, config: Config | None, known: imports.Imported, options: BuildOptions
+) -> _ReadVersion:
+    """Read a source as it is in a revision, and as the robot is configured there. Raises SourceError."""
+    with revision.view():
+        robot = _configured(robot, config)
+        revision.read(robot.source)  # tells what to do if the file has another path there
+        return _read(robot, _read_text(robot, config, options), (robot.source,), known, options)
+
+
+def _configured(robot: RobotConfig, config: Config | None) -> RobotConfig:
+    """Return a robot as a revision configures it; with default options if the revision has no such robot."""
+    if config is None:
         return robot
-    content = revision.contents([config.file]).get(config.file, b"")
     try:
-        text = content.decode("utf-8-sig").replace("\r\n", "\n")
-        robots = parse_config(text, config.file, revision.label(config.file)).robots
-    except (UnicodeDecodeError, ConfigError):
-        return robot  # later commits may have repaired the configuration, or renamed its keys
+        robots = load(config.file).robots
+    except ConfigError as error:
+        if error.diagnostics[0].code != "no-config":
+            return robot  # later commits may have repaired the configuration, or renamed its keys
+        robots = ()
     named = [each for each in robots if each.name == robot.name]
     of_source = [each for each in robots if each.source == robot.source]
     unknown = msgspec.structs.replace(robot, options=registry.domain(robot.domain).options())
     return next((each for each in (*named, *of_source) if each.domain == robot.domain), unknown)
-
-
-def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
-    """Return a source in a revision; if it is expanded, the expansion of that revision. Raises SourceError."""
-    label = revision.label(robot.source)
-    # the source may have another name now; the expansion has the robot's name
-    if config is None or not (robot.arguments is not None or is_xacro(robot.source, b"")):
-        content = revision.read(robot.source)
-        if config is None or find_translator(robot.domain, robot.source, content) is None:
-            domain = registry.domain(robot.domain)
-            companions = source_files.read_beside(domain, robot.source, robot.options, revision)
-            return Source(content, label, companions=companions)
-    path = Store(config.root).expansion(robot.name)
-    if (recorded := expansion.loads(revision.read(path))) is None:
-        message, hint = "the expanded source can't be read", "name a revision with a complete build"
-        raise SourceError.of("broken-state", message, revision.label(path), hint=hint)
-    return Source(recorded.text.encode(), label, expansion=recorded)
 
 
 def _contents(
@@ -395,28 +385,27 @@ def _effects(
 
 
 def _read(
-    domain: Domain, robot: RobotConfig, version: _VersionedSource, known: imports.Imported, options: BuildOptions
-) -> tuple[Version, imports.Imported, Reading, tuple[Diagnostic, ...]]:
-    """Read a version and the files that it refers to; `known` imports are used without converting them again.
+    robot: RobotConfig, text: Source, places: Sequence[Path], known: imports.Imported, options: BuildOptions
+) -> _ReadVersion:
+    """Read a version of a source and the files that it refers to, by paths relative to one of `places`, best first.
 
-    Raises SourceError for an unreadable source.
+    `known` imports are used without converting them again. Raises SourceError for an unreadable source.
     """
-    text = version.text
+    domain = registry.domain(robot.domain)
     with text.locating():
         snapshot, reading = source_files.read(domain, robot.options, text)
     found_files = []
-    for place in version.places:
+    for place in places:
         lookup = Lookup(place, robot.package_paths + options.package_paths)
         found_files.append(imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines))
-    joined = []
+    dependencies = []
     for same in zip(*found_files, strict=True):  # the paths lead to the same file
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
-        joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
-    dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
+        dependencies.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     recorded = {
         key: imports.RecordedFile(entry, known.contents.get(entry.target), is_noted=True)
         for key, entry in known.imports.items()
     }
     imported = imports.import_files(domain, robot, options, dependencies, recorded, text.name)
-    diagnostics = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
-    return Version(snapshot, imported.imports), imported, reading, diagnostics
+    told = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
+    return _ReadVersion(text, Version(snapshot, imported.imports), imported, reading, told)

@@ -456,6 +456,22 @@ def test_a_revision_is_compared_as_it_was_expanded(
     execute("build")
     without_xacro(monkeypatch, built)  # it is expanded already
     assert "1.5 → 2.5 kg" in execute("diff", "arm", "--against", "HEAD", code=1).out
+    repository.git("rm", "-q", "--cached", str(EXPANDED))
+    repository.git("commit", "-q", "-m", "without the expansion")
+    unknown = "HEAD:urdf/arm.urdf.xacro: error: its expansion is not recorded; name a revision with a complete build"
+    for source in ("arm", "urdf/arm.urdf.xacro"):
+        assert unknown in execute("diff", source, "--against", "HEAD", code=2).err
+
+
+@NEEDS_GIT
+@pytest.mark.slow
+def test_an_old_warning_of_xacro_is_not_new(built: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    config = built / "urdfsync.toml"
+    config.write_text(config.read_text().replace("length = 0.5", "length = 0.5, width = 1"))
+    assert "the source has no argument `width`" in execute("build").words
+    Repository(built, monkeypatch).commit()
+    (built / "urdf/masses.yaml").write_text("upper: 2.5\n")
+    assert execute("diff", "arm", "--against", "HEAD", code=1).err == ""
 
 
 @NEEDS_GIT

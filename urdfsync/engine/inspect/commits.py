@@ -32,20 +32,19 @@ class PastCommit(msgspec.Struct, frozen=True):
 
     def texts(self, keys: Iterable[str]) -> dict[str, tuple[str, Stamp | None]]:
         """Return the bare texts and the stamps of files of the package, by key."""
-        paths = {key: self._files.path(key) for key in keys}
         try:
-            contents = dict(self._revision.contents([*paths.values()]))
+            found = {key: self._revision.find(str(self._files.path(key))) for key in keys}
         except SourceError:
             return {}
-        found = {key: contents[path] for key, path in paths.items() if path in contents}
-        return {key: split(plain(content.decode(errors="replace"))) for key, content in found.items()}
+        contents = {key: content for key, content in found.items() if isinstance(content, bytes)}
+        return {key: split(plain(content.decode(errors="replace"))) for key, content in contents.items()}
 
 
 def read_commits(root: Path, files: PackageFiles) -> Iterator[PastCommit]:
     """Yield the commits that an edit may have been picked from: of branches, and those that were checked out last."""
-    if (top := git.find_top(root)) is None:
+    if git.find_top(root) is None:
         return
-    reads.depend_on_commits(top)
+    reads.cannot_record()  # branches come and go without a change of a file
     try:
         repository = open_repository(root)
     except SourceError:  # the repository can't be read: for example, it belongs to another user

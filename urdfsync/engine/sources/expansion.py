@@ -17,6 +17,7 @@ from typing import Any
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies.places import label
 from urdfsync.dependencies.reads import read_file, read_variable
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Translator
@@ -148,6 +149,12 @@ def expand(
 
     `contents` override files on disk, by absolute path.
     """
+    if label(str(inputs.source)):  # another process finds no files of a revision
+        message, hint = (
+            "its expansion is not recorded",
+            "name a revision with a complete build, or use --against ./FILE",
+        )
+        raise SourceError.of("broken-state", message, shown(inputs.source), hint=hint)
     answer = _ask(translator, inputs, arguments, contents=contents or {})
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
     number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}

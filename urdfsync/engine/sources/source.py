@@ -16,7 +16,7 @@ from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.config.trust import find_untrusted_command
 from urdfsync.dependencies.facts import PATH, look, read_unrecorded
-from urdfsync.dependencies.places import real
+from urdfsync.dependencies.places import label, real
 from urdfsync.dependencies.reads import (
     cannot_record,
     depend_on,
@@ -36,7 +36,6 @@ from urdfsync.state.store import Store
 
 if TYPE_CHECKING:
     from urdfsync.engine.sources.expansion import SourceFiles
-    from urdfsync.git.revisions import Revision
 
 MAX_TEMPLATE = 10_000_000
 """The greatest number of bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
@@ -107,13 +106,14 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     untrusted command. Raises SourceError for a companion beside the source that no option names: a rename would
     silently remove it.
     """
-    text = _read_source(config, robot, store, options, name)
+    text, is_former = _read_source(config, robot, store, options, name), bool(label(str(robot.source)))
     is_plain = not (robot.command or text.expansion)
-    for unnamed in read_beside(registry.domain(robot.domain), robot.source, robot.options) if is_plain else ():
+    beside = read_beside(registry.domain(robot.domain), robot.source, robot.options) if is_plain else ()
+    for unnamed in beside if not is_former else ():  # a revision may be older than the project
         message = f"robot `{robot.name}`: {unnamed.file} stands beside the source, and no option names it"
         hint = f"set `{unnamed.option}` to its path, or move the file away"
         raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
-    return with_named_companions(config, robot, text)
+    return with_named_companions(config, robot, msgspec.structs.replace(text, companions=beside))
 
 
 def _read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str) -> Source:
@@ -128,8 +128,9 @@ def _read_source(config: Config, robot: RobotConfig, store: Store, options: Buil
 
     inputs = expansion.SourceFiles(config.root, robot.source, (*robot.package_paths, *options.package_paths))
     made = store.load_expansion(name or robot.name)
-    changed = inputs.find_changes(robot, made) if made else NEVER
-    is_noted = made is not None and expansion_hash(made) == store.notes(name or robot.name).expansion
+    is_former = bool(label(str(robot.source)))  # a revision has what a build recorded there
+    changed = () if made and is_former else inputs.find_changes(robot, made) if made else NEVER
+    is_noted = made is not None and (is_former or expansion_hash(made) == store.notes(name or robot.name).expansion)
     if robot.command:
         is_there = is_file(robot.source)
         changed = changed or (() if is_there else (robot.source.name,))
@@ -180,18 +181,16 @@ def _expand(
     return made
 
 
-def read_beside(
-    domain: Domain, source: Path, options: Any = None, revision: Revision | None = None
-) -> tuple[Companion, ...]:
-    """Return the companions beside the file `source`, on disk or in a revision.
+def read_beside(domain: Domain, source: Path, options: Any = None) -> tuple[Companion, ...]:
+    """Return the companions beside the file `source`.
 
     A kind of companion that `options` name is left out: see `with_named_companions`.
     """
     found = list[Companion]()
     for kind, path in companions_beside(domain, source, options):
-        content = revision.contents([path]).get(path) if revision else read_file(path) if is_file(path) else None
+        content = read_file(path) if is_file(path) else None
         if content is not None and kind.mark.search(content.replace(b"\0", b"")):  # UTF-16 has a zero in a letter
-            found.append(Companion(kind.option, revision.label(path) if revision else shown(path), content))
+            found.append(Companion(kind.option, shown(path), content))
     return tuple(found)
 
 
@@ -202,32 +201,26 @@ def companions_beside(domain: Domain, source: Path, options: Any = None) -> Iter
             yield kind, source.with_suffix(kind.suffix)
 
 
-def with_named_companions(
-    config: Config | None, robot: RobotConfig, text: Source, revision: Revision | None = None
-) -> Source:
-    """Return a source with the companions that its robot's options name, on disk or in a revision.
-
-    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file.
-    """
+def with_named_companions(config: Config | None, robot: RobotConfig, text: Source) -> Source:
+    """Return a source with the companions that its robot's options name. Raises SourceError for a missing file."""
     found = list(text.companions)
     for kind in registry.domain(robot.domain).companions:
         named = getattr(robot.options, kind.option)
         if config and named and (not kind.needed_by or getattr(robot.options, kind.needed_by)):
-            found.append(_read_named(config, robot, kind.option, config.root / named, revision))
+            found.append(_read_named(config, robot, kind.option, config.root / named))
     return msgspec.structs.replace(text, companions=tuple(found))
 
 
-def _read_named(config: Config, robot: RobotConfig, option: str, path: Path, revision: Revision | None) -> Companion:
+def _read_named(config: Config, robot: RobotConfig, option: str, path: Path) -> Companion:
     """Return the companion at a path that an option names. Raises SourceError at the line of the option."""
-    label = revision.label if revision else shown
     try:
-        content = revision.contents([path])[path] if revision and revision.holds(path) else read_file(path)
-    except (OSError, KeyError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it does not exist"
-        message = f"robot `{robot.name}`: `{option}` names {label(path)}, which can't be read: {reason}"
-        hint = "name a revision that has the file" if revision else f"put the file there, or correct `{option}`"
-        raise SourceError.of("no-source", message, label(config.file), robot.lines[option], hint=hint) from None
-    return Companion(option, label(path), content)
+        content = read_file(path)
+    except OSError as error:
+        reason = "it does not exist" if isinstance(error, FileNotFoundError) else error.strerror
+        message = f"robot `{robot.name}`: `{option}` names {shown(path)}, which can't be read: {reason}"
+        hint = "name a revision that has the file" if label(str(path)) else f"put the file there, or correct `{option}`"
+        raise SourceError.of("no-source", message, shown(config.file), robot.lines[option], hint=hint) from None
+    return Companion(option, shown(path), content)
 
 
 def read_file_source(
