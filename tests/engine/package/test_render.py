@@ -90,7 +90,7 @@ def compiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def rendered_as_shipped(folder: Path) -> str:
-    return Renderer([folder], is_trusted=True).render("t.jinja", {"x": 1})
+    return Renderer([folder]).render("t.jinja", {"x": 1})
 
 
 def test_a_template_of_an_installed_package_is_compiled_once_for_each_of_its_texts(

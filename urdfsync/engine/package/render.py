@@ -87,14 +87,6 @@ class _CodeGenerator(CodeGenerator):
         super().visit_For(node, frame)
 
 
-class _Environment(jinja2.Environment):
-    """Jinja for templates of installed packages."""
-
-    def getattr(self, obj: Any, attribute: str) -> Any:
-        """See Jinja. If the dict `x` has the key `items`, `x.items` is the value of this key, not the method."""
-        return obj[attribute] if type(obj) is dict and attribute in obj else super().getattr(obj, attribute)
-
-
 def _compiler_identity() -> str:
     """Return the stat values of the modules that compile templates: they tell an upgrade of urdfsync or Jinja."""
     files = map(Path, (__file__, literals.__file__, compiler.__file__))
@@ -109,10 +101,10 @@ class _CodeCache(jinja2.BytecodeCache):
     applies filters to constants when it compiles.
     """
 
-    def __init__(self, folder: Path, kind: type[jinja2.Environment]) -> None:
-        """`folder` has the installed templates; code for one `kind` of environment does not fit another."""
+    def __init__(self, folder: Path) -> None:
+        """`folder` has the installed templates."""
         self._folder = str(folder / "_").removesuffix("_")  # with a separator at its end
-        self._stem = f"{importlib.util.cache_from_source(__file__).removesuffix('.pyc')}{kind.__name__}"
+        self._stem = importlib.util.cache_from_source(__file__).removesuffix(".pyc")
         self._compiler = _compiler_identity()
 
     def get_cache_key(self, name: str, filename: str | None = None) -> str:
@@ -137,7 +129,7 @@ class _CodeCache(jinja2.BytecodeCache):
 
 
 class _Sandbox(ImmutableSandboxedEnvironment):
-    """Jinja's sandbox with limits: templates of a user's folder may come from strangers.
+    """Jinja's sandbox with limits: templates may come from strangers.
 
     Memory is limited by `_limited_process`, ranges by Jinja.
     """
@@ -243,15 +235,13 @@ class Renderer:
     After a change of a template, make a new renderer.
     """
 
-    def __init__(self, folders: Sequence[Path], *, is_trusted: bool = False) -> None:
-        """Untrusted templates run in a sandbox, with limits."""
+    def __init__(self, folders: Sequence[Path]) -> None:
         self.folders = tuple(folders)
         self.sound = set[tuple[str, ...]]()
         """Texts that `generate` has checked, without literals and own names."""
         own = [(folder, Path(path)) for folder in folders[:-1] for path in walk_files(folder)]
         self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
-        kind = _Environment if is_trusted else _Sandbox
-        self._environment = kind(
+        self._environment = _Sandbox(
             loader=_Loader(folders),
             variable_start_string="<<",
             variable_end_string=">>",
@@ -264,7 +254,7 @@ class Renderer:
             lstrip_blocks=True,
             keep_trailing_newline=True,
             auto_reload=False,
-            bytecode_cache=_CodeCache(self.folders[-1], kind),
+            bytecode_cache=_CodeCache(self.folders[-1]),
             autoescape=False,  # the text is Modelica, not HTML; the filters above escape
         )
         self._environment.filters.update({function.__name__: function for function in _FILTERS})
@@ -280,9 +270,8 @@ class Renderer:
     def comes_from_user(self, template: str) -> bool:
         """Whether a rendered template includes a user's file."""
         names = [template]
-        if isinstance(self._environment, _Sandbox):
-            for name in names:
-                names += self._environment.pieces.get(name, set()).difference(names)
+        for name in names:
+            names += self._environment.pieces.get(name, set()).difference(names)
         return not self._users_names.isdisjoint(names)
 
     def find_origin(self, template: str, data: Mapping[str, Any], text: str, line: int) -> tuple[str, int]:
@@ -300,9 +289,7 @@ class Renderer:
         return file, int(number)
 
 
-def _render(environment: jinja2.Environment, template: str, data: Mapping[str, Any]) -> str:
-    if not isinstance(environment, _Sandbox):
-        return environment.get_template(template).render(data)
+def _render(environment: _Sandbox, template: str, data: Mapping[str, Any]) -> str:
     environment.deadline = time.monotonic() + MAX_SECONDS
     with _limited_process():
         pieces, size = [], 0
