@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
@@ -91,19 +92,16 @@ class Package:
     def _data_hash(self, path: str) -> str:
         if path not in self._data_hashes:
             artifact = self.artifacts[path]
-            self._data_hashes[path] = digest(msgspec.json.encode((artifact.template, artifact.data), order="sorted"))
+            # 0.0 == -0.0, but their texts and their JSON differ
+            self._data_hashes[path] = digest(msgspec.json.encode((artifact.template, artifact.data)))
         return self._data_hashes[path]
 
     def changed_since(self, last: Package) -> frozenset[str]:
         """Return the paths whose text may differ from the text in another package with the same templates."""
-        encode, changed = msgspec.json.encode, set()  # 0.0 == -0.0, but their texts and their JSON differ
-        for path, new in self.artifacts.items():
-            old = last.artifacts.get(path)
-            if old is None or (
-                new is not old and (new.template != old.template or encode(new.data) != encode(old.data))
-            ):
-                changed.add(path)
-        return frozenset(changed)
+        is_new = (
+            path not in last.artifacts or self._data_hash(path) != last._data_hash(path) for path in self.artifacts
+        )
+        return frozenset(itertools.compress(self.artifacts, is_new))
 
     def changed_models(self, last: Package) -> set[str]:
         """Return the owners of files whose text differs from the text in another package; records are left out."""
