@@ -87,12 +87,6 @@ class _CodeGenerator(CodeGenerator):
         super().visit_For(node, frame)
 
 
-def _compiler_identity() -> str:
-    """Return the stat values of the modules that compile templates: they tell an upgrade of urdfsync or Jinja."""
-    files = map(Path, (__file__, literals.__file__, compiler.__file__))
-    return repr([(file, file.stat().st_size, file.stat().st_mtime_ns) for file in files])
-
-
 class _CodeCache(jinja2.BytecodeCache):
     """Compiled templates of an installed package, in the folder of urdfsync's compiled modules.
 
@@ -105,7 +99,8 @@ class _CodeCache(jinja2.BytecodeCache):
         """`folder` has the installed templates."""
         self._folder = str(folder / "_").removesuffix("_")  # with a separator at its end
         self._stem = importlib.util.cache_from_source(__file__).removesuffix(".pyc")
-        self._compiler = _compiler_identity()
+        files = [Path(file) for file in (__file__, literals.__file__, compiler.__file__)]
+        self._compiler = repr([(file, file.stat().st_size, file.stat().st_mtime_ns) for file in files])
 
     def get_cache_key(self, name: str, filename: str | None = None) -> str:
         """See Jinja. The user's own templates have no key: each process compiles them."""

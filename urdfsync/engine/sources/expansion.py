@@ -37,6 +37,8 @@ WALL_SECONDS = 120.0
 _COMMAND_SECONDS = 600.0
 """Time for a command, which may wait for a server."""
 _PACKAGE = "package://"
+_INPUTS = "source arguments command patterns packages variables".split()
+"""The inputs of a source that are no files."""
 
 
 class SourceFiles:
@@ -92,13 +94,10 @@ class SourceFiles:
         )
 
     def find_changes(self, robot: RobotConfig, made: Expansion) -> tuple[str, ...]:
-        """Return the inputs that changed since a source was made."""
-        now, changed = self.look(robot, made), []
-        changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(made, key)]
-        changed += [name for name in {**made.files, **now.files} if made.files.get(name) != now.files.get(name)]
-        changed += [name for name in made.patterns if made.patterns[name] != now.patterns[name]]
-        changed += [f"{_PACKAGE}{name}" for name in made.packages if made.packages[name] != now.packages[name]]
-        return (*changed, *(f"${name}" for name in made.variables if made.variables[name] != now.variables[name]))
+        """Return the inputs that changed since a source was made: the kinds of inputs, and each file."""
+        now = self.look(robot, made)
+        others = (key for key in _INPUTS if getattr(now, key) != getattr(made, key))
+        return (*others, *(name for name in {**made.files, **now.files} if made.files.get(name) != now.files.get(name)))
 
     def why_not_expandable(self, made: Expansion, error: SourceError) -> str:
         """Return what this machine lacks to expand a source again, as a clause; empty for a faulty source."""
