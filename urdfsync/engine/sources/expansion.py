@@ -21,7 +21,7 @@ from urdfsync.dependencies.reads import read_file, read_variable
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Translator
 from urdfsync.engine.sources import ros_packages
-from urdfsync.engine.sources.exchange import Answer, Problem, Request, not_unicode
+from urdfsync.engine.sources.exchange import Answer, Request, fault, not_unicode
 from urdfsync.engine.sources.translators import XACRO
 from urdfsync.engine.sources.xacro_worker import find_matches
 from urdfsync.files import digest, shown, text_digest
@@ -184,7 +184,7 @@ def _ask(translator: Translator, inputs: SourceFiles, arguments: Mapping[str, st
     """Expand a source in another process; `more` are further fields of the request."""
     folders = tuple(map(str, inputs.package_paths))
     request = Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root), **more)
-    limits = Answer(problem=Problem(f"{translator.name}-limits", ""))
+    limits = Answer(problem=fault(f"{translator.name}-limits", ""))
     try:
         question = msgspec.json.encode(request)
     except UnicodeEncodeError:
@@ -206,7 +206,7 @@ def _ask(translator: Translator, inputs: SourceFiles, arguments: Mapping[str, st
         if done.returncode < 0:
             return limits
         words = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
-        return Answer(problem=Problem(translator.name, ": ".join([exit_cause(done.returncode), *words])))
+        return Answer(problem=fault(translator.name, ": ".join([exit_cause(done.returncode), *words])))
 
 
 def run_command(config: Config, robot: RobotConfig) -> None:
