@@ -123,50 +123,6 @@ class _CodeCache(jinja2.BytecodeCache):
                 put(Path(f"{self._stem}.{bucket.key}"), bucket.bytecode_to_string())
 
 
-class _Sandbox(ImmutableSandboxedEnvironment):
-    """Jinja's sandbox with limits: templates may come from strangers.
-
-    Memory is limited by `_limited_process`, ranges by Jinja.
-    """
-
-    code_generator_class = _CodeGenerator
-
-    def __init__(self, **settings: Any) -> None:
-        super().__init__(**settings)
-        self.deadline = math.inf
-        self.pieces: dict[str, set[str]] = {}
-        """The templates that each rendered template includes or imports."""
-        for name in ("lipsum", "random"):  # these give another text each time
-            self.globals.pop(name, None)
-            self.filters.pop(name, None)
-
-    def join_path(self, template: str, parent: str) -> str:
-        """See Jinja."""
-        self.pieces.setdefault(parent, set()).add(template)
-        return template
-
-    def check_time(self) -> None:
-        """Raise SecurityError if the text takes too long."""
-        if time.monotonic() > self.deadline:
-            raise SecurityError(f"it takes more than {MAX_SECONDS:g} s")
-
-    def call(self, context: Context, function: Any, /, *arguments: Any, **named: Any) -> Any:
-        """See Jinja; recursion without a loop checks the clock here."""
-        self.check_time()
-        return super().call(context, function, *arguments, **named)
-
-    def getattr(self, obj: Any, attribute: str) -> Any:
-        """See Jinja. If the dict `x` has the key `items`, `x.items` is the value of this key, not the method.
-
-        The sandbox allows such values, and the fields of structs: they are data.
-        """
-        if type(obj) is dict and attribute in obj:
-            return obj[attribute]
-        if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__:
-            return getattr(obj, attribute)
-        return super().getattr(obj, attribute)
-
-
 @contextlib.contextmanager
 def _limited_process() -> Iterator[None]:
     """Limit the memory (on Linux) and the CPU time (not on Windows) of this process.
@@ -224,19 +180,17 @@ class _Loader(jinja2.FileSystemLoader):
         return text, named(file), is_unchanged
 
 
-class Renderer:
-    """Renders templates from `folders`; a template hides templates of the same name in later folders.
+class Renderer(ImmutableSandboxedEnvironment):
+    """Renders templates from `folders` in Jinja's sandbox, with limits: strangers may have written the templates.
 
-    After a change of a template, make a new renderer.
+    A template hides templates of the same name in later folders. Memory is limited by `_limited_process`, ranges by
+    Jinja. After a change of a template, make a new renderer.
     """
 
+    code_generator_class = _CodeGenerator
+
     def __init__(self, folders: Sequence[Path]) -> None:
-        self.folders = tuple(folders)
-        self.sound = set[tuple[str, ...]]()
-        """Texts that `generate` has checked, without literals and own names."""
-        own = [(folder, Path(path)) for folder in folders[:-1] for path in walk_files(folder)]
-        self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
-        self._environment = _Sandbox(
+        super().__init__(
             loader=_Loader(folders),
             variable_start_string="<<",
             variable_end_string=">>",
@@ -249,10 +203,47 @@ class Renderer:
             lstrip_blocks=True,
             keep_trailing_newline=True,
             auto_reload=False,
-            bytecode_cache=_CodeCache(self.folders[-1]),
+            bytecode_cache=_CodeCache(folders[-1]),
             autoescape=False,  # the text is Modelica, not HTML; the filters above escape
         )
-        self._environment.filters.update({function.__name__: function for function in _FILTERS})
+        self.filters.update({function.__name__: function for function in _FILTERS})
+        for name in ("lipsum", "random"):  # these give another text each time
+            self.globals.pop(name, None)
+            self.filters.pop(name, None)
+        self.folders = tuple(folders)
+        self.sound = set[tuple[str, ...]]()
+        """Texts that `generate` has checked, without literals and own names."""
+        self.deadline = math.inf
+        self.pieces: dict[str, set[str]] = {}
+        """The templates that each rendered template includes or imports."""
+        own = [(folder, Path(path)) for folder in folders[:-1] for path in walk_files(folder)]
+        self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
+
+    def join_path(self, template: str, parent: str) -> str:
+        """See Jinja."""
+        self.pieces.setdefault(parent, set()).add(template)
+        return template
+
+    def check_time(self) -> None:
+        """Raise SecurityError if the text takes too long."""
+        if time.monotonic() > self.deadline:
+            raise SecurityError(f"it takes more than {MAX_SECONDS:g} s")
+
+    def call(self, context: Context, function: Any, /, *arguments: Any, **named: Any) -> Any:
+        """See Jinja; recursion without a loop checks the clock here."""
+        self.check_time()
+        return super().call(context, function, *arguments, **named)
+
+    def getattr(self, obj: Any, attribute: str) -> Any:
+        """See Jinja. If the dict `x` has the key `items`, `x.items` is the value of this key, not the method.
+
+        The sandbox allows such values, and the fields of structs: they are data.
+        """
+        if type(obj) is dict and attribute in obj:
+            return obj[attribute]
+        if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__:
+            return getattr(obj, attribute)
+        return super().getattr(obj, attribute)
 
     def render(self, template: str, data: Mapping[str, Any]) -> str:
         """Render a template with `data`.
@@ -260,13 +251,21 @@ class Renderer:
         Raises jinja2.TemplateError for a faulty template, SecurityError or MemoryError for forbidden code or an
         exceeded limit.
         """
-        return _render(self._environment, template, data)
+        self.deadline = time.monotonic() + MAX_SECONDS
+        with _limited_process():
+            pieces, size = [], 0
+            for piece in self.get_template(template).generate(data):
+                pieces.append(piece)
+                size += len(piece)
+                if size > MAX_OUTPUT:
+                    raise SecurityError(f"the text has more than {MAX_OUTPUT:,} characters")
+            return "".join(pieces)
 
     def comes_from_user(self, template: str) -> bool:
         """Whether a rendered template includes a user's file."""
         names = [template]
         for name in names:
-            names += self._environment.pieces.get(name, set()).difference(names)
+            names += self.pieces.get(name, set()).difference(names)
         return not self._users_names.isdisjoint(names)
 
     def find_origin(self, template: str, data: Mapping[str, Any], text: str, line: int) -> tuple[str, int]:
@@ -274,7 +273,7 @@ class Renderer:
 
         Returns an empty name and 0 if they are unknown. Raises the errors of `render`.
         """
-        marked = _render(self._environment.overlay(extensions=[_mark_lines()]), template, data)
+        marked = self.overlay(extensions=[_mark_lines()]).render(template, data)
         if _MARK.sub("", marked) != text:  # the marks change the text: for example, a filter counts characters
             return "", 0
         *before, last = marked.split("\n")[: max(line, 1)]
@@ -282,15 +281,3 @@ class Renderer:
         users = [place for place in places if any(folder in Path(place[0]).parents for folder in self.folders[:-1])]
         file, number = users[-1] if users else ("", 0)
         return file, int(number)
-
-
-def _render(environment: _Sandbox, template: str, data: Mapping[str, Any]) -> str:
-    environment.deadline = time.monotonic() + MAX_SECONDS
-    with _limited_process():
-        pieces, size = [], 0
-        for piece in environment.get_template(template).generate(data):
-            pieces.append(piece)
-            size += len(piece)
-            if size > MAX_OUTPUT:
-                raise SecurityError(f"the text has more than {MAX_OUTPUT:,} characters")
-        return "".join(pieces)
