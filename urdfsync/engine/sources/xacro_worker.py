@@ -17,6 +17,7 @@ import time
 import types
 import xml.dom
 import xml.dom.minidom
+from collections import UserDict
 from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import filter as filter_names
 from glob import has_magic
@@ -73,12 +74,12 @@ class NotTextError(Exception):
         self.file, self.content = file, content
 
 
-class _Asked(dict[str, str]):
+class _Asked(UserDict[str, str]):
     """A mapping that records its requested keys."""
 
     def __init__(self, values: Mapping[str, str]) -> None:
-        super().__init__(values)
         self.asked: dict[str, None] = {}
+        super().__init__(values)
 
     def __contains__(self, key: object) -> bool:
         self.asked[str(key)] = None
@@ -87,11 +88,6 @@ class _Asked(dict[str, str]):
     def __getitem__(self, key: str) -> str:
         self.asked[key] = None
         return super().__getitem__(key)
-
-    def get(self, key: str, default: Any = None) -> Any:
-        """Return a value, or the default; record the key."""
-        self.asked[key] = None
-        return super().get(key, default)
 
 
 def find_matches(pattern: str) -> list[str]:
