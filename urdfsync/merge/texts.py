@@ -77,19 +77,16 @@ def _preferred(
     """
     if any(isinstance(piece, Contradiction) and _is_new_part(piece) for piece in pieces):
         return None, None
-    texts = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
+    texts = (
+        "".join(piece if isinstance(piece, str) else _with_ending(getattr(piece, side), ending) for piece in pieces)
+        for side in ("mine", "generated")
+    )
     return [text if statements is None or not find_flaw(text, sides, statements) else None for text in texts]
 
 
 def _is_new_part(contradiction: Contradiction) -> bool:
     """Whether both sides have added a component of this name."""
     return not contradiction.base and contradiction.path[-1:] != () and contradiction.path[-1].startswith("component ")
-
-
-def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
-    """Return the text in which `side` wins all contradictions."""
-    texts = (piece if isinstance(piece, str) else _with_ending(getattr(piece, side), ending) for piece in pieces)
-    return "".join(texts)
 
 
 def merge_branches(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]] = _BRANCHES) -> Merge:

@@ -284,20 +284,21 @@ def find_dependencies(
     MODELICAPATH is read first, if a file is in a Modelica library. ROS packages are searched only for files that are
     not found elsewhere. Last, a folder of another name is tried as the package.
     """
-    dependencies = domain.dependencies(snapshot, lookup, options, lines)
-    if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in dependencies):
-        lookup = msgspec.structs.replace(lookup, libraries=ros_packages.libraries(os.environ))
-        dependencies = domain.dependencies(snapshot, lookup, options, lines)
-    if all(map(_is_found, dependencies)):
-        return dependencies
-    lookup = msgspec.structs.replace(lookup, packages=ros_packages.find(lookup.package_paths, lookup.source))
-    dependencies = domain.dependencies(snapshot, lookup, options, lines)
-    if all(map(_is_found, dependencies)):
-        return dependencies
-    guesses = domain.dependencies(snapshot, msgspec.structs.replace(lookup, guess=True), options, lines)
-    guesses = [msgspec.structs.replace(guess, guessed=_is_found(guess)) for guess in guesses]
-    pairs = zip(dependencies, guesses, strict=True)
-    return [dependency if _is_found(dependency) else guess for dependency, guess in pairs]
+
+    def find(**known: Any) -> Sequence[Dependency]:
+        nonlocal lookup
+        lookup = msgspec.structs.replace(lookup, **known)
+        return domain.dependencies(snapshot, lookup, options, lines)
+
+    found = find()
+    if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in found):
+        found = find(libraries=ros_packages.libraries(os.environ))
+    if not all(map(_is_found, found)):
+        found = find(packages=ros_packages.find(lookup.package_paths, lookup.source))
+    if not all(map(_is_found, found)):
+        guesses = [msgspec.structs.replace(guess, guessed=_is_found(guess)) for guess in find(guess=True)]
+        found = [one if _is_found(one) else guess for one, guess in zip(found, guesses, strict=True)]
+    return found
 
 
 def _is_found(dependency: Dependency) -> bool:
