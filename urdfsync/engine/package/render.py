@@ -15,7 +15,7 @@ import re
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,7 @@ from jinja2 import compiler, nodes
 from jinja2.bccache import Bucket
 from jinja2.compiler import CodeGenerator, Frame
 from jinja2.exceptions import SecurityError
-from jinja2.runtime import Context, Macro
+from jinja2.runtime import Context
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from urdfsync.dependencies.places import named, place
@@ -44,18 +44,8 @@ if sys.platform == "linux":
     """The memory limit of this process, outside of rendering."""
 
 
-def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
-    """Join the results of a macro for some values.
-
-    Raises TypeError unless `macro` is a macro: this call bypasses the sandbox.
-    """
-    if not isinstance(macro, Macro):
-        raise TypeError("`once` takes a macro")
-    return "".join(map(macro, pieces))
-
-
 _FILTERS = (
-    *(once, literals.real, literals.vector, literals.matrix, literals.string, literals.html),
+    *(literals.real, literals.vector, literals.matrix, literals.string, literals.html),
     *(literals.modifiers, literals.capitalize_first),
 )
 """The filters; each has the name of its function."""
