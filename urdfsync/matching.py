@@ -1,30 +1,32 @@
 """Matches the elements of two versions of a model, for any domain.
 
-All elements are matched at once, by their contents, places and names:
+All elements are matched at once. The rows of this table are tried in order, and the first match of an element counts.
 
-1. Declared matches hold. A content is one aspect of an element, such as its shapes, or all aspects together. If a
-content is unique in both versions, its two elements match, whatever their names are. If an element's aspects match
-different elements, they prove nothing. But if one of these aspects stays with a name, the elements of this name match.
-If an element keeps its name and its neighbours, its numbers changed, whatever content it has now. 2.
-Neighbours of matched elements match if they are at the same place and have equal contents.
-3. Then names win: elements of the same name match. If nothing but names agrees, neither contents nor the place beside
-a matched element, this is a doubt, and its place tells nothing in step 4.
-4. The remaining elements have other names. Two of these at the same place match if no other element has their content.
-They also match if another element has the old name now.
+| evidence | proves | does not prove | example |
+| --- | --- | --- | --- |
+| declared rename | a match | | `renamed = {hand = "gripper"}` |
+| unique content | a match under any names | a new name for a part that keeps its neighbours | exchanged masses |
+| equal content beside a match | a match | a new name, if the old name stays at its place | joint above a renamed link |
+| name | a match | the same part, if content and place are others | a camera named as the removed hand |
+| place beside a match | a match of elements without another | a match, if others have the content | a heavier hand |
 
-Rows of a table are a kind without neighbours: they have no places. So a whole content counts, whatever its values are.
-But if only zeros and ones changed under a name, somebody may have switched the row on or off. A unique text in one
-column proves no new name: the element keeps its name, or there is a doubt. After step 3, two rows of equal content
-match if all other rows of this content have kept their names.
+A content is one telling aspect of an element, such as its shapes, or all aspects together, or a file. Zeros and ones
+tell nothing: many origins and axes have them. Numbers are equal if they differ by `NOISE` at most. If an element's
+aspects lead to different elements, they prove nothing, unless one of these keeps the name.
 
-Numbers are equal if they differ by `NOISE` at most. If the place or a part of the content contradicts a match of step
-3, this is a `Doubt`. The time is linear in the number of elements.
+Rows of a table have no neighbours, so they have no places: a whole content counts, whatever its values are. But if only
+zeros and ones changed under a name, the row keeps its name: somebody may have switched it on or off. A unique text
+proves no new name: two pumps may have one maker. Two rows of equal content match if all other rows of this content have
+kept their names.
+
+If the place or a part of the content contradicts a match by name, or nothing but the name agrees, this is a `Doubt`.
+The time is linear in the number of elements.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping
 from typing import Any, TypeAlias
 
@@ -109,7 +111,7 @@ class _Matcher:
         self._take(declared.items())
 
     def run(self) -> Matching:
-        """Go through the steps of the module's docstring."""
+        """Go through the table of the module's docstring."""
         votes = self._votes()
         self._take(self._proved(votes).items())
         self._spread(self._pairs, is_late=False)
@@ -167,17 +169,13 @@ class _Matcher:
 
     def _proved(self, votes: Mapping[ElementKey, Mapping[ElementKey, bool]]) -> dict[ElementKey, ElementKey]:
         """Return the matches that contents prove."""
-        proved = {}
-        for key, found in votes.items():
-            if key in found or (len(found) == 1 and all(found.values())):
-                proved[key] = key if key in found else next(iter(found))
-        claims = defaultdict[ElementKey, list[ElementKey]](list)
-        for key, match_ in proved.items():
-            claims[match_].append(key)
-        for match_, keys in claims.items():
-            for key in keys if len(keys) > 1 else ():
-                if key != match_:
-                    del proved[key]
+        proved = {
+            key: key if key in found else next(iter(found))
+            for key, found in votes.items()
+            if key in found or (len(found) == 1 and all(found.values()))
+        }
+        claims = Counter(proved.values())
+        proved = {key: match_ for key, match_ in proved.items() if key == match_ or claims[match_] == 1}
         return {
             key: match_
             for key, match_ in proved.items()
@@ -218,9 +216,9 @@ class _Matcher:
         is_elsewhere = any(self._pairs.get(old) != new for old, new in known)
         return is_equal or key in votes.get(key, ()) or (len(known) < max(len(around), 1) and not is_elsewhere)
 
-    def _confirm(self, matches: Mapping[ElementKey, ElementKey]) -> dict[ElementKey, ElementKey]:
-        """Confirm elements beside these matches, and beside those, and so on; return the newly confirmed matches."""
-        confirmed, waiting = dict[ElementKey, ElementKey](), [*matches.items()] if self._unconfirmed else []
+    def _confirm(self, matches: Mapping[ElementKey, ElementKey]) -> None:
+        """Confirm elements beside these matches, and beside those, and so on."""
+        waiting = [*matches.items()] if self._unconfirmed else []
         while waiting:
             old, new = waiting.pop()
             if old in self._unconfirmed:
@@ -232,9 +230,7 @@ class _Matcher:
                 around |= {one for one in children if self._pairs.get(one) in others}
             found = {one: self._pairs[one] for one in around & self._unconfirmed}
             self._unconfirmed -= found.keys()
-            confirmed |= found
             waiting += found.items()
-        return confirmed
 
     def _spread(self, matches: Mapping[ElementKey, ElementKey], *, is_late: bool) -> None:
         """Match the neighbours of matched elements, and their neighbours, and so on."""
@@ -255,7 +251,7 @@ class _Matcher:
             frontier = self._take((olds[0], new) for new, olds in claims.items() if len(olds) == 1 or new in olds)
             if not frontier and is_late:
                 frontier = self._take(self._between())
-            frontier |= self._confirm(frontier)
+            self._confirm(frontier)
 
     def _roots(self) -> list[tuple[ElementKey, ElementKey]]:
         """Return the two roots, if each version has a single root and their contents are equal."""
@@ -303,7 +299,7 @@ class _Matcher:
         is_named = old in self._new and old not in self._taken
         if self._is_equal(old, new):
             return old == new or not is_named or not self._is_equal(old, old) or self._has_another_place(old)
-        # step 4: the old name is gone or another element's, and no other unmatched element has these contents
+        # by place alone: the old name is gone or another's, and no other unmatched element has these contents
         is_unique = (old[0], self._before[old]) not in self._added and (new[0], self._after[new]) not in self._removed
         return is_late and not is_named and is_unique
 
@@ -322,13 +318,10 @@ class _Matcher:
 
     def _has_another_place(self, key: ElementKey) -> bool:
         """Whether the new element of this name has other neighbours than the old element."""
-        for relation, one in self._old[key].neighbours.items():
-            if one in self._pairs and self._new[key].neighbours.get(relation) != self._pairs[one]:
-                return True
-        for relation, one in self._new[key].neighbours.items():
-            if one in self._taken and key not in self._children[0].get(self._taken[one], {}).get(relation, ()):
-                return True
-        return False
+        before, after = self._old[key].neighbours, self._new[key].neighbours
+        return any(one in self._pairs and after.get(name) != self._pairs[one] for name, one in before.items()) or any(
+            one in self._taken and before.get(name) != self._taken[one] for name, one in after.items()
+        )
 
     def _remaining(self) -> Iterator[tuple[ElementKey, ElementKey]]:
         """Yield pairs of elements without places: all other elements of the same content keep their names."""

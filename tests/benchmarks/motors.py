@@ -45,7 +45,7 @@ class Motors:
         reading = DOMAIN.read(self._file.read_bytes(), "motors.csv", TableOptions())
         found = DOMAIN.artifacts(reading.snapshot, {}, Target("Robot0", "Robot0"), TableOptions())
         artifacts = [artifact for artifact in found if isinstance(artifact, Artifact)]
-        renderer = Renderer([templates_folder(DOMAIN)], is_trusted=True)
+        renderer = Renderer([templates_folder(DOMAIN)])
 
         def measurement() -> Cost:
             folder = tempfile.mkdtemp(dir=self.folder.parent)  # not where builds look for models

@@ -27,7 +27,7 @@ from support.printer import STYLES, Style, resaved
 from support.statements import KINDS, Editor, statements
 
 from urdfsync.merge import Merge, merge
-from urdfsync.merge.texts import merge_file
+from urdfsync.merge.texts import merge_branches
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
 
@@ -56,9 +56,9 @@ MARKERS = ("<<<<<<< mine", "mine"), ("=======", "generated"), (">>>>>>> other", 
 def test_two_people(name: str) -> None:
     texts = (CATALOGUE / name / f"{text}.mo" for text in ("base", "mine", "other", "expected"))
     base, mine, other, expected = (text.read_text("utf-8") for text in texts)
-    merged, conflicts = merge_file(base, mine, other, MARKERS)
-    assert merged == expected
-    assert len(conflicts) == expected.count("=======\n") == len(merge_file(base, other, mine, MARKERS)[1])
+    found, swapped = merge_branches(base, mine, other, MARKERS), merge_branches(base, other, mine, MARKERS)
+    assert found.proposal == expected
+    assert len(found.contradictions) == expected.count("=======\n") == len(swapped.contradictions)
 
 
 @pytest.mark.parametrize("name", sorted(folder.name for folder in CATALOGUE.iterdir() if folder.name not in TWO_PEOPLE))
@@ -177,12 +177,11 @@ def test_of_two_people_no_comment_is_lost(random: Random, mine: list[str], other
     base = random.choice(simple_files())
     ours = commented(edited(base, Editor("my", random), mine), random)
     theirs = commented(edited(base, Editor("your", random), other), random, "other")
-    merged, conflicts = merge_file(base, ours, theirs, MARKERS)
-    assert {*re.findall(r"(?:mine|other)\d+", ours + theirs)} <= {*re.findall(r"(?:mine|other)\d+", merged)}
-    swapped, as_many = merge_file(base, theirs, ours, MARKERS)
-    assert bool(conflicts) == bool(as_many) == ("<<<<<<< mine" in swapped)
-    assert merge_file(base, ours, base, MARKERS) == (ours, ())
-    assert merge_file(base, base, ours, MARKERS) == (ours.replace("\r\n", "\n"), ())
+    found, swapped = merge_branches(base, ours, theirs, MARKERS), merge_branches(base, theirs, ours, MARKERS)
+    assert {*re.findall(r"(?:mine|other)\d+", ours + theirs)} <= {*re.findall(r"(?:mine|other)\d+", found.proposal)}
+    assert bool(found.contradictions) == bool(swapped.contradictions) == ("<<<<<<< mine" in swapped.proposal)
+    assert merge_branches(base, ours, base).text == ours
+    assert merge_branches(base, base, ours).text == ours.replace("\r\n", "\n")
 
 
 def read_by_pymoca(text: str) -> tuple[set[str], int]:

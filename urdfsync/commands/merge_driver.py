@@ -124,7 +124,7 @@ def install(folder: Path, console: Console) -> None:
 def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     """Write the merge, and return a warning if there are conflicts. Raises OSError."""
     from urdfsync.engine.inspect.package_files import text_hash
-    from urdfsync.merge.texts import merge_file  # the other commands seldom merge
+    from urdfsync.merge.texts import merge_branches  # the other commands seldom merge
     from urdfsync.modelica.stamp import split, stamped
 
     size = args.marker_size if args.marker_size > 0 else _MARKER_SIZE  # as git does
@@ -138,7 +138,8 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
         message, hint = "the file is not UTF-8, so it can't be merged", "this side's text stays: settle it by hand"
         return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)]
     (base, before), (mine, stamp), (other, others) = map(split, (base, mine, other))
-    merged, conflicts = merge_file(base, mine, other, markers)
+    found = merge_branches(base, mine, other, markers)
+    merged, conflicts = found.proposal, found.contradictions
     unedited = [side and side.base == text_hash(text) for text, side in ((mine, stamp), (other, others))]
     if stamp and all(unedited) and not conflicts:
         stamp = stamp._replace(base=text_hash(merged))  # nobody has edited the file

@@ -77,7 +77,10 @@ def _preferred(
     """
     if any(isinstance(piece, Contradiction) and _is_new_part(piece) for piece in pieces):
         return None, None
-    texts = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
+    texts = (
+        "".join(piece if isinstance(piece, str) else _with_ending(getattr(piece, side), ending) for piece in pieces)
+        for side in ("mine", "generated")
+    )
     return [text if statements is None or not find_flaw(text, sides, statements) else None for text in texts]
 
 
@@ -86,41 +89,23 @@ def _is_new_part(contradiction: Contradiction) -> bool:
     return not contradiction.base and contradiction.path[-1:] != () and contradiction.path[-1].startswith("component ")
 
 
-def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
-    """Return the text in which `side` wins all contradictions."""
-    texts = (piece if isinstance(piece, str) else _with_ending(getattr(piece, side), ending) for piece in pieces)
-    return "".join(texts)
-
-
-def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, tuple[str, ...]]:
-    """Merge the versions of two people: return the text with markers in it, and the element of each conflict.
+def merge_branches(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]] = _BRANCHES) -> Merge:
+    """Merge the versions of two people; the contradictions are elements.
 
     If the merge by elements has a flaw, the texts are merged by lines, and the elements are empty texts.
     """
-    pieces, elements = _merge_versions(base, mine, other)
-    return _with_markers(pieces, _ending(mine), markers), elements
-
-
-def merge_branches(base: str, ours: str, theirs: str) -> Merge:
-    """Merge the versions of two branches as `merge_file`; the contradictions are elements."""
-    pieces, elements = _merge_versions(base, ours, theirs)
-    merged = _with_markers(pieces, _ending(ours), _BRANCHES)
-    if not elements:
-        return Merge(merged, merged, ())
-    return Merge(None, merged, elements, "", *_preferred(pieces, _ending(ours), (ours, theirs), {}))
-
-
-def _merge_versions(base: str, mine: str, other: str) -> tuple[Sequence[Piece], tuple[str, ...]]:
-    """Return the merge of two people's versions in pieces, and the element of each contradiction."""
-    ending, pieces, elements = _ending(mine), list[Piece](), tuple[str, ...]()
+    ending, merged, pieces, elements = _ending(mine), "", list[Piece](), tuple[str, ...]()
     ways: tuple[KnownStatements | None, ...] = {}, None
     for statements in ways:
         pieces = [*_merge_pieces(base, mine, other, ending, statements, is_export=False)]
         conflicts = (piece for piece in pieces if isinstance(piece, Contradiction))
         elements = tuple(place_of(conflict.path)[0] if conflict.path else "" for conflict in conflicts)
-        if elements or not find_flaw(_with_markers(pieces, ending, ()), (mine, other)):
+        merged = _with_markers(pieces, ending, markers)
+        if elements or not find_flaw(merged, (mine, other)):
             break
-    return pieces, elements
+    if not elements:
+        return Merge(merged, merged, ())
+    return Merge(None, merged, elements, "", *_preferred(pieces, ending, (mine, other), {}))
 
 
 def _ending(text: str) -> str:

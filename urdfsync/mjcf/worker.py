@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 
-from urdfsync.engine.sources.exchange import Answer, Problem, Request, serve
+from urdfsync.engine.sources.exchange import Answer, Request, fault, serve
 from urdfsync.mjcf.document import read_document
 from urdfsync.translation import program
 from urdfsync.translation.files import Files, TranslationError
@@ -22,7 +22,7 @@ def translate(request: Request) -> Answer:
     try:
         from urdfsync.mjcf import comparison, urdf
     except ImportError as error:
-        return Answer(problem=Problem("not-installed", f"MuJoCo can't be loaded: {error}", request.source))
+        return Answer(problem=fault("not-installed", f"MuJoCo can't be loaded: {error}", request.source))
     files = Files(request.contents, (request.folder, os.path.dirname(request.source)))  # noqa: PTH120
 
     def translate_or_compare() -> Answer:

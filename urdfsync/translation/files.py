@@ -11,7 +11,8 @@ from msgspec.structs import replace
 
 from urdfsync.dependencies.facts import read_unrecorded
 from urdfsync.dependencies.places import real
-from urdfsync.engine.sources.exchange import Problem
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.sources.exchange import fault
 from urdfsync.engine.sources.ros_packages import is_visible_file
 from urdfsync.files import text_digest
 from urdfsync.urdf.parse.xml import ParseError, parse
@@ -33,9 +34,9 @@ class TranslationError(Exception):
 
     def __init__(self, message: str, place: SourcePlace = ("", 0), hint: str = "", code: str = "") -> None:
         super().__init__(message)
-        self._problem = Problem(code, message, *place, hint)
+        self._problem = fault(code, message, *place, hint)
 
-    def problem(self, code: str) -> Problem:
+    def problem(self, code: str) -> Diagnostic:
         """Return the fault; `code` counts unless the fault has a code of its own."""
         return replace(self._problem, code=self._problem.code or code)
 

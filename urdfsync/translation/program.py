@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection
 
 from msgspec.structs import replace
 
-from urdfsync.engine.sources.exchange import Answer, Problem, Request
+from urdfsync.engine.sources.exchange import Answer, Request, fault
 from urdfsync.processes import limits
 from urdfsync.translation.files import Files, TranslationError
 
@@ -29,8 +29,8 @@ def answer(
     except TranslationError as error:
         problem = error.problem(code)
     except MemoryError:
-        problem = Problem(f"{code}-limits", "")
+        problem = fault(f"{code}-limits", "")
     except RecursionError:
-        problem = Problem(code, "its parts are nested too deep", request.source)
+        problem = fault(code, "its parts are nested too deep", request.source)
     unknown = tuple(name for name in request.arguments if name not in arguments)
     return replace(made, files=files.hashes, unknown=unknown, problem=problem)

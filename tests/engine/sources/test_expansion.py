@@ -78,7 +78,7 @@ def test_a_package_is_looked_for_again(folder: Path, recorded: str | None, prese
     inputs = SourceFiles(folder / "project", robot.source, search)
     made = inputs.look(robot, Expansion(packages={"pk": recorded}))
     made = msgspec.structs.replace(made, packages={"pk": recorded})
-    assert inputs.find_changes(robot, made) == (("package://pk",) if changed else ())
+    assert inputs.find_changes(robot, made) == (("packages",) if changed else ())
 
 
 def test_what_it_prints_nothing_of_is_no_robot(folder: Path, execute: Execute) -> None:

@@ -186,7 +186,7 @@ def _is_untouched(text: str, sides: Sides) -> bool:
     After a merge by lines, each side of a conflict has one version, with the other version's changes to unchanged
     lines. This compares the changes, since git may compare lines in several ways.
     """
-    from urdfsync.merge.texts import merge_file
+    from urdfsync.merge.texts import merge_branches
 
     base, ours, theirs = sides.base or "", sides.ours, sides.theirs
     readings = [split(side)[0] for side in markers.read_sides(text)]
@@ -195,8 +195,8 @@ def _is_untouched(text: str, sides: Sides) -> bool:
         if _changes(ours, readings[0]) <= of_theirs and _changes(theirs, readings[1]) <= of_ours:
             return True
     first, middle, last = markers.signs(text)
-    driven, _ = merge_file(base, ours, theirs, ((first, "mine"), (middle, "generated"), (last, "")))
-    return driven == markers.without_labels(text)
+    driven = merge_branches(base, ours, theirs, ((first, "mine"), (middle, "generated"), (last, "")))
+    return driven.proposal == markers.without_labels(text)
 
 
 def _changes(old: str, new: str) -> _Changes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
@@ -91,19 +92,16 @@ class Package:
     def _data_hash(self, path: str) -> str:
         if path not in self._data_hashes:
             artifact = self.artifacts[path]
-            self._data_hashes[path] = digest(msgspec.json.encode((artifact.template, artifact.data), order="sorted"))
+            # 0.0 == -0.0, but their texts and their JSON differ
+            self._data_hashes[path] = digest(msgspec.json.encode((artifact.template, artifact.data)))
         return self._data_hashes[path]
 
     def changed_since(self, last: Package) -> frozenset[str]:
         """Return the paths whose text may differ from the text in another package with the same templates."""
-        encode, changed = msgspec.json.encode, set()  # 0.0 == -0.0, but their texts and their JSON differ
-        for path, new in self.artifacts.items():
-            old = last.artifacts.get(path)
-            if old is None or (
-                new is not old and (new.template != old.template or encode(new.data) != encode(old.data))
-            ):
-                changed.add(path)
-        return frozenset(changed)
+        is_new = (
+            path not in last.artifacts or self._data_hash(path) != last._data_hash(path) for path in self.artifacts
+        )
+        return frozenset(itertools.compress(self.artifacts, is_new))
 
     def changed_models(self, last: Package) -> set[str]:
         """Return the owners of files whose text differs from the text in another package; records are left out."""
@@ -123,24 +121,9 @@ def generate(
 ) -> Package:
     """Return the package of a model (see `Package`). Raises OutputError for forbidden paths."""
     snapshot, imports = version.snapshot, version.imports or {}
-    # the key is JSON: 0.0 == -0.0, but their texts differ
-    key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options))
-    artifacts = _recent.pop(key, None)
-    if artifacts is None:
-        artifacts = tuple(domain.artifacts(snapshot, imports, target, options))
-        check_paths([*(artifact.path for artifact in artifacts), *(entry.target for entry in imports.values())])
-    _recent[key] = artifacts
-    while len(_recent) > _MOST:
-        del _recent[next(iter(_recent))]
+    artifacts = (*domain.artifacts(snapshot, imports, target, options),)
+    check_paths([*(artifact.path for artifact in artifacts), *(entry.target for entry in imports.values())])
     return Package(artifacts, templates, target.package, noted, stored)
-
-
-_MOST = 4
-_recent: dict[tuple[Any, bytes], tuple[Artifact | Order, ...]] = {}
-"""The artifacts of the last models: saves the daemon 9 of 90 ms with 133 links (docs/speed.md).
-
-Dropping it changes no byte: artifacts follow from the key.
-"""
 
 
 @functools.lru_cache(maxsize=4)
@@ -149,7 +132,7 @@ def _renderer(templates: Templates) -> Renderer:
     # Jinja takes 10 ms to import: most builds have nothing to render
     from urdfsync.engine.package.render import Renderer
 
-    return Renderer(templates.folders, is_trusted=len(templates.folders) == 1)
+    return Renderer(templates.folders)
 
 
 def check_paths(paths: Sequence[str]) -> None:
@@ -157,29 +140,22 @@ def check_paths(paths: Sequence[str]) -> None:
 
     Raises OutputError with all faults.
     """
-    outside: list[str] = []
-    clashes: list[tuple[str, str]] = []
-    files: dict[str, str] = {}
-    folders: dict[str, str] = {}
-    checked: set[str] = set()
+    outside = [path for path in paths if not _is_inside(path)]
+    clashes = list[tuple[str, str]]()
+    files, folders = dict[str, str](), dict[str, str]()
     for path in paths:
-        folder, slash, name = path.rpartition("/")
-        if not _is_inside(name) or (slash and folder not in checked and not _is_inside(folder)):
-            outside.append(path)
-            continue
-        folded = path.casefold()
-        if folded in files:
-            clashes.append((files[folded], path))
-        files[folded] = path
-        while folder and folder not in checked:
-            checked.add(folder)
+        clashes += [(files[path.casefold()], path)] if path.casefold() in files else []
+        files[path.casefold()] = path
+        for folder in itertools.accumulate(path.split("/")[:-1], "{}/{}".format):
             other = folders.setdefault(folder.casefold(), folder)
             clashes += [(other, folder)] if other != folder else []
-            folder = folder.rpartition("/")[0]
     classes = {folded.removesuffix(".mo"): path for folded, path in files.items() if folded.endswith(".mo")}
     clashes += [(path, f"{folders[name]}/") for name, path in classes.items() if name in folders]
     problems = [("outside", f"{path!r} is not a path inside the package") for path in outside]
-    problems += [("path-clash", f"`{first}` and `{second}` can't both be in the package") for first, second in clashes]
+    problems += [
+        ("path-clash", f"`{first}` and `{second}` can't both be in the package")
+        for first, second in dict.fromkeys(clashes)
+    ]
     if problems:
         hint = "rename the element, the package or the class"
         raise OutputError(*(Diagnostic(Severity.ERROR, code, message, hint=hint) for code, message in problems))
@@ -239,7 +215,7 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
     If texts of one template differ only in literals and in the class's own name, one check serves all.
     """
     path = PurePosixPath(artifact.path)
-    form = artifact.template, str(path.parent), without_literals(_without_word(text, path.stem))
+    form = artifact.template, str(path.parent), without_literals(re.sub(rf"\b{re.escape(path.stem)}\b", "\0", text))
     if form in renderer.sound and "\\" not in text:  # a string may have a wrong escape
         return
     from urdfsync.modelica.layout import check_class_file  # imports the parser: 8 of 220 ms of a build
@@ -255,15 +231,6 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
             message = f"the text for `{artifact.path}` is wrong: {wrong.message}"
             raise _template_error(renderer.folders, artifact.template, file, line, message)
     renderer.sound.add(form)
-
-
-def _without_word(text: str, word: str) -> str:
-    """Return a text with a null character for each whole `word`. A regular expression would take twice as long."""
-    shortened, *rest = text.split(word)
-    for part in rest:
-        is_part = any(letter.isalnum() or letter == "_" for letter in shortened[-1:] + part[:1])
-        shortened += (word if is_part else "\0") + part
-    return shortened
 
 
 def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:

@@ -171,10 +171,7 @@ class _Importer(msgspec.Struct):
         if own and own.entry.source_hash == sha256 and not (self.is_full or self.has_moved):
             facts, files = _needed(dependency, own.entry), self._recorded_files(dependency)
             if facts is not None and all(file.is_noted and file.is_intact for _, _, file in files):
-                for key, target, file in files:
-                    own_facts = facts if file is own else file.entry.facts
-                    entry = msgspec.structs.replace(file.entry, target=target, facts=own_facts)
-                    self.result.add(key, entry, file.copy)
+                self._reuse(dependency, facts)
                 return None
         if text.startswith(_POINTER):
             message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
@@ -205,17 +202,21 @@ class _Importer(msgspec.Struct):
             message = f"{trouble.message}, and the record of its imported copy is incomplete"
             hint = "put the file back, or restore `.urdfsync/robots` from version control"
             raise StateError.of("lost-state", message, trouble.file, trouble.line, hint=hint)
-        for key, target, file in files:
+        self._reuse(dependency, facts)
+        message = f"{trouble.message}; the imported copy is kept"
+        return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message)
+
+    def _reuse(self, dependency: Dependency, facts: Mapping[str, Any]) -> None:
+        """Use the recorded copies of a dependency again; `facts` are those of its main file."""
+        for key, target, file in self._recorded_files(dependency):
             entry = file.entry
             # if the user put back an older copy, it does not belong to the recorded source
             is_older = not file.is_intact and file.hash == file.written
             is_placed_anew = self.has_moved or entry.target != target
             target_hash = file.hash if is_older or is_placed_anew else entry.target_hash
-            own_facts = facts if file is own else entry.facts
+            own_facts = facts if key == dependency.key else entry.facts
             entry = msgspec.structs.replace(entry, target=target, target_hash=target_hash, facts=own_facts)
             self.result.add(key, entry, file.copy if file.hash == target_hash else None)
-        message = f"{trouble.message}; the imported copy is kept"
-        return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message)
 
 
 def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:
@@ -283,20 +284,21 @@ def find_dependencies(
     MODELICAPATH is read first, if a file is in a Modelica library. ROS packages are searched only for files that are
     not found elsewhere. Last, a folder of another name is tried as the package.
     """
-    dependencies = domain.dependencies(snapshot, lookup, options, lines)
-    if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in dependencies):
-        lookup = msgspec.structs.replace(lookup, libraries=ros_packages.libraries(os.environ))
-        dependencies = domain.dependencies(snapshot, lookup, options, lines)
-    if all(map(_is_found, dependencies)):
-        return dependencies
-    lookup = msgspec.structs.replace(lookup, packages=ros_packages.find(lookup.package_paths, lookup.source))
-    dependencies = domain.dependencies(snapshot, lookup, options, lines)
-    if all(map(_is_found, dependencies)):
-        return dependencies
-    guesses = domain.dependencies(snapshot, msgspec.structs.replace(lookup, guess=True), options, lines)
-    guesses = [msgspec.structs.replace(guess, guessed=_is_found(guess)) for guess in guesses]
-    pairs = zip(dependencies, guesses, strict=True)
-    return [dependency if _is_found(dependency) else guess for dependency, guess in pairs]
+
+    def find(**known: Any) -> Sequence[Dependency]:
+        nonlocal lookup
+        lookup = msgspec.structs.replace(lookup, **known)
+        return domain.dependencies(snapshot, lookup, options, lines)
+
+    found = find()
+    if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in found):
+        found = find(libraries=ros_packages.libraries(os.environ))
+    if not all(map(_is_found, found)):
+        found = find(packages=ros_packages.find(lookup.package_paths, lookup.source))
+    if not all(map(_is_found, found)):
+        guesses = [msgspec.structs.replace(guess, guessed=_is_found(guess)) for guess in find(guess=True)]
+        found = [one if _is_found(one) else guess for one, guess in zip(found, guesses, strict=True)]
+    return found
 
 
 def _is_found(dependency: Dependency) -> bool:

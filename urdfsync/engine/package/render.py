@@ -15,7 +15,7 @@ import re
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,7 @@ from jinja2 import compiler, nodes
 from jinja2.bccache import Bucket
 from jinja2.compiler import CodeGenerator, Frame
 from jinja2.exceptions import SecurityError
-from jinja2.runtime import Context, Macro
+from jinja2.runtime import Context
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from urdfsync.dependencies.places import named, place
@@ -44,18 +44,8 @@ if sys.platform == "linux":
     """The memory limit of this process, outside of rendering."""
 
 
-def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
-    """Join the results of a macro for some values.
-
-    Raises TypeError unless `macro` is a macro: this call bypasses the sandbox.
-    """
-    if not isinstance(macro, Macro):
-        raise TypeError("`once` takes a macro")
-    return "".join(map(macro, pieces))
-
-
 _FILTERS = (
-    *(once, literals.real, literals.vector, literals.matrix, literals.string, literals.html),
+    *(literals.real, literals.vector, literals.matrix, literals.string, literals.html),
     *(literals.modifiers, literals.capitalize_first),
 )
 """The filters; each has the name of its function."""
@@ -87,20 +77,6 @@ class _CodeGenerator(CodeGenerator):
         super().visit_For(node, frame)
 
 
-class _Environment(jinja2.Environment):
-    """Jinja for templates of installed packages."""
-
-    def getattr(self, obj: Any, attribute: str) -> Any:
-        """See Jinja. If the dict `x` has the key `items`, `x.items` is the value of this key, not the method."""
-        return obj[attribute] if type(obj) is dict and attribute in obj else super().getattr(obj, attribute)
-
-
-def _compiler_identity() -> str:
-    """Return the stat values of the modules that compile templates: they tell an upgrade of urdfsync or Jinja."""
-    files = map(Path, (__file__, literals.__file__, compiler.__file__))
-    return repr([(file, file.stat().st_size, file.stat().st_mtime_ns) for file in files])
-
-
 class _CodeCache(jinja2.BytecodeCache):
     """Compiled templates of an installed package, in the folder of urdfsync's compiled modules.
 
@@ -109,11 +85,12 @@ class _CodeCache(jinja2.BytecodeCache):
     applies filters to constants when it compiles.
     """
 
-    def __init__(self, folder: Path, kind: type[jinja2.Environment]) -> None:
-        """`folder` has the installed templates; code for one `kind` of environment does not fit another."""
+    def __init__(self, folder: Path) -> None:
+        """`folder` has the installed templates."""
         self._folder = str(folder / "_").removesuffix("_")  # with a separator at its end
-        self._stem = f"{importlib.util.cache_from_source(__file__).removesuffix('.pyc')}{kind.__name__}"
-        self._compiler = _compiler_identity()
+        self._stem = importlib.util.cache_from_source(__file__).removesuffix(".pyc")
+        files = [Path(file) for file in (__file__, literals.__file__, compiler.__file__)]
+        self._compiler = repr([(file, file.stat().st_size, file.stat().st_mtime_ns) for file in files])
 
     def get_cache_key(self, name: str, filename: str | None = None) -> str:
         """See Jinja. The user's own templates have no key: each process compiles them."""
@@ -134,50 +111,6 @@ class _CodeCache(jinja2.BytecodeCache):
         if bucket.key and not sys.dont_write_bytecode:
             with contextlib.suppress(OSError):
                 put(Path(f"{self._stem}.{bucket.key}"), bucket.bytecode_to_string())
-
-
-class _Sandbox(ImmutableSandboxedEnvironment):
-    """Jinja's sandbox with limits: templates of a user's folder may come from strangers.
-
-    Memory is limited by `_limited_process`, ranges by Jinja.
-    """
-
-    code_generator_class = _CodeGenerator
-
-    def __init__(self, **settings: Any) -> None:
-        super().__init__(**settings)
-        self.deadline = math.inf
-        self.pieces: dict[str, set[str]] = {}
-        """The templates that each rendered template includes or imports."""
-        for name in ("lipsum", "random"):  # these give another text each time
-            self.globals.pop(name, None)
-            self.filters.pop(name, None)
-
-    def join_path(self, template: str, parent: str) -> str:
-        """See Jinja."""
-        self.pieces.setdefault(parent, set()).add(template)
-        return template
-
-    def check_time(self) -> None:
-        """Raise SecurityError if the text takes too long."""
-        if time.monotonic() > self.deadline:
-            raise SecurityError(f"it takes more than {MAX_SECONDS:g} s")
-
-    def call(self, context: Context, function: Any, /, *arguments: Any, **named: Any) -> Any:
-        """See Jinja; recursion without a loop checks the clock here."""
-        self.check_time()
-        return super().call(context, function, *arguments, **named)
-
-    def getattr(self, obj: Any, attribute: str) -> Any:
-        """See Jinja. If the dict `x` has the key `items`, `x.items` is the value of this key, not the method.
-
-        The sandbox allows such values, and the fields of structs: they are data.
-        """
-        if type(obj) is dict and attribute in obj:
-            return obj[attribute]
-        if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__:
-            return getattr(obj, attribute)
-        return super().getattr(obj, attribute)
 
 
 @contextlib.contextmanager
@@ -237,21 +170,17 @@ class _Loader(jinja2.FileSystemLoader):
         return text, named(file), is_unchanged
 
 
-class Renderer:
-    """Renders templates from `folders`; a template hides templates of the same name in later folders.
+class Renderer(ImmutableSandboxedEnvironment):
+    """Renders templates from `folders` in Jinja's sandbox, with limits: strangers may have written the templates.
 
-    After a change of a template, make a new renderer.
+    A template hides templates of the same name in later folders. Memory is limited by `_limited_process`, ranges by
+    Jinja. After a change of a template, make a new renderer.
     """
 
-    def __init__(self, folders: Sequence[Path], *, is_trusted: bool = False) -> None:
-        """Untrusted templates run in a sandbox, with limits."""
-        self.folders = tuple(folders)
-        self.sound = set[tuple[str, ...]]()
-        """Texts that `generate` has checked, without literals and own names."""
-        own = [(folder, Path(path)) for folder in folders[:-1] for path in walk_files(folder)]
-        self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
-        kind = _Environment if is_trusted else _Sandbox
-        self._environment = kind(
+    code_generator_class = _CodeGenerator
+
+    def __init__(self, folders: Sequence[Path]) -> None:
+        super().__init__(
             loader=_Loader(folders),
             variable_start_string="<<",
             variable_end_string=">>",
@@ -264,10 +193,47 @@ class Renderer:
             lstrip_blocks=True,
             keep_trailing_newline=True,
             auto_reload=False,
-            bytecode_cache=_CodeCache(self.folders[-1], kind),
+            bytecode_cache=_CodeCache(folders[-1]),
             autoescape=False,  # the text is Modelica, not HTML; the filters above escape
         )
-        self._environment.filters.update({function.__name__: function for function in _FILTERS})
+        self.filters.update({function.__name__: function for function in _FILTERS})
+        for name in ("lipsum", "random"):  # these give another text each time
+            self.globals.pop(name, None)
+            self.filters.pop(name, None)
+        self.folders = tuple(folders)
+        self.sound = set[tuple[str, ...]]()
+        """Texts that `generate` has checked, without literals and own names."""
+        self.deadline = math.inf
+        self.pieces: dict[str, set[str]] = {}
+        """The templates that each rendered template includes or imports."""
+        own = [(folder, Path(path)) for folder in folders[:-1] for path in walk_files(folder)]
+        self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
+
+    def join_path(self, template: str, parent: str) -> str:
+        """See Jinja."""
+        self.pieces.setdefault(parent, set()).add(template)
+        return template
+
+    def check_time(self) -> None:
+        """Raise SecurityError if the text takes too long."""
+        if time.monotonic() > self.deadline:
+            raise SecurityError(f"it takes more than {MAX_SECONDS:g} s")
+
+    def call(self, context: Context, function: Any, /, *arguments: Any, **named: Any) -> Any:
+        """See Jinja; recursion without a loop checks the clock here."""
+        self.check_time()
+        return super().call(context, function, *arguments, **named)
+
+    def getattr(self, obj: Any, attribute: str) -> Any:
+        """See Jinja. If the dict `x` has the key `items`, `x.items` is the value of this key, not the method.
+
+        The sandbox allows such values, and the fields of structs: they are data.
+        """
+        if type(obj) is dict and attribute in obj:
+            return obj[attribute]
+        if isinstance(obj, msgspec.Struct) and attribute in obj.__struct_fields__:
+            return getattr(obj, attribute)
+        return super().getattr(obj, attribute)
 
     def render(self, template: str, data: Mapping[str, Any]) -> str:
         """Render a template with `data`.
@@ -275,14 +241,21 @@ class Renderer:
         Raises jinja2.TemplateError for a faulty template, SecurityError or MemoryError for forbidden code or an
         exceeded limit.
         """
-        return _render(self._environment, template, data)
+        self.deadline = time.monotonic() + MAX_SECONDS
+        with _limited_process():
+            pieces, size = [], 0
+            for piece in self.get_template(template).generate(data):
+                pieces.append(piece)
+                size += len(piece)
+                if size > MAX_OUTPUT:
+                    raise SecurityError(f"the text has more than {MAX_OUTPUT:,} characters")
+            return "".join(pieces)
 
     def comes_from_user(self, template: str) -> bool:
         """Whether a rendered template includes a user's file."""
         names = [template]
-        if isinstance(self._environment, _Sandbox):
-            for name in names:
-                names += self._environment.pieces.get(name, set()).difference(names)
+        for name in names:
+            names += self.pieces.get(name, set()).difference(names)
         return not self._users_names.isdisjoint(names)
 
     def find_origin(self, template: str, data: Mapping[str, Any], text: str, line: int) -> tuple[str, int]:
@@ -290,7 +263,7 @@ class Renderer:
 
         Returns an empty name and 0 if they are unknown. Raises the errors of `render`.
         """
-        marked = _render(self._environment.overlay(extensions=[_mark_lines()]), template, data)
+        marked = self.overlay(extensions=[_mark_lines()]).render(template, data)
         if _MARK.sub("", marked) != text:  # the marks change the text: for example, a filter counts characters
             return "", 0
         *before, last = marked.split("\n")[: max(line, 1)]
@@ -298,17 +271,3 @@ class Renderer:
         users = [place for place in places if any(folder in Path(place[0]).parents for folder in self.folders[:-1])]
         file, number = users[-1] if users else ("", 0)
         return file, int(number)
-
-
-def _render(environment: jinja2.Environment, template: str, data: Mapping[str, Any]) -> str:
-    if not isinstance(environment, _Sandbox):
-        return environment.get_template(template).render(data)
-    environment.deadline = time.monotonic() + MAX_SECONDS
-    with _limited_process():
-        pieces, size = [], 0
-        for piece in environment.get_template(template).generate(data):
-            pieces.append(piece)
-            size += len(piece)
-            if size > MAX_OUTPUT:
-                raise SecurityError(f"the text has more than {MAX_OUTPUT:,} characters")
-        return "".join(pieces)

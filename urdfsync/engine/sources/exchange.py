@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 import msgspec
 
 from urdfsync.dependencies.facts import MAX_FILE
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.processes import reserve_stdout
 
 _GARBAGE_THRESHOLD = 100_000
@@ -34,15 +35,9 @@ class Request(msgspec.Struct, frozen=True):
     """An expanded text to compare with the source; empty to expand the source."""
 
 
-class Problem(msgspec.Struct, frozen=True):
-    """Why a file can't be expanded."""
-
-    code: str
-    message: str
-    file: str = ""
-    line: int = 0
-    hint: str = ""
-    """A better hint than the usual one for the code."""
+def fault(code: str, message: str, file: str = "", line: int = 0, hint: str = "") -> Diagnostic:
+    """Return the reason why a file can't be expanded; `hint` is better than the usual one for the code."""
+    return Diagnostic(Severity.ERROR, code, message, file, line, hint=hint)
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -61,7 +56,7 @@ class Answer(msgspec.Struct, frozen=True):
     unknown: tuple[str, ...] = ()
     """Given arguments that the source does not declare."""
     warnings: tuple[str, ...] = ()
-    problem: Problem | None = None
+    problem: Diagnostic | None = None
     compared: int = 0
     """The count of numbers that were compared, if the request has a text."""
     differences: tuple[str, ...] = ()
@@ -70,15 +65,15 @@ class Answer(msgspec.Struct, frozen=True):
     """Parts of the source that this does not compare."""
 
 
-def not_unicode(code: str) -> Problem:
+def not_unicode(code: str) -> Diagnostic:
     """Return the problem of a text or a path that is not UTF-8."""
     hint = "rename its folders and files, or correct the text, then build again"
-    return Problem(code, "a text or a path that it works with is not UTF-8", hint=hint)
+    return fault(code, "a text or a path that it works with is not UTF-8", hint=hint)
 
 
-def too_large(code: str) -> Problem:
+def too_large(code: str) -> Diagnostic:
     """Return the problem of a text that is larger than a source may be."""
-    return Problem(code, f"it expands to more than {MAX_FILE:,} bytes")
+    return fault(code, f"it expands to more than {MAX_FILE:,} bytes")
 
 
 def encode(answer: Answer, code: str) -> bytes:

@@ -22,7 +22,7 @@ from urdfsync.dependencies.reads import read_file, read_variable
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Translator
 from urdfsync.engine.sources import ros_packages
-from urdfsync.engine.sources.exchange import Answer, Problem, Request, not_unicode
+from urdfsync.engine.sources.exchange import Answer, Request, fault, not_unicode
 from urdfsync.engine.sources.translators import XACRO
 from urdfsync.engine.sources.xacro_worker import find_matches
 from urdfsync.files import digest, shown, text_digest
@@ -38,6 +38,8 @@ WALL_SECONDS = 120.0
 _COMMAND_SECONDS = 600.0
 """Time for a command, which may wait for a server."""
 _PACKAGE = "package://"
+_INPUTS = "source arguments command patterns packages variables".split()
+"""The inputs of a source that are no files."""
 
 
 class SourceFiles:
@@ -93,13 +95,10 @@ class SourceFiles:
         )
 
     def find_changes(self, robot: RobotConfig, made: Expansion) -> tuple[str, ...]:
-        """Return the inputs that changed since a source was made."""
-        now, changed = self.look(robot, made), []
-        changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(made, key)]
-        changed += [name for name in {**made.files, **now.files} if made.files.get(name) != now.files.get(name)]
-        changed += [name for name in made.patterns if made.patterns[name] != now.patterns[name]]
-        changed += [f"{_PACKAGE}{name}" for name in made.packages if made.packages[name] != now.packages[name]]
-        return (*changed, *(f"${name}" for name in made.variables if made.variables[name] != now.variables[name]))
+        """Return the inputs that changed since a source was made: the kinds of inputs, and each file."""
+        now = self.look(robot, made)
+        others = (key for key in _INPUTS if getattr(now, key) != getattr(made, key))
+        return (*others, *(name for name in {**made.files, **now.files} if made.files.get(name) != now.files.get(name)))
 
     def why_not_expandable(self, made: Expansion, error: SourceError) -> str:
         """Return what this machine lacks to expand a source again, as a clause; empty for a faulty source."""
@@ -192,7 +191,7 @@ def _ask(translator: Translator, inputs: SourceFiles, arguments: Mapping[str, st
     """Expand a source in another process; `more` are further fields of the request."""
     folders = tuple(map(str, inputs.package_paths))
     request = Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root), **more)
-    limits = Answer(problem=Problem(f"{translator.name}-limits", ""))
+    limits = Answer(problem=fault(f"{translator.name}-limits", ""))
     try:
         question = msgspec.json.encode(request)
     except UnicodeEncodeError:
@@ -214,7 +213,7 @@ def _ask(translator: Translator, inputs: SourceFiles, arguments: Mapping[str, st
         if done.returncode < 0:
             return limits
         words = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
-        return Answer(problem=Problem(translator.name, ": ".join([exit_cause(done.returncode), *words])))
+        return Answer(problem=fault(translator.name, ": ".join([exit_cause(done.returncode), *words])))
 
 
 def run_command(config: Config, robot: RobotConfig) -> None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.markers import find_markers
 
 _BEGINNING = 20_000
@@ -38,30 +38,24 @@ HINTS = {
 }
 
 
-class FileKind(NamedTuple):
-    """A file that is no robot."""
-
-    code: str
-    message: str
-    hint: str
-    line: int = 1
-
-
-def find_kind(content: bytes) -> FileKind | None:
-    """Return the kind of a file without a robot; None for a robot, and for an unknown kind."""
+def find_kind(content: bytes) -> Diagnostic | None:
+    """Return an error about a file without a robot; None for a robot, and for an unknown kind of file."""
     packed = next((kind for kind in _PACKED if content.startswith(kind[0])), None)
     if content[_TAR] == b"ustar" and b"\0" in content[: _TAR.start]:
         packed = b"", "a tar archive", "tar xf FILE"
     if packed:
-        return FileKind("compressed", f"the file is {packed[1]}", f"unpack it (`{packed[2]}`), and name the file in it")
+        hint = f"unpack it (`{packed[2]}`), and name the file in it"
+        return Diagnostic(Severity.ERROR, "compressed", f"the file is {packed[1]}", line=1, hint=hint)
     for code, pattern, message in _OTHERS:
         if match := re.match(pattern, content[:_BEGINNING]):
-            return FileKind(code, message, HINTS[code], content.count(b"\n", 0, match.end()) + 1)
+            line = content.count(b"\n", 0, match.end()) + 1
+            return Diagnostic(Severity.ERROR, code, message, line=line, hint=HINTS[code])
     return None
 
 
-def find_conflict(text: str) -> FileKind | None:
-    """Return the place of the first marker of a merge conflict, if there is one; line ends are unified."""
+def find_conflict(text: str) -> Diagnostic | None:
+    """Return an error at the first marker of a merge conflict, if there is one; line ends are unified."""
+    code, message = "merge-conflict", "the file has merge conflict markers"
     for _, line in find_markers(text):
-        return FileKind("merge-conflict", "the file has merge conflict markers", HINTS["merge-conflict"], line)
+        return Diagnostic(Severity.ERROR, code, message, line=line, hint=HINTS[code])
     return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -22,14 +23,8 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
     As in rospack, a package contains no other packages, and folders with an ignore file are skipped. Unreadable folders
     are skipped, too.
     """
-    folders_by_name: dict[str, Path] = {}
-    for folder in source.parents:
-        if name := _package_name(folder):
-            folders_by_name.setdefault(name, folder)
-    for folder in folders:
-        for name, path in _below(folder):
-            folders_by_name.setdefault(name, path)
-    return folders_by_name
+    around = [(name, folder) for folder in source.parents if (name := _package_name(folder))]
+    return dict(reversed([*around, *itertools.chain.from_iterable(map(_below, folders))]))
 
 
 class Packages:

@@ -6,7 +6,7 @@ import contextlib
 import functools
 import stat
 from bisect import bisect_right
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
@@ -339,34 +339,25 @@ def check_options(config: Config, robot: RobotConfig, reading: Reading) -> tuple
     return findings
 
 
-def read(domain: Domain, options: Any, text: Source) -> tuple[Snapshot, Reading]:
-    """Return the model in a source, and its reading. Raises SourceError with all faults."""
-    return _without_errors(_read_text(domain, options, text))
+def read(domain: Domain, options: Any, text: Source, cured: Collection[str] = ()) -> tuple[Snapshot, Reading]:
+    """Return the model in a source, and its reading; errors with a code of `cured` become warnings.
 
-
-def _read_text(domain: Domain, options: Any, text: Source) -> Reading:
-    return _read_model(domain, msgspec.json.encode(options), text.content, text.name, text.companions)  # type: ignore[arg-type] # the domain is an object
-
-
-def _without_errors(reading: Reading) -> tuple[Snapshot, Reading]:
-    """Return the model, and its reading. Raises SourceError with all faults."""
-    if reading.snapshot is None or any(finding.severity is Severity.ERROR for finding in reading.diagnostics):
-        raise SourceError(*reading.diagnostics)
-    return reading.snapshot, reading
+    Raises SourceError with all faults.
+    """
+    reading = _read_model(domain, msgspec.json.encode(options), text.content, text.name, text.companions)  # type: ignore[arg-type] # the domain is an object
+    findings = tuple(
+        msgspec.structs.replace(one, severity=Severity.WARNING) if one.code in cured else one
+        for one in reading.diagnostics
+    )
+    if reading.snapshot is None or any(finding.severity is Severity.ERROR for finding in findings):
+        raise SourceError(*findings)
+    return reading.snapshot, msgspec.structs.replace(reading, diagnostics=findings)
 
 
 def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
-    """Read a source outside of a project, as `read` does, with the domain's permissive options.
-
-    Errors that the domain cures become warnings.
-    """
+    """Read a source outside of a project, as `read` does, with the domain's permissive options."""
     with text.locating():
-        reading = _read_text(domain, domain.permissive_options or domain.options(), text)
-        diagnostics = tuple(
-            msgspec.structs.replace(one, severity=Severity.WARNING) if one.code in domain.cured else one
-            for one in reading.diagnostics
-        )
-        return _without_errors(msgspec.structs.replace(reading, diagnostics=diagnostics))
+        return read(domain, domain.permissive_options or domain.options(), text, domain.cured)
 
 
 @functools.lru_cache(maxsize=4)

@@ -17,6 +17,7 @@ import time
 import types
 import xml.dom
 import xml.dom.minidom
+from collections import UserDict
 from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import filter as filter_names
 from glob import has_magic
@@ -25,12 +26,15 @@ from typing import IO, Any, cast
 from xml.dom import expatbuilder
 from xml.parsers import expat
 
+from msgspec.structs import replace
+
 from urdfsync.dependencies.facts import MAX_FILE, read_unrecorded
 from urdfsync.dependencies.places import place
 from urdfsync.dependencies.reads import list_folder
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.sources import ros_packages
-from urdfsync.engine.sources.exchange import Answer, Problem, Request, serve, too_large
-from urdfsync.engine.sources.file_kinds import FileKind, find_conflict, find_kind
+from urdfsync.engine.sources.exchange import Answer, Request, fault, serve, too_large
+from urdfsync.engine.sources.file_kinds import find_conflict, find_kind
 from urdfsync.files import text_digest
 from urdfsync.processes import limits
 
@@ -70,12 +74,12 @@ class NotTextError(Exception):
         self.file, self.content = file, content
 
 
-class _Asked(dict[str, str]):
+class _Asked(UserDict[str, str]):
     """A mapping that records its requested keys."""
 
     def __init__(self, values: Mapping[str, str]) -> None:
-        super().__init__(values)
         self.asked: dict[str, None] = {}
+        super().__init__(values)
 
     def __contains__(self, key: object) -> bool:
         self.asked[str(key)] = None
@@ -84,11 +88,6 @@ class _Asked(dict[str, str]):
     def __getitem__(self, key: str) -> str:
         self.asked[key] = None
         return super().__getitem__(key)
-
-    def get(self, key: str, default: Any = None) -> Any:
-        """Return a value, or the default; record the key."""
-        self.asked[key] = None
-        return super().get(key, default)
 
 
 def find_matches(pattern: str) -> list[str]:
@@ -207,7 +206,7 @@ def expand(request: Request) -> Answer:
 
         from urdfsync.engine.sources import xacro_expressions
     except ImportError as error:
-        return Answer(problem=Problem("not-installed", f"xacro can't be loaded: {error}"))
+        return Answer(problem=fault("not-installed", f"xacro can't be loaded: {error}"))
     packages = ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source))
     files = _Files(packages, request.contents)
     said = io.StringIO()
@@ -291,7 +290,9 @@ def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
         yield line, file, origin
 
 
-def _problem(error: BaseException, current: str, packages: Mapping[str, str | None], unset: Sequence[str]) -> Problem:
+def _problem(
+    error: BaseException, current: str, packages: Mapping[str, str | None], unset: Sequence[str]
+) -> Diagnostic:
     """Return why an expansion failed: the innermost cause, and the place; `current` is xacro's present file.
 
     `packages` has the folders of the ROS packages that the file named, `unset` has arguments without a value.
@@ -309,39 +310,39 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str | No
     file, line = place or (current, 0)
     match cause:
         case PackageNotFoundError():
-            return Problem("no-package", f"there is no package `{cause}`", file, line)
+            return fault("no-package", f"there is no package `{cause}`", file, line)
         case RecursionError():
-            return Problem("xacro", "it includes or calls itself without end", file, line)
+            return fault("xacro", "it includes or calls itself without end", file, line)
         case MemoryError() | TimeLimitError():
-            return Problem("xacro-limits", "", file, line)
+            return fault("xacro-limits", "", file, line)
         case TooLargeError():
             return too_large("xacro")
         case expat.ExpatError() if (kind := _kind(read_unrecorded(current))) is not None:
-            return Problem(kind.code, kind.message, current, kind.line, kind.hint)
+            return replace(kind, file=current)
         case NotTextError():
-            kind = _kind(cause.content) or FileKind("xacro", "this is not UTF-8", "save it as UTF-8")
-            return Problem(kind.code, kind.message, cause.file, kind.line, kind.hint)
+            kind = _kind(cause.content) or fault("xacro", "this is not UTF-8", line=1, hint="save it as UTF-8")
+            return replace(kind, file=cause.file)
         case expat.ExpatError():
-            return Problem("xacro", f"this is no XML: {expat.errors.messages[cause.code]}", current, cause.lineno)
+            return fault("xacro", f"this is no XML: {expat.errors.messages[cause.code]}", current, cause.lineno)
         case OSError() if cause.filename:
             message = f"{cause.filename} can't be read: {cause.strerror}"
             missing = Path(cause.filename).parents if isinstance(cause, FileNotFoundError) else ()
             package = next((name for name, folder in packages.items() if folder and Path(folder) in missing), None)
             # packages may install files into other folders, as the demos of ros2_control do
             hint = f"if package `{package}` has this file once it is installed, name the installed xacro file as source"
-            return Problem("xacro", message, file, line, hint if package else "")
+            return fault("xacro", message, file, line, hint if package else "")
     if type(cause).__name__ == "ArgException":
         others = ", ".join(f"`{name}`" for name in unset if name != str(cause))
-        return Problem(
+        return fault(
             "no-argument", f"the argument `{cause}` is not set{f', nor is {others}' if others else ''}", file, line
         )
     if (mark := getattr(cause, "problem_mark", None)) is not None:  # of YAML
-        return Problem("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
+        return fault("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
     message = str(cause if str(error).startswith("<class") else error)
-    return Problem("xacro", message[:_LONGEST] or type(cause).__name__, file, line)
+    return fault("xacro", message[:_LONGEST] or type(cause).__name__, file, line)
 
 
-def _kind(content: bytes) -> FileKind | None:
+def _kind(content: bytes) -> Diagnostic | None:
     """Return the kind of a file that is neither xacro nor YAML."""
     return find_kind(content) or find_conflict(content.decode(errors="replace").replace("\r", ""))
 
