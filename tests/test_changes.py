@@ -1,4 +1,4 @@
-"""Comparing two versions: equality first, the differences, meanings from the domain, and affected files."""
+"""Comparing two versions: equality first, deepdiff of the differences, meanings from the domain, and affected files."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Changes, compare, find_differences
+from urdfsync.changes import Changes, by_deepdiff, compare, find_differences, of_leaves
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
@@ -68,18 +68,19 @@ def test_equal_versions_have_no_changes() -> None:
     assert (found.changes, found.change_class, found.noise) == ((), ChangeClass.NONE, False)
 
 
-@given(PLAIN, PLAIN)
-def test_the_differences_of_any_data_cover_all_values_that_differ(old: Any, new: Any) -> None:
-    found = [each.path for each in find_differences(Version(None), Version(None), {"name": old}, {"name": new})]
-    before, after = _values(("name",), old), _values(("name",), new)
-    for path in before.keys() | after.keys():
-        differs = path not in before or path not in after or before[path] != after[path]
-        assert differs is any(path[: len(each)] == each[: len(path)] for each in found)
+@given(PLAIN, PLAIN, st.data())
+def test_what_needs_no_deepdiff_is_found_as_it_would(old: Any, new: Any, data: st.DataObject) -> None:
+    new = data.draw(st.sampled_from([new, _with_other_leaves(old, data)]))
+    found = of_leaves(("part", "name"), old, new)
+    assert found is None or sorted(found, key=repr) == sorted(by_deepdiff(("part", "name"), old, new), key=repr)
 
 
-def _values(path: tuple[Any, ...], value: Any) -> dict[tuple[Any, ...], Any]:
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    return {path: value, **{k: v for key, item in items for k, v in _values((*path, key), item).items()}}
+def _with_other_leaves(value: Any, data: st.DataObject) -> Any:
+    if isinstance(value, dict):
+        return {key: _with_other_leaves(item, data) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_with_other_leaves(item, data) for item in value]
+    return data.draw(st.sampled_from([value, None, 1, 2.5, "c"]))
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,16 @@ from urdfsync.domain import (
 from urdfsync.domain.changes import Change
 from urdfsync.matching import Doubt, Matching, match
 
+_KINDS = {
+    "dictionary_item_added": ChangeKind.ADDED,
+    "dictionary_item_removed": ChangeKind.REMOVED,
+    "iterable_item_added": ChangeKind.ADDED,
+    "iterable_item_removed": ChangeKind.REMOVED,
+    "type_changes": ChangeKind.CHANGED,
+    "values_changed": ChangeKind.CHANGED,
+}
+"""Names of deepdiff for the differences of plain data."""
+
 
 class Difference(msgspec.Struct, frozen=True):
     """One place at which two versions differ; `old` is None for an addition, `new` for a removal."""
@@ -158,28 +168,91 @@ def find_differences(
 
     The snapshots are given as plain data by kind and name; callers may leave out equal elements.
     """
-    for part in dict.fromkeys([*new_data, *old_data]):
-        yield from _of_values((part,), old_data.get(part), new_data.get(part))
+    yield from _of_snapshots(old_data, new_data)
     if old.imports is not None and new.imports is not None:
         yield from _of_imports(old.imports, new.imports)
 
 
-def _of_values(path: tuple[str | int, ...], old: Any, new: Any) -> Iterator[Difference]:
-    """Yield the differences of two values, in the order of their paths; lists are compared place by place."""
+def _of_snapshots(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Difference]:
+    for part in dict.fromkeys([*new, *old]):
+        before, after = old.get(part), new.get(part)
+        if not (isinstance(before, Mapping) and isinstance(after, Mapping)):
+            yield from _of_values((part,), before, after)
+            continue
+        for name in sorted(before.keys() | after.keys()):
+            if name not in before:
+                yield Difference((part, name), ChangeKind.ADDED, None, after[name])
+            elif name not in after:
+                yield Difference((part, name), ChangeKind.REMOVED, before[name], None)
+            else:
+                yield from _of_values((part, name), before[name], after[name])
+
+
+def _of_values(path: tuple[str, ...], old: Any, new: Any) -> list[Difference]:
+    """Return the differences of two values, in the order of their paths."""
     if old == new:
-        return
-    if isinstance(old, list) and isinstance(new, list):
-        old, new = dict(enumerate(old)), dict(enumerate(new))
-    if not (isinstance(old, Mapping) and isinstance(new, Mapping)):
-        yield Difference(path, ChangeKind.CHANGED, old, new)
-        return
-    for key in sorted(old.keys() | new.keys()):
-        if key not in old:
-            yield Difference((*path, key), ChangeKind.ADDED, None, new[key])
-        elif key not in new:
-            yield Difference((*path, key), ChangeKind.REMOVED, old[key], None)
-        else:
-            yield from _of_values((*path, key), old[key], new[key])
+        return []
+    differences = of_leaves(path, old, new)
+    if differences is None:
+        differences = by_deepdiff(path, old, new)
+    return sorted(differences, key=lambda difference: difference.path)
+
+
+def of_leaves(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference] | None:
+    """Return the differences of two values with the same keys and lengths; None for other values.
+
+    Loading deepdiff takes 110 ms: too long for the row "one mass changed, whole process, 100 links" of docs/speed.md. A
+    property test compares the results of this function and of deepdiff.
+    """
+    if isinstance(old, dict) and isinstance(new, dict):
+        if old.keys() != new.keys():
+            return None
+        pairs = [((*path, key), value, new[key]) for key, value in old.items()]
+    elif isinstance(old, list) and isinstance(new, list):
+        if len(old) != len(new):
+            return None
+        pairs = [((*path, index), *values) for index, values in enumerate(zip(old, new, strict=True))]
+    elif isinstance(old, dict | list) or isinstance(new, dict | list):
+        return None
+    else:
+        return [Difference(path, ChangeKind.CHANGED, old, new)] if old != new else []
+    differences: list[Difference] = []
+    for pair in pairs:
+        part = of_leaves(*pair)
+        if part is None:
+            return None
+        differences += part
+    return differences
+
+
+def by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:
+    """Return the differences of any two values."""
+    from deepdiff import DeepDiff  # see `of_leaves`
+
+    tree = DeepDiff(
+        old,
+        new,
+        view="tree",
+        zip_ordered_iterables=True,  # else a changed number of a vector counts as a removal and an addition
+        threshold_to_diff_deeper=0,  # else mappings with few common keys are compared as a whole
+        ignore_private_variables=False,
+    )
+    return [
+        Difference(
+            (*path, *level.path(output_format="list")),
+            _KINDS[report],
+            None if _KINDS[report] is ChangeKind.ADDED else level.t1,
+            None if _KINDS[report] is ChangeKind.REMOVED else level.t2,
+        )
+        for report, levels in tree.items()
+        for level in levels
+        if level.t1 != level.t2  # deepdiff reports 1 → 1.0 as a change of type
+    ]
+
+
+def _differ_in(old: Mapping[str, Any], new: Mapping[str, Any]) -> bool:
+    """Return whether the two mappings differ at a common key."""
+    return any(old[name] != new[name] for name in old.keys() & new.keys())
 
 
 def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterator[Difference]:
@@ -189,8 +262,9 @@ def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterato
         if before is None or after is None:
             kind = ChangeKind.ADDED if before is None else ChangeKind.REMOVED
             yield Difference(("imports", key), kind, before and before.target_hash, after and after.target_hash)
-        elif before.target_hash != after.target_hash:
-            yield Difference(("imports", key), ChangeKind.CHANGED, before.target_hash, after.target_hash)
-        # the contents are equal; a robot without colliding shapes asks for fewer facts of the same file
-        elif any(before.facts[name] != after.facts[name] for name in before.facts.keys() & after.facts.keys()):
-            yield Difference(("imports", key), ChangeKind.CHANGED, before.source_hash, after.source_hash)
+        # a robot without colliding shapes asks for fewer facts of the same file
+        elif before.target_hash != after.target_hash or _differ_in(before.facts, after.facts):
+            hashes = before.target_hash, after.target_hash
+            if before.target_hash == after.target_hash:  # the contents are equal; only facts differ, such as colours
+                hashes = before.source_hash, after.source_hash
+            yield Difference(("imports", key), ChangeKind.CHANGED, *hashes)
