@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.commands import Execute
@@ -11,8 +12,8 @@ from support.networks import RC_FOLDER, configure, edit, failure, own_model, run
 from support.replay import contents
 
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Artifact, Role
-from urdfsync.engine.package.generate import Package, check_paths
+from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
+from urdfsync.engine.package.generate import Package, check_paths, generate
 from urdfsync.files import Templates
 
 
@@ -52,6 +53,25 @@ def test_a_text_changes_with_its_data(tmp_path: Path, old: float, new: float) ->
     )
     assert two.changed_since(one) == {"A.mo"}
     assert again.changed_since(one) == set()
+
+
+class OneFile(Domain):
+    """A domain with one file, which counts how often it is asked for it."""
+
+    count = 0
+
+    def artifacts(self, snapshot: Any, *_: Any) -> list[Artifact | Order]:
+        self.count += 1
+        return [Artifact("A.mo", Role.RECORD, "t", snapshot, "part")]
+
+
+def test_artifacts_are_made_once_of_the_same_numbers(tmp_path: Path) -> None:
+    domain = OneFile()  # type: ignore[abstract]
+    for number in (0.0, 0.0, -0.0, 0, 1, 0.0):
+        snapshot = {"number": number}
+        package = generate(domain, Version(snapshot), Target("P", "M"), None, Templates((tmp_path,), ""))
+        assert repr(package.artifacts["A.mo"].data) == repr(snapshot)
+    assert domain.count == 4
 
 
 @pytest.fixture

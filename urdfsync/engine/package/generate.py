@@ -121,9 +121,24 @@ def generate(
 ) -> Package:
     """Return the package of a model (see `Package`). Raises OutputError for forbidden paths."""
     snapshot, imports = version.snapshot, version.imports or {}
-    artifacts = (*domain.artifacts(snapshot, imports, target, options),)
-    check_paths([*(artifact.path for artifact in artifacts), *(entry.target for entry in imports.values())])
+    # the key is JSON: 0.0 == -0.0, but their texts differ
+    key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options))
+    artifacts = _recent.pop(key, None)
+    if artifacts is None:
+        artifacts = tuple(domain.artifacts(snapshot, imports, target, options))
+        check_paths([*(artifact.path for artifact in artifacts), *(entry.target for entry in imports.values())])
+    _recent[key] = artifacts
+    while len(_recent) > _MOST:
+        del _recent[next(iter(_recent))]
     return Package(artifacts, templates, target.package, noted, stored)
+
+
+_MOST = 4
+_recent: dict[tuple[Any, bytes], tuple[Artifact | Order, ...]] = {}
+"""The artifacts of the last models: saves the daemon 9 of 90 ms with 133 links (docs/speed.md).
+
+Dropping it changes no byte: artifacts follow from the key.
+"""
 
 
 @functools.lru_cache(maxsize=4)
