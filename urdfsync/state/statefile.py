@@ -44,8 +44,8 @@ def dumps(*records: Record) -> str:
 
 
 def key_of(record: Record) -> str:
-    """Return the key of a record: a hash of its line."""
-    return digest(_line(record).encode())[:16]
+    """Return the key of a record: a hash of all that it says but its ancestors."""
+    return digest(_line(msgspec.structs.replace(record, ancestors=())).encode())[:16]
 
 
 def _line(record: Record) -> str:

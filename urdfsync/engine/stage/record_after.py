@@ -73,13 +73,15 @@ def records_after(inputs: Inputs, generation: Generation, decision: Decision) ->
         # nor is a change without effect on the package, such as an unmodelled part of the source
         silent = msgspec.structs.replace(silent, snapshot=old.snapshot, options=old.options, generator=old.generator)
     is_news = silent != old or len(last.records) > 1
-    return (msgspec.structs.replace(new, ancestors=_ancestors(last.records)) if is_news else old,)
+    return (_with_ancestors(new, last.records) if is_news else old,)
 
 
-def _ancestors(records: Iterable[Record]) -> tuple[str, ...]:
-    """Return the keys of these records and of those before them."""
-    keys = (key for record in records for key in (key_of(record), *record.ancestors))
-    return tuple(dict.fromkeys(keys))[:_MOST_ANCESTORS]
+def _with_ancestors(new: Record, records: Iterable[Record]) -> Record:
+    """Return a record that follows from others; if an export was taken back, it is the record of before again."""
+    keys = [*dict.fromkeys(key for record in records for key in (key_of(record), *record.ancestors))]
+    if (key := key_of(new)) in keys:
+        del keys[: keys.index(key) + 1]
+    return msgspec.structs.replace(new, ancestors=tuple(keys[:_MOST_ANCESTORS]))
 
 
 def _open_record(
@@ -107,7 +109,7 @@ def _open_record(
         open=Open(as_recorded(generation.now.snapshot), ids, renewed, files, asked),
         confirmed=confirmed.union(bare_hash(text) for text in inputs.settled.contents.values() if text is not None),
     )
-    return old if new == old else msgspec.structs.replace(new, edits=edits, ancestors=_ancestors(last.records[:1]))
+    return old if new == old else _with_ancestors(msgspec.structs.replace(new, edits=edits), last.records[:1])
 
 
 def seen_edits(inputs: Inputs, decision: Decision) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
@@ -129,11 +130,12 @@ def _actions_after(actions: Actions, settled: Settled) -> Actions:
 def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
     """Return the folders of the package and the state that may become empty, innermost first.
 
-    A killed build may have deleted some of the recorded files.
+    A killed build may have deleted some of the recorded files, and all saved versions of conflicts.
     """
     above = {inputs.files.path(inputs.last.folder).parent, inputs.store.folder}
     places = {change.path.parent for change in changes if change.content is None}
     places |= {*map(inputs.files.path, {key.rpartition("/")[0] for key in inputs.last.record.files})}
+    places |= {Path(folder) for folder, _, _ in os.walk(inputs.store.conflicts(inputs.robot.name))}
     folders = {folder for place in places for folder in (place, *place.parents)}
     below = [folder for folder in folders if not above.isdisjoint(folder.parents)]
     return tuple(sorted(below, key=lambda folder: len(folder.parts), reverse=True))
