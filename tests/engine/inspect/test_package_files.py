@@ -76,7 +76,7 @@ def test_a_model_that_is_not_utf_8_is_one_error(project: Path, execute: Execute,
     Path(FILE).write_bytes(edited)
     rename("R2", "R9")
     (error,) = [line for line in execute(*command, code=2).errors if "error:" in line]
-    assert error.startswith(f"{FILE}:3: error: the file is not UTF-8, which Modelica demands; save it as UTF-8")
+    assert error.startswith(f"{FILE}:2: error: the file is not UTF-8, which Modelica demands; save it as UTF-8")
     assert Path(FILE).read_bytes() == edited
     assert not Path(LADDER, "Elements/R9.mo").exists()
 
