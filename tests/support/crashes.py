@@ -149,6 +149,32 @@ def edited_at_random(project: Path, random: Random) -> None:
     _export(project, random.random(), random.sample(["b1", "b2", "b3", "b4", "b5"], random.randint(1, 3)))
 
 
+def moved_at_random(project: Path, random: Random) -> None:
+    """Make a project with a built robot and edits, of which an export then renames, exchanges or shifts the names.
+
+    Sometimes its package has another name, too, and merges are allowed.
+    """
+    project.mkdir(parents=True)
+    merges = 'on_conflict = "merge"\n' if random.random() < 0.6 else ""
+    (project / "urdfsync.toml").write_text(CONFIGURATION + merges)
+    names = ["a1", "a2", "a3", "a4"]
+    export_chain(project, names)
+    run(project)
+    hand = edits.Hand(random)
+    for _ in range(random.randint(1, 6)):
+        hand.edit(project / "modelica/Bot")
+    if random.random() < 0.5:
+        run(project)
+    new = random.choice(
+        (random.sample(names, 4), ["a2", "a1", "a3", "a4"], ["a2", "a3", "a4", "a5"], ["a1", "b", *names[2:]])
+    )
+    export_chain(project, new, random.choice((0, random.random())))
+    if random.random() < 0.3:
+        (project / "urdfsync.toml").write_text(
+            CONFIGURATION.replace('"Bot"', '"Plant.Bat"') + merges + "create_parents = true\n"
+        )
+
+
 def export_chain(project: Path, names: Sequence[str], mass: float = 0) -> None:
     """A chain of links without two alike joints: the last link has so much more mass."""
     masses = [1.0 + 0.7 * number for number in range(len(names) + 1)]
