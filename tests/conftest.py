@@ -326,7 +326,7 @@ _SAME = tuple(f"tests/{name}" for name in (
     *(f"checks/test_{name}" for name in ("afterbuild", "fingerprint", "names", "packed", "report", "robot")),
     "checks/test_texts",
     # git's merges
-    *("test_edits_meet_exports", "test_merge", "test_unions", "test_unite"),
+    *("test_edits_meet_exports", "test_merge", "test_unite"),
     "test_unmerged",
     # texts of the project itself
     *("test_corpus_page", "test_docs", "test_domains_page", "test_spelling", "test_urdf_page"),

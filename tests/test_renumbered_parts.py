@@ -1,32 +1,18 @@
-"""CAD renumbers, where a text is no scenario: forged records, git, real robots; see `scenarios/renumbered.txt`."""
+"""CAD renumbers, where a text is no scenario: forged records, and git in each way; see `scenarios/renumbered.txt`."""
 
 from __future__ import annotations
 
-import itertools
-import re
-import shutil
-from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
-from random import Random
-from typing import get_args
 
 import msgspec
 import pytest
-from support import corpus, states
+from support import states
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.networks import edit
-from support.renumbering import Renumbering, renumberings
 from support.urdfs import robot_of
-from test_unions import WAYS
 
-from urdfsync.api import load
-from urdfsync.engine.actions import Reason
-from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.result import Exit, Result
-from urdfsync.urdf.options import LeftOut
+from urdfsync.engine.result import Exit
 
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\napproach = ["package", "record"]\n'
 STATE = Path(".urdfsync/robots/arm.state")
@@ -40,6 +26,13 @@ EXPORTS = {
     "removed": "1 2.2, 2 3.3",
     "shifted": "2 1.1, 3 2.2, 4 3.3",
     "rotated": "2 1.1, 3 2.2, 1 3.3",
+}
+WAYS = {
+    "merge": ["merge -q --no-edit theirs"],
+    "rebase": ["rebase -q theirs"],
+    "cherry-pick": ["cherry-pick theirs"],
+    "squash": ["merge -q --squash theirs", "commit -q -m both"],
+    "patch": ["format-patch -q -1 theirs --output theirs.patch", "am -q -3 theirs.patch"],
 }
 
 
@@ -140,89 +133,3 @@ def test_one_branch_exchanges_names_and_the_other_edits(
     assert holders == sorted([model, LINK.format(3), joint_file.format(3)])
     assert "Real mine = link_3.m;" in texts[model]
     execute("build", "--check")
-
-
-def hand(path: Path, kind: str) -> str:
-    """Edit a file by hand; return the text by which tests find the edit, or nothing if the file has no place."""
-    text = path.read_text()
-    if kind == "number":
-        begin = text.index("extends")
-        found = re.search(r'(?<![\w."])\d+(?:\.\d+)?(?:e-?\d+)?(?=[,)}\s])', text[begin:])
-        if not found:
-            return ""
-        path.write_text(f"{text[: begin + found.start()]}7171.25{text[begin + found.end() :]}")
-        return "7171.25"
-    if "\nequation\n" not in text:
-        return ""
-    new = "\n  Real byHand = 3;\n\nequation\n" if kind == "component" else '\nequation\n  assert(true, "byHand");\n'
-    path.write_text(text.replace("\nequation\n", new, 1))
-    return "byHand"
-
-
-def plan() -> Result:
-    (result,) = build(configuration := load("urdfsync.toml"), configuration.robots, BuildOptions())
-    return result
-
-
-def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, str]]:
-    """Each kind of export meets each kind of edit of one element: the fate of the edit."""
-    Path("r.urdf").write_bytes(source)
-    built = plan()
-    assert not built.failed, built.diagnostics
-    shutil.copytree("modelica", "../built", dirs_exist_ok=True)
-    shutil.copytree(".urdfsync", "../state", dirs_exist_ok=True)
-    owners = sorted({action.owner for action in built.actions if action.owner.startswith(("link ", "joint "))})
-    for exported, kind in itertools.product(renumberings(source, random), ("number", "component", "equation")):
-        for name, saved in (("modelica", "../built"), (".urdfsync", "../state")):
-            shutil.rmtree(name)
-            shutil.copytree(saved, name)
-        owner = random.choice(owners)
-        files = [action.path for action in built.actions if action.owner == owner and action.path.endswith(".mo")]
-        path = next((path for path in files if path.endswith("Parameters.mo") is (kind == "number")), None)
-        if path is None or not (mark := hand(Path(path), kind)):
-            continue
-        Path("r.urdf").write_bytes(exported.source)
-        result = plan()
-        if any(found.code == "loop-open" for found in result.diagnostics):
-            continue  # a part in another place holds the loop open
-        assert not result.failed, result.diagnostics
-        part, _, name = owner.partition(" ")
-        expected = exported.names.get((part, name), name)
-        holders = [
-            action for action in result.actions if Path(action.path).is_file() and mark in Path(action.path).read_text()
-        ]
-        if any(action.reason is Reason.ASKED for action in result.actions):
-            yield exported, kind, "asked"
-        elif any(action.is_conflict for action in result.actions):
-            yield exported, kind, "conflict"
-        elif [action.owner for action in holders] == [f"{part} {expected}"]:
-            yield exported, kind, "followed"
-        elif [action.reason for action in holders] == [Reason.ORPHAN]:
-            yield exported, kind, "left"
-        else:
-            yield exported, kind, f"WRONG: {owner} is {expected}, the edit is in {[action.path for action in holders]}"
-
-
-FILES = [file for file in corpus.robots() if file != corpus.ABSENT and not file.endswith("spot_arm.urdf")]
-"""The parent of a joint in this model is a missing link."""
-IN_CI = [file for file in FILES if file.endswith("puma560_robot.urdf")]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "file",
-    [file if file in IN_CI else pytest.param(file, marks=pytest.mark.large) for file in FILES] or [corpus.ABSENT],
-)
-def test_edits_meet_exports_that_renumber(corpus: Path, folder: Path, file: str) -> None:
-    """No edit moves to another part, and the build asks about few edits."""
-    source = (corpus / file).read_bytes()
-    if source.count(b"<link ") < 5:
-        pytest.skip("fewer than five links")
-    names = ", ".join(f'"{name}"' for name in get_args(LeftOut))
-    Path("urdfsync.toml").write_text(f'[robots.r]\nsource = "r.urdf"\npackage = "R"\nallow = [{names}]\n')
-    found = Counter[str]()
-    for exported, kind, what in meetings(source, Random(file)):
-        assert not what.startswith("WRONG"), f"{exported.kind}, {kind}: {what}"
-        found[what] += 1
-    print(dict(found))  # noqa: T201
-    assert found["asked"] <= 3 + found.total() // 10

@@ -1,4 +1,7 @@
-"""Sources that were cut off, as exporters leave them while they write: one error, and nothing changes."""
+"""Sources that were cut off, as exporters leave them while they write: one error, and nothing changes.
+
+`tests/scenarios/build.txt` has other files that are no robot.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,6 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
-from support.commands import Execute
 from support.replay import Project
 
 from urdfsync.diagnostics import Severity
@@ -34,16 +36,6 @@ FULL = """\
     <parent link="a &amp; b"/><child link="tip"/><limit effort="1" velocity="1"/><mimic joint="one" multiplier="2"/>
   </joint>
   <gazebo><plugin name="p" filename="lib.so"><![CDATA[x < y]]></plugin></gazebo>
-</robot>
-"""
-MARKERS = """\
-<robot name="r">
-<link name="a"/>
-<<<<<<< HEAD
-<link name="b"/>
-=======
-<link name="c"/>
->>>>>>> x
 </robot>
 """
 
@@ -85,32 +77,3 @@ def test_every_truncation_is_one_error_and_changes_nothing(tmp_path: Path) -> No
     assert_refused(project, (content[:end] for end in range(end_of(content))))
     project.save(content)
     assert project.build().in_step
-
-
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (b"", "bot.urdf:1: error: the file is empty; export the robot again, or wait until the export is complete"),
-        (
-            MARKERS.encode(),
-            "bot.urdf:3: error: the file has merge conflict markers; resolve the merge, then build again",
-        ),
-        (None, "urdfsync.toml:2: error: robot `bot`: the source bot.urdf is a folder; correct `source`"),
-    ],
-    ids=["empty", "markers", "folder"],
-)
-def test_what_is_no_robot_is_one_line_and_exit_2(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, content: bytes | None, message: str
-) -> None:
-    project = built(tmp_path / "project", FULL.encode())
-    monkeypatch.chdir(project.root)
-    if content is None:
-        (project.root / "bot.urdf").unlink()
-        (project.root / "bot.urdf").mkdir()
-    else:
-        project.save(content)
-    before = project.stamps()
-    first, *others = execute("build", code=Exit.ERROR).errors
-    assert first == "bot: 1 error, nothing was changed"
-    assert [each.startswith(message) for each in others] == [True]
-    assert project.stamps() == before

@@ -1,10 +1,9 @@
-"""`urdfsync diff` as people and programs use it: the last build, files, revisions, robots, mistakes."""
+"""`urdfsync diff` of files and revisions, and of much at once; `tests/scenarios/diff.txt` has the last build."""
 
 from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,7 +11,7 @@ from support.commands import Execute
 from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.meshes import stl
-from support.networks import LADDER, MANIFEST, RECORD, ROBOT, add_resistor, configure, edit, rename, resistor
+from support.networks import add_resistor, edit
 
 from urdfsync.engine.result import Exit
 
@@ -27,13 +26,6 @@ ARM = """<robot name="arm">
   </joint>
 </robot>
 """
-
-
-@pytest.fixture
-def built(project: Path, execute: Execute) -> Path:
-    """The project of the second domain, built."""
-    execute("build", "-q")
-    return project
 
 
 @pytest.fixture
@@ -57,15 +49,6 @@ def said(execute: Execute, *arguments: str) -> tuple[int, list[str]]:
     return printed.code, printed.lines
 
 
-def test_another_release_that_gives_the_same_texts_is_no_change(built: Path, execute: Execute) -> None:
-    edit(MANIFEST, '"release":"0.1.0"', '"release":"0.0.9"')
-    assert said(execute) == (0, ["ladder: nothing changed since the last build"])
-    resistor(120)
-    code, lines = said(execute)
-    assert code == 1
-    assert "  a template, an option or urdfsync itself changed" in lines
-
-
 def test_a_file_with_a_loop_is_compared(arm: Path, execute: Execute) -> None:
     new = arm / "new.urdf"
     loop = '<loop_joint name="bar" type="prismatic"><link1 link="a"/><link2 link="b"/></loop_joint>'
@@ -82,62 +65,6 @@ def refused(execute: Execute, *arguments: str) -> str:
     *before, complaint = printed.errors
     assert all(line.endswith("so nothing can be compared") for line in before)
     return complaint
-
-
-# the last build
-
-
-def test_nothing_changed(built: Path, execute: Execute) -> None:
-    with unchanged(built):
-        assert said(execute, "ladder.json") == (0, ["ladder: nothing changed since the last build"])
-        assert said(execute) == said(execute, "ladder")
-
-
-def test_what_changed_and_what_a_build_would_do(built: Path, execute: Execute) -> None:
-    edit("ladder.json", "220.5", "330")
-    with unchanged(built):
-        assert said(execute, "ladder", "--quiet") == (1, [])
-        assert said(execute, "ladder.json") == (
-            1,
-            [
-                "ladder: 1 parameter change since the last build",
-                "  R2: ohm 220.5 → 330 Ω (+49.7 %)",
-                "",
-                "Next build: 1 file to write",
-                f"  update     {Path('modelica/Ladder/Elements/R2Parameters.mo')}",
-            ],
-        )
-
-
-def _conflict() -> None:
-    edit(RECORD, "100", "110")
-    resistor(120)
-
-
-OUT_OF_STEP: dict[str, tuple[Callable[[], object], Exit]] = {
-    "an edit": (lambda: edit(RECORD, "end R1", "// mine\nend R1"), Exit.IN_STEP),
-    "a deleted file": (Path(LADDER, "Ladder.mo").unlink, Exit.OUT_OF_STEP),
-    "a conflict": (_conflict, Exit.OUT_OF_STEP),
-    "a structural change": (lambda: rename("R2", "R3"), Exit.OUT_OF_STEP),
-    "another option": (lambda: edit("urdfsync.toml", "domain", 'prefix = "pin"\ndomain'), Exit.OUT_OF_STEP),
-}
-
-
-@pytest.mark.parametrize("name", OUT_OF_STEP)
-def test_the_exit_code_says_whether_a_build_has_something_to_do(built: Path, execute: Execute, name: str) -> None:
-    change, code = OUT_OF_STEP[name]
-    change()
-    assert said(execute)[0] == code
-
-
-def test_every_robot_of_a_source(built: Path, execute: Execute) -> None:
-    configure(ROBOT.format("other", "Other"))
-    edit("ladder.json", "220.5", "330")
-    for arguments in ([], ["ladder.json"], [str(built / "ladder.json")]):
-        _, lines = said(execute, *arguments)
-        heads = [line for line in lines if line.startswith(("ladder:", "other:"))]
-        assert heads == ["ladder: 1 parameter change since the last build", "other: never built"]
-    assert said(execute, "other")[1][0] == "other: never built"
 
 
 # another file
@@ -335,33 +262,6 @@ def test_mistakes_without_a_configuration(arm: Path, execute: Execute, arguments
 def test_no_repository(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(arm.parent))
     assert "there is no file 'HEAD', and no git repository around" in refused(execute, "arm.urdf", "--against", "HEAD")
-
-
-@pytest.mark.parametrize(
-    ("arguments", "complaint"),
-    [
-        (["ladr"], "no robot `ladr` in the configuration; did you mean `ladder`?"),
-        (
-            ["step.csv"],
-            "step.csv was never built: it is not the source of a robot; add a robot for it, or name the version",
-        ),
-        (["ladder.json", "othr"], "no robot `othr` in the configuration"),
-    ],
-)
-def test_mistakes_with_a_configuration(project: Path, execute: Execute, arguments: list[str], complaint: str) -> None:
-    assert complaint in refused(execute, *arguments)
-
-
-def test_a_source_that_is_gone(built: Path, execute: Execute) -> None:
-    (built / "ladder.json").unlink()
-    assert "the source ladder.json does not exist" in refused(execute, "ladder.json")
-    assert "the source ladder.json does not exist" in refused(execute, "ladder.json", "--against", "step.csv")
-
-
-def test_one_file_is_no_older_version_of_several_sources(project: Path, execute: Execute) -> None:
-    shutil.copy(project / "ladder.json", project / "copy.json")
-    configure(ROBOT.format("copy", "Copy").replace("ladder.json", "copy.json"))
-    assert "--against names one file, but several sources are compared" in refused(execute, "--against", "step.csv")
 
 
 def test_what_is_in_no_model_is_no_change(arm: Path, execute: Execute) -> None:

@@ -1,7 +1,4 @@
-"""`urdfsync hook` as git calls it: it judges the next commit, builds in the working tree, and says what is not staged.
-
-`git/test_random_stagings.py` compares its verdicts with clones.
-"""
+"""`urdfsync hook` as git calls it: it judges the next commit, builds, and says what is not staged."""
 
 from __future__ import annotations
 

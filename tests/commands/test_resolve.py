@@ -85,9 +85,6 @@ def orphan(execute: Execute, project: Path) -> Path:
     return project / LADDER / "Elements/R2.mo"
 
 
-# Elements with another name
-
-
 # What is saved meanwhile
 
 

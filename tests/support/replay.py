@@ -6,7 +6,6 @@ import functools
 import hashlib
 import os
 import re
-import secrets
 import shutil
 import struct
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,8 +26,6 @@ from urdfsync.state import statefile
 ALL = "URDFSYNC_REPLAYS"
 """Environment variable: a number of steps with random edits; with it, all histories of the corpus are replayed."""
 STEPS = int(os.environ.get(ALL, "0"))
-SEED = int(os.environ.get("URDFSYNC_SEED") or (secrets.randbelow(10**6) if STEPS else 3))
-"""The first seed: a new one for each long run, unless the environment gives one; a failure names its seed."""
 PACKAGE = "modelica/Bot"
 """The package's folder; paths of files count from it."""
 

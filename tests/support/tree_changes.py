@@ -1,4 +1,4 @@
-"""Exports that change the tree of a robot: another parent, an added or removed link, an exchange, a new name."""
+"""Exports that change the tree of a robot: another parent, an added or removed link, an exchange."""
 
 from __future__ import annotations
 
@@ -90,32 +90,11 @@ def _exchange(robot: Robot, random: Random) -> bool:
     return True
 
 
-def _shuffle(robot: Robot, random: Random) -> bool:
-    """Write all links and joints in another order."""
-    elements = [element for element in robot if element.tag in ("link", "joint")]
-    for element in random.sample(elements, len(elements)):
-        robot.append(element)
-    return len(elements) > 2
-
-
-def _rename(robot: Robot, random: Random) -> bool:
-    """Rename a link."""
-    link = random.choice(robot.findall("link"))
-    old = link.get("name")
-    for element in robot.iter():
-        for key, value in element.attrib.items():
-            if value == old and (key in ("link", "reference") or element is link):
-                element.set(key, f"{old}_new")
-    return True
-
-
 CHANGES: Mapping[str, Change] = {
     "another parent": _move,
     "a link in between": _insert,
     "a link less": _remove,
     "links exchanged": _exchange,
-    "another order": _shuffle,
-    "another name": _rename,
 }
 
 

@@ -7,7 +7,8 @@ import time
 from pathlib import Path
 
 import pytest
-from support.networks import LADDER, run
+from support.commands import Execute
+from support.networks import LADDER, rename, run
 
 from urdfsync import config
 from urdfsync.dependencies import facts
@@ -66,6 +67,18 @@ def test_a_file_that_was_just_written_is_read_each_time(project: Path, monkeypat
     state = files().state(FILE)
     assert state is not None
     assert state.sha256 == digest(b"read again")
+
+
+@pytest.mark.parametrize("command", [["build"], ["resolve", "--all", "--merge", "--prefer", "mine"]])
+def test_a_model_that_is_not_utf_8_is_one_error(project: Path, execute: Execute, command: list[str]) -> None:
+    run()
+    edited = Path(FILE).read_bytes().replace(b"model Ladder", b"// Schl\xe4uche\nmodel Ladder")
+    Path(FILE).write_bytes(edited)
+    rename("R2", "R9")
+    (error,) = [line for line in execute(*command, code=2).errors if "error:" in line]
+    assert error.startswith(f"{FILE}:2: error: the file is not UTF-8, which Modelica demands; save it as UTF-8")
+    assert Path(FILE).read_bytes() == edited
+    assert not Path(LADDER, "Elements/R9.mo").exists()
 
 
 def put(*paths: str) -> None:

@@ -36,6 +36,13 @@ def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
     assert kinds(run()) == {"Resources/step.txt": Reason.CREATE, "Ladder.mo": Reason.UPDATE}
 
 
+def test_ros_package_path_is_searched(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    Path("step.csv").rename(tmp_path / "step.csv")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    run()
+    assert (project / LADDER / "Resources/step.txt").exists()
+
+
 def test_a_dependency_that_differs_in_case_only_names_the_file(project: Path) -> None:
     """Exports are made where that makes no difference."""
     Path("step.csv").rename("STEP.CSV")

@@ -1,4 +1,7 @@
-"""What is said beside the actions of a build: connectors that come and go, packages and states that are left over."""
+"""What is said beside the actions of a build: states that are left over, options of another program.
+
+`tests/scenarios/connectors.txt` has connectors that come and go.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,6 @@ from urdfsync.engine.actions import Reason
 
 LINKS = tuple(urdfs.link(name, 1.0) for name in ("base", "arm", "hand"))
 SWING = urdfs.joint("swing", "continuous", "base", "arm")
-GRIP = urdfs.joint("grip", "fixed", "arm", "hand")
 CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 
 
@@ -28,91 +30,6 @@ def arm(folder: Path) -> Path:
     return folder
 
 
-def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(arm: Path, execute: Execute) -> None:
-    (arm / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
-    hint = 'set `frames = ["arm"]` to bring it back'
-    printed = execute("diff", "arm.urdf", code=1)
-    assert f"link arm frame arm_link_be5539Frame is gone ({hint}) link hand frame now handFrame" in printed.words
-    assert printed.err == "", "what the effects say is not said twice"
-    notes = [
-        "arm.urdf: note: new connectors and variables: `handFrame` [connector-changed]",
-        f"arm.urdf:4: note: link arm: its frame `arm_link_be5539Frame` is gone; {hint} [connector-changed]",
-    ]
-    assert execute("status", code=1).errors == notes
-    assert execute("build").errors == notes
-    assert "arm_link_be5539Frame" not in (arm / "modelica/Arm/Arm.mo").read_text()
-    assert "connector-changed" not in execute("build").words
-
-
-def test_a_model_of_the_users_that_uses_a_frame_that_goes_is_told_how_it_comes_back(
-    arm: Path, execute: Execute
-) -> None:
-    (arm / "Cell.mo").write_text(
-        "model Cell\n  Arm.Arm robot; Modelica.Mechanics.MultiBody.Interfaces.Frame_a x;\n"
-        "equation\n  connect(robot.arm_link_be5539Frame, x);\nend Cell;\n"
-    )
-    (arm / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
-    expected = (
-        'Cell.mo:4: warning: Arm has no `arm_link_be5539Frame`; set `frames = ["arm"]` to bring it back [unresolved]'
-    )
-    for command, code in (("diff", 1), ("status", 1), ("build", 0)):
-        assert expected in execute(command, code=code).errors
-    with (arm / "urdfsync.toml").open("a") as file:
-        file.write('frames = ["arm"]\n')
-    assert "[unresolved]" not in execute("build").words
-
-
-def test_what_goes_with_its_element_is_named_and_of_much_that_is_new_only_the_number(
-    arm: Path, execute: Execute
-) -> None:
-    (arm / "arm.urdf").write_text(urdfs.robot(LINKS[0]))
-    found = execute("build").words
-    assert all(f"its {name} is gone" in found for name in ("frame `arm_link_be5539Frame`", "axis `swingAxis`"))
-    joints = [urdfs.joint(f"j{number}", "continuous", "base", f"l{number}") for number in range(2)]
-    (arm / "arm.urdf").write_text(urdfs.robot(LINKS[0], *(urdfs.link(f"l{n}", 1.0) for n in range(2)), *joints))
-    words = (
-        "new connectors and variables: `l0Frame`, `l1Frame`, `j0Axis`, `j0Support`, `j0_phi`, `j0_tau`, 4 more [conn"
-    )
-    assert words in execute("build").words
-
-
-def configure(arm: Path, lines: str) -> None:
-    """Build with other options; the robot stays as it is."""
-    (arm / "urdfsync.toml").write_text(CONFIG + lines)
-
-
-def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(arm: Path, execute: Execute) -> None:
-    configure(arm, "driven = []\n")
-    found = execute("build").words
-    for variable in ("position in Run `swing_phi`", "effort in Run `swing_tau`"):
-        assert f'joint swing: its {variable} is gone; set `driven = ["swing"]` to bring it back' in found
-    assert "swingAxis" not in found, "the robot keeps its connectors"
-
-
-def test_a_model_that_is_asked_for_no_more_is_named_with_the_key_that_keeps_it(arm: Path, execute: Execute) -> None:
-    configure(arm, 'approach = ["record"]\n')
-    found = execute("build", "--verbose").words
-    assert "the option `approach` changed" in found
-    assert 'robot: its model `Arm` is gone; set `approach = ["package", "record"]` to bring it back' in found
-
-
-def test_options_are_named_only_if_nothing_else_changed(arm: Path, execute: Execute) -> None:
-    configure(arm, 'frames = "all"\ncollisions = false\n')
-    assert "the options `collisions` and `frames` changed" in execute("build", "--dry-run").words
-    (arm / "mine").mkdir()
-    configure(arm, 'frames = "all"\ntemplates = "mine"\n')
-    (arm / "mine/robot.mo.jinja").write_text("")
-    assert "a template, an option or urdfsync itself changed" in execute("build", "--dry-run").words
-
-
-def test_a_renamed_package_is_told_as_such(arm: Path, execute: Execute) -> None:
-    edit(arm / "urdfsync.toml", 'package = "Arm"', 'package = "Crane"')
-    assert "the package's name changed: Arm → Crane" in execute("build", "--dry-run").words
-    edit(arm / "urdfsync.toml", 'package = "Crane"', 'package = "Arm"\nclass = "Crane"')
-    told = "the package's name changed: Arm with the class Arm → Arm with the class Crane"
-    assert told in execute("build", "--dry-run").words
-
-
 @pytest.mark.parametrize("option", [{"frames": "none"}, {"frames": 3}, {"roof": "red"}])
 def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
     arm: Path, execute: Execute, option: dict[str, object]
@@ -120,7 +37,7 @@ def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
     recorded = arm / ".urdfsync/robots/arm.state"
     assert record(recorded).options["frames"] == "leaves"
     rewrite(recorded, options=option)
-    configure(arm, "driven = []\n")
+    (arm / "urdfsync.toml").write_text(f"{CONFIG}driven = []\n")
     assert "connector-changed" not in execute("build").words
     assert record(recorded).options["frames"] == "leaves"
 

@@ -1,4 +1,7 @@
-"""What a build records while something is open, and what the builds after it make of that."""
+"""What a build records while something is open, and what the builds after it make of that.
+
+`tests/scenarios/recorded.txt` has what users see of it.
+"""
 
 from __future__ import annotations
 
@@ -15,15 +18,12 @@ from support.networks import (
     LADDER,
     MANIFEST,
     R1,
-    R2,
     RECORD,
     configure,
     drop,
     edit,
     kinds,
     mentioned,
-    own_model,
-    rename,
     resistor,
     run,
     source,
@@ -35,8 +35,6 @@ from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.inspect.package_files import bare_hash
 
 C2 = f"{LADDER}/Elements/C2.mo"
-R2_RECORD = f"{LADDER}/Elements/R2Parameters.mo"
-OTHER = "modelica/Other"
 
 
 @pytest.fixture
@@ -47,18 +45,6 @@ def conflict(project: Path) -> str:
     edit("ladder.json", '"farad": 4.7e-6', '"ohm": 7')
     assert kinds(run())[C2] is Reason.CONFLICT
     return C2
-
-
-def move_package() -> None:
-    edit("urdfsync.toml", '"Ladder"', '"Other"')
-
-
-def block_moved_package() -> str:
-    """Put a file of the user's where the moved package wants one."""
-    place = Path(f"{OTHER}/Elements/R1.mo")
-    place.parent.mkdir(parents=True)
-    place.write_text("within Other.Elements;\nmodel R1\nend R1;\n")
-    return place.as_posix()
 
 
 def test_a_renewed_import_keeps_its_own_facts_when_its_source_goes(conflict: str) -> None:
@@ -79,56 +65,6 @@ def test_a_base_is_rendered_with_the_import_that_it_was_written_with(conflict: s
     edit(whole, "end Ladder;", "// mine\nend Ladder;")
     bases = {one.path: one.base for one in run().conflict_texts}
     assert "4 rows" in (bases[whole] or "")
-
-
-def test_an_element_that_was_away_for_a_while_is_known_by_its_other_name(conflict: str) -> None:
-    edit(R1, "end R1", "  // mine\nend R1")
-    text = Path("ladder.json").read_text()
-    drop("R1")
-    run()
-    Path("ladder.json").write_text(text.replace('"R1"', '"R9"'))
-    assert R1 in {action.origin for action in run().actions}
-
-
-def test_an_element_may_get_the_name_of_one_that_is_gone(conflict: str) -> None:
-    edit(R1, "end R1", "  // mine\nend R1")
-    drop("R2")
-    run()
-    rename("R1", "R2")
-    run(), run()
-    run(choices={conflict: Choice.TAKE})
-    assert "// mine" in Path(R2).read_text()
-    assert not Path(R1).exists()
-
-
-def test_a_record_that_was_renewed_moves_with_its_package(conflict: str) -> None:
-    source('"ohm": 220.5', '"ohm": 300')
-    assert kinds(run())[R2_RECORD] is Reason.UPDATE
-    edit(R2_RECORD, "end R2", "  // mine\nend R2")
-    move_package()
-    run(choices={one.action.path: Choice.TAKE for one in run().conflicts})
-    assert "// mine" in Path(R2_RECORD.replace(LADDER, OTHER)).read_text()
-    assert not Path(LADDER).exists()
-
-
-def test_a_choice_on_an_orphan_acts_at_once_while_the_package_moves(project: Path) -> None:
-    run()
-    edit(C1, "end C1", "  // mine\nend C1")
-    drop("C1")
-    move_package()
-    blocked = block_moved_package()
-    run(choices={C1: Choice.TAKE})
-    assert not Path(C1).exists()
-    run(choices={blocked: Choice.TAKE})
-    assert not Path(C1).exists()
-
-
-def test_a_robot_that_is_renamed_in_case_only_keeps_its_record(project: Path) -> None:
-    run()
-    edit(R1, "end R1", "  // mine\nend R1")
-    edit("urdfsync.toml", "robots.ladder", "robots.Ladder")
-    assert kinds(run())[R1] is Reason.KEEP
-    assert [path.name for path in Path(".urdfsync/robots").iterdir()] == ["Ladder.state"]
 
 
 @pytest.mark.parametrize("how", ["a link", "empty", "deleted"])
@@ -224,16 +160,6 @@ def test_an_import_counts_as_renewed_when_its_copy_is(conflict: str) -> None:
     table.write_text(table.read_text().rstrip("\n") + "\n99,5\n")
     run()
     assert Path(MANIFEST).read_text().count("source_hash") == 1
-
-
-def test_what_no_file_says_is_not_recorded(project: Path) -> None:
-    own_model("")
-    run()
-    template = Path("own/element/model.mo.jinja")
-    template.write_text(f"<# a note #>{template.read_text()}")
-    before = Path(MANIFEST).read_bytes()
-    assert run().in_step
-    assert Path(MANIFEST).read_bytes() == before
 
 
 def test_the_base_of_what_was_put_aside_stays(project: Path) -> None:
