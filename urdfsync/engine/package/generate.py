@@ -93,7 +93,7 @@ class Package:
         if path not in self._data_hashes:
             artifact = self.artifacts[path]
             # 0.0 == -0.0, but their texts and their JSON differ
-            self._data_hashes[path] = digest(msgspec.json.encode((artifact.template, artifact.data)))
+            self._data_hashes[path] = digest(msgspec.json.encode((artifact.template, artifact.data), order="sorted"))
         return self._data_hashes[path]
 
     def changed_since(self, last: Package) -> frozenset[str]:
