@@ -155,6 +155,8 @@ def test_a_save_at_either_end_of_a_move_stops_it(
 
 LEFT = {
     "half a new file": ("X.mo.{old}-{new}", "ne", "old", ""),
+    "half a new file at the new path of an edit": ("X.mo.{old}-{new}+m", "ne", "other", ""),
+    "a caught save there": ("X.mo.{old}-{new}+m", "saved", "new", "X.mo.saved"),
     "half a first file": ("X.mo.none-{new}", "ne", None, ""),
     "a new file": ("X.mo.{old}-{new}", "new", "old", ""),
     "the old file": ("X.mo.{old}-{new}", "old", "new", ""),
@@ -172,7 +174,8 @@ def test_a_temporary_name_says_what_becomes_of_the_file(
     tmp_path: Path, transactions: Transactions, name: str, content: str, present: str | None, kept: str
 ) -> None:
     old, new = digest(b"old")[:12], digest(b"new")[:12]
-    (tmp_path / f".{name.format(old=old, new=new)}.abcdef.urdfsync-tmp").write_text(content)
+    name, _, mark = name.partition("+")
+    (tmp_path / f".{name.format(old=old, new=new)}.abcdef{mark}.urdfsync-tmp").write_text(content)
     if present:
         (tmp_path / "X.mo").write_text(present)
     said = transactions.clear(find_leftovers([tmp_path]))

@@ -37,8 +37,11 @@ _DIGITS = 12
 """The number of digits of the hashes in temporary names: names of files have 255 bytes at most."""
 _NONE, _MOVES = "none", "moves"
 """Stand for the hash of no file, and for the new content of a file that was renamed by three renames."""
-_NAME = re.compile(rf"\.(.+)\.([0-9a-f]{{12}}|none)-([0-9a-f]{{12}}|none|moves)\.[0-9a-f]{{6}}{re.escape(TEMPORARY)}~?")
-"""A temporary name: target, old content, new content, random digits; `~` is of three renames."""
+_NAME = re.compile(
+    rf"\.(.+)\.([0-9a-f]{{12}}|none)-([0-9a-f]{{12}}|none|moves)\.[0-9a-f]{{6}}m?{re.escape(TEMPORARY)}~?"
+)
+"""A temporary name: target, old content, new content, random digits; `m` if the old content comes from a renaming that
+is made later, `~` is of three renames."""
 SAVED = ".saved"
 """The end of the name under which a content is kept that nobody planned."""
 _OTHER = "no regular file"
@@ -287,10 +290,11 @@ def _plan(changes: Sequence[FileChange]) -> tuple[list[_Move], list[_Target]]:
         moves.append(_Move(source, path, _temporary(path, old[path], _MOVES, token), text, old[path]))
         old[source], old[path] = old[path], text
         sources.update((other, source) for other, place in sources.items() if place == path)
-    targets = list[_Target]()
+    targets, moved = list[_Target](), {path for move in moves for path in (move.source, move.path)}
     for change in changes:
         path, new = str(change.path), None if change.content is None else digest(change.content)
-        targets.append(_Target(path, _temporary(path, old[path], new, token), old[path], new))
+        temporary = _temporary(path, old[path], new, f"{token}m" if path in moved else token)
+        targets.append(_Target(path, temporary, old[path], new))
     return moves, targets
 
 
@@ -349,7 +353,8 @@ def _clear(path: str) -> str | None:
         file_operations.place(path, target)
         return None
     # a new file never held anything else; until an exchange, this one holds at most half of the new content
-    is_own = old == _NONE or (present == old and new not in (_NONE, _MOVES))
+    is_before = present == old or (name.partition(TEMPORARY)[0].endswith("m") and present != new)
+    is_own = old == _NONE or (is_before and new not in (_NONE, _MOVES))
     if new != _MOVES and (content in (old, new) or is_own):
         file_operations.remove(path)
         return None
