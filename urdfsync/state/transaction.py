@@ -38,7 +38,7 @@ _DIGITS = 12
 _NONE, _MOVES = "none", "moves"
 """Stand for the hash of no file, and for the new content of a file that was renamed by three renames."""
 _NAME = re.compile(
-    rf"\.(.+)\.([0-9a-f]{{12}}|none)-([0-9a-f]{{12}}|none|moves)\.[0-9a-f]{{6}}m?{re.escape(TEMPORARY)}~?"
+    rf"\A\.(.+)\.([0-9a-f]{{12}}|none)-([0-9a-f]{{12}}|none|moves)\.[0-9a-f]{{6}}m?{re.escape(TEMPORARY)}~?"
 )
 """A temporary name: target, old content, new content, random digits; `m` if the old content comes from a renaming that
 is made later, `~` is of three renames."""
