@@ -83,7 +83,12 @@ def split(text: str) -> tuple[str, Stamp | None]:
 
 
 def stamped(bare: str, stamp: Stamp) -> str:
-    """Return the text of a class with its stamp; without a class, the text itself."""
+    """Return the text of a class with its stamp; the text itself if it has no class, or is too broken for a stamp."""
+    text = _stamped(bare, stamp)
+    return text if split(text)[0] == bare else bare
+
+
+def _stamped(bare: str, stamp: Stamp) -> str:
     mark, ends, depth = f'{_WORD}(id = "{stamp.id}", base = "{stamp.base}")', [-1, -1], 0
     for token in _TOKENS.finditer(bare):
         if token[0] == ";" and depth == 0:

@@ -18,7 +18,7 @@ from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
 from urdfsync.files import Templates, digest, normalised, shown, text_hash
 from urdfsync.modelica.files import class_path
 from urdfsync.modelica.literals import without_literals
-from urdfsync.modelica.stamp import Stamp, split, stamped
+from urdfsync.modelica.stamp import Stamp, stamped
 
 if TYPE_CHECKING:
     from urdfsync.engine.package.render import Renderer
@@ -235,16 +235,16 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
         return
     from urdfsync.modelica.layout import check_class_file  # imports the parser: 8 of 220 ms of a build
 
-    if split(stamped(text, Stamp("", "")))[0] != text:
-        file, line = renderer.find_origin(artifact.template, artifact.data, text, text.count("\n"))
-        message = f"the text for `{artifact.path}` has an empty annotation: leave it out"
-        raise _template_error(renderer.folders, artifact.template, file, line, message)
     findings = check_class_file(text, path, ".".join((package, *class_path(path).parts)))[1]
     for wrong in findings:
         if wrong.severity is Severity.ERROR:
             file, line = renderer.find_origin(artifact.template, artifact.data, text, wrong.line)
             message = f"the text for `{artifact.path}` is wrong: {wrong.message}"
             raise _template_error(renderer.folders, artifact.template, file, line, message)
+    if stamped(text, Stamp("", "")) == text:
+        file, line = renderer.find_origin(artifact.template, artifact.data, text, text.count("\n"))
+        message = f"the text for `{artifact.path}` has an empty annotation: leave it out"
+        raise _template_error(renderer.folders, artifact.template, file, line, message)
     renderer.sound.add(form)
 
 
