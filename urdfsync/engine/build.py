@@ -168,7 +168,9 @@ class _Builder:
             if not is_writing:
                 return self._finish(robot, plan, {})
             files = PackageFiles(self._config, robot)
-            shared = [change for file in plan.shared if (change := shared_change(file, files)) is not None]
+            # a package without its order would count as the user's: if the build is killed, the order is there first
+            ordered = sorted(plan.shared, key=lambda file: file.content is not None)
+            shared = [change for file in ordered if (change := shared_change(file, files)) is not None]
             writes = msgspec.structs.replace(plan.writes, files=(*shared, *plan.writes.files))
             self._note_edits(robot, plan)
             applied = self._transactions.apply(writes, plan.emptied)

@@ -92,10 +92,12 @@ def _removable_lines(
     candidates = listed if is_united else listed.intersection(recorded)
     names = filter(is_identifier, candidates.difference(deleted))
     # a killed build may have moved or deleted some files of the package before the others
+    files = inputs.files
     missing = [
         name
         for name in names
-        if not inputs.files.has_class(folder, name) or frozenset() < inputs.files.classes(folder + name) <= deletions
+        if not files.has_class(folder, name)
+        or not (files.can_read(f"{folder}{name}.mo") or files.classes(folder + name) - deletions)
     ]
     is_asked = missing and f"{folder}package.mo" not in deletions
     mentioned = set(re.findall(r"\w+", inputs.files.text(f"{folder}package.mo") or "")) if is_asked else set()

@@ -135,7 +135,8 @@ def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
     above = {inputs.files.path(inputs.last.folder).parent, inputs.store.folder}
     places = {change.path.parent for change in changes if change.content is None}
     places |= {*map(inputs.files.path, {key.rpartition("/")[0] for key in inputs.last.record.files})}
-    places |= {Path(folder) for folder, _, _ in os.walk(inputs.store.conflicts(inputs.robot.name))}
+    conflicts = inputs.store.conflicts(inputs.robot.name)
+    places |= {conflicts, *(Path(folder) for folder, _, _ in os.walk(conflicts))}
     folders = {folder for place in places for folder in (place, *place.parents)}
     below = [folder for folder in folders if not above.isdisjoint(folder.parents)]
     return tuple(sorted(below, key=lambda folder: len(folder.parts), reverse=True))
