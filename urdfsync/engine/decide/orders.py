@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from urdfsync.dependencies.reads import is_file
 from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Choice, Reason
 from urdfsync.engine.decide.differences import Differences
@@ -97,7 +98,7 @@ def _removable_lines(
         name
         for name in names
         if not files.has_class(folder, name)
-        or not (files.can_read(f"{folder}{name}.mo") or files.classes(folder + name) - deletions)
+        or not (is_file(files.path(f"{folder}{name}.mo")) or files.classes(folder + name) - deletions)
     ]
     is_asked = missing and f"{folder}package.mo" not in deletions
     mentioned = set(re.findall(r"\w+", inputs.files.text(f"{folder}package.mo") or "")) if is_asked else set()
