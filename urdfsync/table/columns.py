@@ -114,7 +114,3 @@ def _find_jump(numbers: Sequence[_Number], unit: str) -> tuple[str, Sequence[_Nu
 
 def _noun(kind: str) -> str:
     return kind.replace("_", " ")
-
-
-def _without(cells: Mapping[str, CellValue], column: str) -> dict[str, CellValue]:
-    return {name: cell for name, cell in cells.items() if name != column}

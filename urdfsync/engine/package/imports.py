@@ -28,8 +28,6 @@ _POINTER = b"version https://git-lfs"
 """The beginning of a pointer of Git LFS."""
 _MOST_OTHERS = 100
 """The greatest number of other files that a conversion may read."""
-MOST_PARTS = 100
-"""The greatest number of files that one dependency may become."""
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
     r"(?:https?|ftp):": "urdfsync downloads no files: download it, and let the source refer to your copy",

@@ -79,7 +79,6 @@ _JOINT_X = 30  # From a column's trunk to the middle of its joints.
 _LINK_Y = 26  # From a row's spine down to the middle of its links.
 _BELOW = 44  # From a row's spine down to the row's end: link, name, gap; a sensor is nearer.
 _ABOVE = 20  # From a row's spine up to the connectors of the joints.
-_TRUNK = 8  # From the connector of the root frame to the first trunk.
 _MARGIN = 64  # From the last trunk to the right edge: a connector and its name.
 _ASIDE = 8  # From an axis to the support's connector, and to a line around the axis's connector.
 
