@@ -19,7 +19,7 @@ def test_what_waits_writes_nothing_and_keeps_its_text(reason: Reason) -> None:
     assert now.writes == (reason.kind in (Kind.WRITE, Kind.DELETE))
     assert not later.writes
     assert later.keeps_text
-    assert later.is_deletion == now.is_deletion == (reason in (Reason.DELETE, Reason.MOVED_AWAY))
+    assert later.is_deletion == now.is_deletion == (reason is Reason.DELETE)
     assert now.is_conflict == (reason in CONFLICTS)
 
 

@@ -197,7 +197,7 @@ def test_three_builds_at_once_equal_one(project: Path, rc_site: Path) -> None:
     processes = [subprocess.Popen(command, cwd=project, env=environment, stdout=pipe, stderr=pipe) for _ in range(3)]
     outputs = [process.communicate() for process in processes]
     assert [process.returncode for process in processes] == [0, 0, 0], outputs
-    assert sum(b'"kind": "delete"' in out for out, _ in outputs) == 1
+    assert sum(b'"reason": "create"' in out for out, _ in outputs) == 1
     assert run(project).in_step
     assert run(project, full=True).in_step
     assert not list(project.rglob("*.urdfsync-tmp"))

@@ -134,9 +134,11 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
         root, real, real_root = result.root, Path(os.path.realpath(path)), Path(os.path.realpath(result.root))
         # links may lead to a file of the configuration's folder
         places = {path, root / real.relative_to(real_root)} if real.is_relative_to(real_root) else {path}
-        is_found = False
+        is_found, paths = False, {action.path for action in result.actions}
         for action in result.actions:
-            keys = {action.path} if choice is Choice.UNDO else {action.origin or action.path, action.path}
+            keys = {action.origin or action.path, action.path}
+            if choice is Choice.UNDO:  # the user means the file that is there now
+                keys = {action.path, *(keys - paths)}
             keys |= set() if action.is_on_disk else {f"{key.removesuffix('.mo')}/package.mo" for key in keys}
             files = {Path(os.path.normpath(root / key)) for key in keys}
             is_user = action.is_conflict or action.reason in USERS or action.is_left_by_git or action.choice
@@ -176,7 +178,7 @@ def _compare(
     failed = {result.robot for result in results if result.failed}
     accepted, problems = set[str](), list[Diagnostic]()
     for path, (result, before) in targets.items():
-        after, place = actions.get(path), result.shown(before.place)
+        after, place = actions.get(path), result.shown(before.present)
         if result.robot in failed:
             continue
         if path in result_of[result.robot].settled:
@@ -203,7 +205,7 @@ def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
     elif action.is_conflict:
         code, hint = "wrong-rename", "choose again: `urdfsync status` lists the choices"
         message = "--moved is only for an edit that may belong to another part; this edit belongs here"
-    elif action.place.endswith("/package.mo") and not action.is_on_disk:
+    elif action.present.endswith("/package.mo") and not action.is_on_disk:
         message, hint = "you turned the class into a folder", "delete the folder and build to get the generated file"
     elif action.reason is Reason.ORPHAN:
         code, message = "no-merge", "the file is no longer generated: there is nothing to merge"

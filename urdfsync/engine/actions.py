@@ -111,7 +111,6 @@ class Reason(enum.StrEnum):
     RENAMED = "renamed", Kind.CONFLICT, FileStatus.CONFLICT, "it uses a name that has changed"
     UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "urdfsync neither generates this file nor has a record of it"
     UNCHANGED = "unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
-    MOVED_AWAY = "moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"
     FORGET = "forget", Kind.LEAVE, None, "no longer generated, and already gone"
     # fmt: on
 
@@ -138,10 +137,7 @@ USERS = frozenset({Reason.KEEP, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DIS
 
 
 class Action(msgspec.Struct, frozen=True):
-    """The decision about one file, and the hashes behind the decision; `path` is the file's key.
-
-    An action changes only `path`: a file that moves has two actions, MOVE and MOVED_AWAY.
-    """
+    """The decision about one file, and the hashes behind the decision; `path` is the file's key."""
 
     KEYS = ("path", "origin", "status", "kind", "reason", "is_waiting", "owner", "role", "text")
 
@@ -152,7 +148,7 @@ class Action(msgspec.Struct, frozen=True):
     base: str | None = None
     generated: str | None = None
     origin: str | None = None
-    """Path of the user's file, if its element was renamed; None if it is at `path`."""
+    """Path of the file on disk, if it moves to `path`, or would without its conflict; None if it is at `path`."""
     choice: Choice | None = None
     """The user's decision about the file; None without one."""
     mine: str | None = None
@@ -174,7 +170,7 @@ class Action(msgspec.Struct, frozen=True):
         return self.reason.status
 
     @property
-    def place(self) -> str:
+    def present(self) -> str:
         """The present path of the user's file: for a conflict its old one, for a class in a folder its `package.mo`."""
         if self.reason is Reason.KEEP and not self.is_on_disk:
             return f"{self.path.removesuffix('.mo')}/package.mo"
@@ -254,3 +250,18 @@ class Actions(tuple[Action, ...]):
     def decided(self) -> tuple[Action, ...]:
         """All actions except those on unchanged files: in most builds, a few out of thousands."""
         return tuple(action for action in self if action.reason not in (Reason.UNCHANGED, Reason.UNKNOWN))
+
+
+def find_deletions(actions: Iterable[Action]) -> set[str]:
+    """Return the paths at which no file is left once nothing conflicts: of deleted files, and of files that move."""
+    left, deleted = set[str](), set[str]()
+    for action in actions:
+        deleted |= {key for key in (action.path if action.is_deletion else action.origin,) if key}
+        left |= set() if action.is_deletion else {action.path}
+    return deleted - left
+
+
+def find_left_paths(actions: Iterable[Action]) -> set[str]:
+    """Return the paths at which no file is left after the build."""
+    actions = tuple(actions)
+    return find_deletions(actions) & {action.origin or action.path for action in actions if action.writes}

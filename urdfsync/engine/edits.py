@@ -65,7 +65,7 @@ def find_edited(
     files = inputs.files
     for action in actions:
         key = action.origin or action.path
-        is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY
+        is_text = action.role not in (Role.IMPORT, Role.ORDER)
         is_users = action.base is None and action.generated is None  # a class of the user's own is no edit
         # a class that the user turned into a folder has no hash
         if is_text and action.mine is None and files.on_disk(key, action.role) is CLASS_FOLDER:

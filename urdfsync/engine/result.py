@@ -69,7 +69,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
     @property
     def shown(self) -> str:
         """The path of the user's file, as the user would type it."""
-        return self.result.shown(self.action.place)
+        return self.result.shown(self.action.present)
 
     @property
     def merges(self) -> bool:

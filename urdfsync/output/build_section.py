@@ -28,8 +28,6 @@ _FIT = "correct the files that do not fit"
 _SILENT = {Reason.FORGET} | CONFLICTS
 """Reasons of actions that tables leave out; conflicts are findings."""
 _ALWAYS_LISTED = {Reason.MERGE, Reason.MOVE, Reason.UNDO} | ORPHANS
-EDITED = USERS | {Reason.MOVED_AWAY}
-"""Actions on files that the user edited."""
 _ORPHANS = "for an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 
 
@@ -154,9 +152,9 @@ def change_parts(
 
 def file_table(result: Result, actions: Sequence[Action], **options: Any) -> TextTable:
     """Return a table of the actions, edited files first; `options` are those of `TextTable`."""
-    actions = sorted(actions, key=lambda action: (action.reason not in EDITED, action.place.rpartition("/")))
+    actions = sorted(actions, key=lambda action: (action.reason not in USERS, action.present.rpartition("/")))
     words = [action.word for action in actions]
     reasons = [reason(action, result.effective_changes) for action in actions]
-    rows = list(zip([result.shown(action.place) for action in actions], words, reasons, strict=True))
+    rows = list(zip([result.shown(action.present) for action in actions], words, reasons, strict=True))
     options = {"line": file_line, "most": len(rows), **options}
     return TextTable("Files", ("File", "", "Why"), rows, **options)

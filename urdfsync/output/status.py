@@ -25,11 +25,11 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
     listed = [action for action in result.actions if action.status and action.status not in silent]
     conflicts = {file.action.path: file.relation for file in result.conflicts}
     stale, others = list[tuple[str, str, str]](), list[tuple[str, str, str]]()
-    for action in sorted(listed, key=lambda action: action.place.rpartition("/")):
+    for action in sorted(listed, key=lambda action: action.present.rpartition("/")):
         says_all = action.reason in (Reason.UNCHANGED, Reason.KEEP) and not action.is_waiting
         why = "" if says_all else conflicts.get(action.path) or reason(action, changes)
         group = stale if action.status is FileStatus.STALE else others
-        group.append((result.shown(action.place), str(action.status), why))
+        group.append((result.shown(action.present), str(action.status), why))
     inputs = [(name,) for name in result.stale]
     tables = (
         *changed,

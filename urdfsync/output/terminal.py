@@ -12,7 +12,7 @@ from urdfsync.streams import has_marks
 _STYLES = {Mark.WRONG: "bold red", Mark.OPEN: "yellow", Mark.NONE: "", Mark.FINE: "green"}
 _FILES = {
     "green": "update create restore merge undo move stale missing",
-    "magenta": "delete moved-away",
+    "magenta": "delete",
     "bold red": "conflict",
     "cyan": "keep edited",
     "yellow": "orphan needed waiting unknown",

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import tomli_w
 
-from urdfsync.engine.actions import Reason
+from urdfsync.engine.actions import USERS, Reason
 from urdfsync.engine.decide.conflicts import describe_doubt
 from urdfsync.engine.stage.findings import CONNECTORS
-from urdfsync.output.build_section import EDITED, build_section, change_parts, file_table
+from urdfsync.output.build_section import build_section, change_parts, file_table
 from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import StyledLine, line
 from urdfsync.output.outline import OutlineRow, effect_rows
@@ -41,7 +41,7 @@ def to_section(compared: Comparison, *, verbose: bool | None = None) -> Section:
     tables.append(TextTable("Differing files", columns, rows, file_line, _FILES, "file", _heading(words)))
     has_plan = not result.in_step and (compared.against is None or result.is_built or result.conflicts)
     actions = [action for action in result.actions.decided if has_plan and action.reason not in _SILENT]
-    most = max(_FILES, 1 + sum(action.reason in EDITED for action in actions))
+    most = max(_FILES, 1 + sum(action.reason in USERS for action in actions))
     heading = _heading(f"Next build: {result.summary}")
     tables.append(file_table(result, actions, line=_file_line, most=most, noun="file", heading=heading))
     is_judged = compared.against is None or result.failed
@@ -68,7 +68,7 @@ def _effect_line(*row: str) -> StyledLine:
 
 def _file_line(path: str, word: str, why: str) -> StyledLine:
     """Return a line for one file, with the reason if the user edited the file."""
-    return file_line(path, word, why if word in EDITED else "")
+    return file_line(path, word, why if word in USERS else "")
 
 
 def _doubts(compared: Comparison) -> Iterator[str]:

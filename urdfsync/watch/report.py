@@ -296,7 +296,7 @@ class Report:
             words = Activity.ERROR if result.failed else "broken"
             status = RobotStatus(Activity.ERROR, _with_error(words, result.diagnostics))
         elif result.conflicts:
-            files = [each.action.place.rpartition("/")[2] for each in result.conflicts]
+            files = [each.action.present.rpartition("/")[2] for each in result.conflicts]
             where = files[0] if len(files) == 1 else f"{len(files)} files"
             text = f"{Activity.CONFLICT} in {where}: run `urdfsync resolve`"
             status = RobotStatus(Activity.CONFLICT, text)

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.actions import Action, Reason, find_deletions
 from urdfsync.engine.decide.conflicts import find_conflict, resolve
-from urdfsync.engine.decide.rules import File, decide, decide_file, file_records_after, put_off
+from urdfsync.engine.decide.rules import Place, decide, decide_file, file_records_after, put_off
 from urdfsync.engine.inspect.package_files import CLASS_FOLDER, ClassFolder
 
 
@@ -51,7 +51,7 @@ paths = st.sampled_from("abcde")
 
 
 @st.composite
-def situations(draw: st.DrawFn) -> tuple[dict[str, File], dict[str, str]]:
+def situations(draw: st.DrawFn) -> tuple[dict[str, Place], dict[str, str]]:
     """What is recorded, wanted and there, and moves from recorded places to wanted ones."""
     recorded = draw(st.dictionaries(paths, bases))
     wanted = draw(st.dictionaries(paths, st.sampled_from("uvw12")))
@@ -59,7 +59,7 @@ def situations(draw: st.DrawFn) -> tuple[dict[str, File], dict[str, str]]:
     origins = draw(st.permutations(sorted(recorded)))
     pairs = zip(draw(st.permutations(sorted(wanted))), origins, strict=False)
     files = {
-        path: File(Role.MODEL, "", recorded.get(path), found.get(path), wanted.get(path))
+        path: Place(Role.MODEL, "", recorded.get(path), found.get(path), wanted.get(path))
         for path in recorded.keys() | wanted.keys()
     }
     return files, {new: old for new, old in pairs if new != old and draw(st.booleans())}
@@ -67,7 +67,7 @@ def situations(draw: st.DrawFn) -> tuple[dict[str, File], dict[str, str]]:
 
 @given(situations())
 def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
-    situation: tuple[dict[str, File], Mapping[str, str]],
+    situation: tuple[dict[str, Place], Mapping[str, str]],
 ) -> None:
     files, moves = situation
     actions = decide(files, moves)
@@ -77,32 +77,28 @@ def test_every_move_leaves_its_old_place_and_nothing_of_the_users_is_lost(
     assert len(set(moved)) == len(moved), "no text goes to two places"
     for action in actions:
         if action.reason is Reason.MOVE:
-            assert kinds[action.origin or ""] in (Reason.MOVED_AWAY, Reason.CREATE, Reason.MOVE)
-            assert action.mine == files[action.origin or ""].on_disk != action.base
-        if action.reason is Reason.MOVED_AWAY:
-            assert action.path in moved
-        mine, base = files[action.path].on_disk, files[action.path].base
+            assert kinds.get(action.origin or "") in (None, Reason.CREATE, Reason.MOVE)
+            assert action.mine == files[action.origin or ""].mine != action.base
+        mine, base = files[action.path].mine, files[action.path].base
         if action.reason is Reason.DELETE:
             assert mine == base
         if action.writes and mine not in (None, base, action.generated):
-            others = {file.base for file in files.values()}
-            assert action.path in moved or (action.reason is Reason.UPDATE and mine in others), (
-                "moved by hand, unedited"
-            )
+            assert action.path in moved
         if isinstance(mine, ClassFolder):
             assert not action.writes
+    for path in find_deletions(actions):
+        assert path in moved or files[path].mine in (None, files[path].base)
 
 
 def test_places_that_are_handed_on() -> None:
     """A's edited file goes where B's untouched one is, which goes to a new place."""
     files = {
-        "A.mo": File(Role.MODEL, "part A", "A", "mine"),
-        "B.mo": File(Role.MODEL, "part B", "B", "B", "new B"),
-        "C.mo": File(Role.MODEL, "part C", generated="new C"),
+        "A.mo": Place(Role.MODEL, "part A", "A", "mine"),
+        "B.mo": Place(Role.MODEL, "part B", "B", "B", "new B"),
+        "C.mo": Place(Role.MODEL, "part C", generated="new C"),
     }
     actions = decide(files, {"B.mo": "A.mo", "C.mo": "B.mo"})
     assert {action.path: (action.reason, action.origin, action.base) for action in actions} == {
-        "A.mo": (Reason.MOVED_AWAY, None, "A"),
         "B.mo": (Reason.MOVE, "A.mo", "A"),
         "C.mo": (Reason.CREATE, "B.mo", "B"),
     }
@@ -137,7 +133,6 @@ WAITING = {
     "Conflict.mo": (Action("Conflict.mo", Reason.CONFLICT, Role.MODEL), False),
     "New.mo": (Action("New.mo", Reason.CREATE, Role.MODEL), True),
     "Number.mo": (Action("Number.mo", Reason.UPDATE, Role.RECORD), False),
-    "Renamed.mo": (Action("Renamed.mo", Reason.UPDATE, Role.RECORD), True),
     "Follows.mo": (Action("Follows.mo", Reason.UPDATE, Role.RECORD, origin="Old.mo"), True),
     "Structure.mo": (Action("Structure.mo", Reason.UPDATE, Role.RECORD), True),
     "Restored.mo": (Action("Restored.mo", Reason.RESTORE, Role.MODEL, base="old", generated="old"), False),
@@ -153,7 +148,7 @@ WAITING = {
 @pytest.mark.parametrize("moves", [False, True])
 def test_what_waits_for_a_conflict(moves: bool) -> None:
     actions = [action for action, _ in WAITING.values()]
-    decided = put_off(actions, {"Number.mo", "Renamed.mo", "Follows.mo"}, {"Renamed.mo"}, has_moved=moves)
+    decided = put_off(actions, {"Number.mo", "Follows.mo"}, has_moved=moves)
     waiting = {action.path for action in decided if action.is_waiting}
     assert waiting == {
         path for path, (_, waits) in WAITING.items() if waits or (moves and path not in ("Conflict.mo", "Kept.mo"))
@@ -162,29 +157,22 @@ def test_what_waits_for_a_conflict(moves: bool) -> None:
 
 def test_an_edited_file_that_cant_move_blocks_all_that_would_follow_it() -> None:
     """A goes to B, B to C and C to D, where something of the user's is."""
-    files = {name: File(Role.MODEL, "", "base", "edited", "new") for name in "ABC"}
-    files["D"] = File(Role.MODEL, "", on_disk="mine", generated="new")
+    files = {name: Place(Role.MODEL, "", "base", "edited", "new") for name in "ABC"}
+    files["D"] = Place(Role.MODEL, "", mine="mine", generated="new")
     assert all(action.origin is None for action in decide(files, {"B": "A", "C": "B", "D": "C"}))
 
 
 def test_a_place_that_an_edited_file_leaves_is_free_for_another_one() -> None:
     files = {
-        "A.mo": File(Role.MODEL, "part B", "A", "edited", "other"),
-        "B.mo": File(Role.MODEL, "part A", generated="new"),
+        "A.mo": Place(Role.MODEL, "part B", "A", "edited", "other"),
+        "B.mo": Place(Role.MODEL, "part A", generated="new"),
     }
     reasons = {action.path: action.reason for action in decide(files, {"B.mo": "A.mo"})}
     assert reasons == {"A.mo": Reason.CREATE, "B.mo": Reason.MOVE}
 
 
-@pytest.mark.parametrize(("mine", "reason"), [("A", Reason.UPDATE), ("edited", Reason.CONFLICT)])
-def test_a_file_that_the_user_moved_himself_has_its_old_base(mine: str, reason: Reason) -> None:
-    old, new = File(Role.MODEL, base="A"), File(Role.MODEL, on_disk=mine, generated="new")
-    actions = decide({"Old.mo": old, "New.mo": new}, {"New.mo": "Old.mo"})
-    assert {one.path: (one.reason, one.base) for one in actions}["New.mo"] == (reason, "A")
-
-
 def test_an_untouched_file_that_moves_takes_no_place_of_the_users() -> None:
-    old, new = File(Role.MODEL, "", "A", "A"), File(Role.MODEL, on_disk="mine", generated="new")
+    old, new = Place(Role.MODEL, "", "A", "A"), Place(Role.MODEL, mine="mine", generated="new")
     reasons = {action.path: action.reason for action in decide({"Old.mo": old, "New.mo": new}, {"New.mo": "Old.mo"})}
     assert reasons == {"Old.mo": Reason.DELETE, "New.mo": Reason.UNOWNED}
 

@@ -82,7 +82,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
         after = PackageAfter(inputs, package, actions, followed.texts)
         value_only_keys = _find_value_only(after, differences.changes, followed.conflicts)
     both = (*actions, *orders.actions)
-    all_actions = Actions(put_off(both, value_only_keys, triaged.origins, has_moved=inputs.has_moved))
+    all_actions = Actions(put_off(both, value_only_keys, has_moved=inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     texts = {**orders.texts, **followed.texts}
     new_conflicts = followed.conflicts.keys() - merged.conflicts.keys()
@@ -101,7 +101,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
 
 def _find_users_classes(inputs: Inputs, actions: Iterable[Action]) -> list[Action]:
     """Return an action for each of the user's own classes in the package, which changes nothing."""
-    known, files = {action.path for action in actions}, inputs.files
+    known, files = {key for action in actions for key in (action.path, action.origin) if key}, inputs.files
     return [
         Action(key, Reason.UNKNOWN, Role.MODEL, mine=files.hash(key, Role.MODEL) if files.can_read(key) else None)
         for key in find_unknown(inputs, known)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Mapping
 from pathlib import PurePosixPath
 
@@ -12,14 +11,13 @@ from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, displaced
 from urdfsync.engine.decide.parts import file_ids, find_former_ids, find_part_ids, ids_of, recorded_ids
+from urdfsync.engine.decide.places import find_moves
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import option_values
-from urdfsync.engine.inspect.package_files import Folder
 from urdfsync.engine.renames import find_matching, pending
 from urdfsync.matching import Matching, without_exchanges
-from urdfsync.modelica.files import as_file, class_parts, class_path
-from urdfsync.modelica.stamp import Stamp
+from urdfsync.modelica.files import class_path
 
 GONE = "_gone"
 """The end of the new name of a removed element whose name another element has now."""
@@ -68,7 +66,7 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
     news = _find_changes(inputs, generation, matching)
     parts = find_part_ids(inputs, generation, matching)
     ids = file_ids(package.artifacts.values(), parts)
-    moves = _find_moves(inputs, ids)
+    moves = find_moves(inputs, ids)
     others, has_exchanges, renames = dict[str, str](), False, matching.renames
     if renames and last.version:
         after = inputs.domain.features(now)
@@ -220,42 +218,3 @@ def _other_identifiers(inputs: Inputs, now: Snapshot, parts: Mapping[str, str]) 
             if old_name and new_name and old_name != new_name:
                 found[old_name] = new_name
     return found
-
-
-def _find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
-    """Return old keys by new keys of the files whose stamps, or else paths, say that they belong at another path."""
-    files, last, moves = inputs.files, inputs.last, dict[str, str]()
-    targets = {file_id: inputs.folder.key(path) for path, file_id in ids.items()}
-    for folder in dict.fromkeys((last.folder, inputs.folder)):
-        for key, stamp in _stamps(inputs, folder).items():
-            file_id = last.edits.get(files.hash(key, Role.MODEL) or "", stamp.id)
-            target = targets.get(file_id)
-            if target is None or as_file(target) == as_file(key):
-                continue
-            there = files.stamp(target)
-            is_there = there is not None and there.id == file_id and there.base != files.hash(target, Role.MODEL)
-            is_edited = files.hash(key, Role.MODEL) != stamp.base and not files.is_chosen(key)
-            if is_there or (is_edited and not is_in_place(last.base(stamp.base), last.target, folder.path(key))):
-                continue  # the class is the user's own: a copy, or with another name
-            place = as_file(key)  # if the class is a folder, the file that it was
-            moves.setdefault(target, place if place in last.record.files else key)
-    return moves
-
-
-def _stamps(inputs: Inputs, folder: Folder) -> dict[str, Stamp]:
-    """Return the stamps of the files below a folder by key; a recorded file without its stamp has that of its path."""
-    files, last, stamps = inputs.files, inputs.last, inputs.files.stamps(folder)
-    recorded = (key for key in last.record.files if key.endswith(".mo") and key not in stamps)
-    lost = [key for key in recorded if isinstance(files.on_disk(key, Role.MODEL), str)] if folder == last.folder else []
-    if lost and last.package:
-        ids = file_ids(last.package.artifacts.values(), last.record.ids)
-        owned = ((key, ids[path]) for key in lost if (path := folder.path(key)) in ids)
-        stamps |= {key: Stamp(file_id, last.record.files[key]) for key, file_id in owned}
-    return stamps
-
-
-def is_in_place(base: str | None, target: Target, path: str) -> bool:
-    """Return whether the file at this path is where its base was generated: a copy has another name or folder."""
-    *folders, name = (*target.package.split("."), *class_parts(path))
-    within = f"within {re.escape('.'.join(folders))};\n" if folders else ""
-    return re.match(rf"{within}.*?^(?:\w+ )+{name}\b", base or "", re.DOTALL | re.MULTILINE) is not None

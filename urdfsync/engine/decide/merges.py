@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
@@ -40,11 +40,11 @@ def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differe
     package, actions = generation.package, triaged.actions
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {one.path: _conflict(inputs, generation, one, triaged) for one in disputed}
-    conflicts = _refuse_unfit_merges(_Trials(inputs, package, actions, triaged.origins), conflicts)
+    conflicts = _refuse_unfit_merges(_Trials(inputs, package, actions), conflicts)
     names = {name: new for (_, name), new in differences.renames.items()} | dict(triaged.names)
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
     actions, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
-    needed = keep_needed(PackageAfter(inputs, package, actions, texts), triaged.origins)
+    needed = keep_needed(PackageAfter(inputs, package, actions, texts))
     return Verdicts(*_write_git_merges(inputs.files, needed, texts), conflicts)
 
 
@@ -117,8 +117,6 @@ class _Trials(msgspec.Struct, frozen=True, dict=True):
     package: Package
     actions: Sequence[Action]
     """The actions before any merge."""
-    origins: Collection[str]
-    """The former keys of files whose elements have other names."""
 
     def find_unfit(self, conflicts: Mapping[str, Conflict], side: Choice | None) -> dict[str, str]:
         """Return why merges do not fit the package, by key; `side` decides contradictions, None tries clean merges."""
@@ -132,7 +130,7 @@ class _Trials(msgspec.Struct, frozen=True, dict=True):
         if not tried:
             return {}
         planned, merged = resolve(self.actions, conflicts, merging=True, choice=side)
-        planned = keep_needed(PackageAfter(self.inputs, self.package, planned, merged), self.origins)
+        planned = keep_needed(PackageAfter(self.inputs, self.package, planned, merged))
         after = PackageAfter(self.inputs, self.package, planned, merged, conflicts_empty=True)
         misfits = [one for one in look_for_misfits(after, merged.keys()) if one.key in tried]
         unfit = dict[str, str]()

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from urdfsync.dependencies.reads import is_file
 from urdfsync.domain import Role
-from urdfsync.engine.actions import ORPHANS, Action, Choice, Reason
+from urdfsync.engine.actions import ORPHANS, Action, Choice, Reason, find_deletions
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.parents import SharedFile, merge_order
@@ -85,7 +85,7 @@ def _removable_lines(
     two states, this looks for each line's class: the other branch may have renamed it.
     """
     folder = order.removesuffix("package.order")
-    deletions = {action.path for action in actions if action.is_deletion}
+    deletions = find_deletions(actions)
     paths = (path.removesuffix("/package.mo").removesuffix(".mo") for path in sorted(deletions))
     deleted = [path.removeprefix(folder) for path in paths if path.rpartition("/")[0] == folder.rstrip("/")]
     listed = {line.strip() for line in text.splitlines()}
@@ -129,7 +129,7 @@ def _wanted_lines(
     if written:  # `--undo` brought an orphan back, or a class of the user's own
         orphans = {action.path for action in actions if action.reason in ORPHANS}
         undone = {path for path, one in inputs.settled.actions.items() if one.choice is Choice.UNDO}
-        undone -= {action.path for action in actions if action.is_deletion}
+        undone -= find_deletions(actions)
         names |= dict.fromkeys(_classes_beside(key, {*orphans, *filter(inputs.files.read, undone)}))
     return tuple(names)
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.actions import Action, Reason, find_deletions
 from urdfsync.engine.decide.package_names import class_of, identifier_of
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import encode, text_hash
@@ -74,7 +74,7 @@ class PackageAfter(Mapping[str, bytes]):
                 continue
             if not (key.endswith(".mo") and key.startswith(inside)):
                 continue
-            keys.add(key)
+            keys |= {key, *filter(None, [action.origin])}
             classes |= {key} if action.generated else set()
             file = FileAfter(key, is_expected=action.generated is not None)
             if not action.is_waiting and key in merged:
@@ -83,11 +83,11 @@ class PackageAfter(Mapping[str, bytes]):
             elif action.is_conflict and self.conflicts_empty:
                 found[inputs.folder.path(key)] = file._replace(text="")
             elif action.keeps_text:
-                is_forgotten = action.reason is Reason.FORGET
-                if (sha256 := files.hash(key, action.role)) and not is_forgotten:
-                    known = (action.generated, inputs.last.files.get(key))
+                present, is_forgotten = action.origin or key, action.reason is Reason.FORGET
+                if (sha256 := files.hash(present, action.role)) and not is_forgotten:
+                    known = (action.generated, inputs.last.files.get(present))
                     is_edited = action.reason is Reason.ORPHAN or sha256 not in known
-                    found[inputs.folder.path(key)] = file._replace(is_edited=is_edited)
+                    found[inputs.folder.path(present)] = file._replace(key=present, is_edited=is_edited)
             elif not action.is_deletion:
                 found[inputs.folder.path(key)] = file._replace(is_generated=True)
         for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
@@ -177,24 +177,22 @@ class PackageAfter(Mapping[str, bytes]):
         return found
 
 
-def keep_needed(after: PackageAfter, origins: Collection[str]) -> tuple[Action, ...]:
+def keep_needed(after: PackageAfter) -> tuple[Action, ...]:
     """Return the actions; keep files that the user's files need.
 
-    Needed files are records, their meshes, and the `package.mo` of a folder with classes. `origins` are the files whose
-    elements were renamed.
+    Needed files are records, their meshes, and the `package.mo` of a folder with classes.
     """
-    actions = after.actions
-    deleted = {action.path: action.role for action in actions if action.is_deletion}
-    kept = set[str]()
+    actions, deleted, kept = after.actions, find_deletions(after.actions), set[str]()
     if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
-        kept |= _find_mentioned(after, origins)
-    packages = [path for path, role in deleted.items() if role is Role.PACKAGE]
-    for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):  # innermost first
-        if after.inputs.files.has_classes(path, deleted.keys() - kept):
+        kept |= _find_mentioned(after)
+    packages = {action.origin or action.path: action for action in actions if action.role is Role.PACKAGE}
+    for path in sorted(packages.keys() & deleted, key=lambda path: path.count("/"), reverse=True):  # innermost first
+        if after.inputs.files.has_classes(path, deleted - kept):
             kept.add(path)
-    return tuple(
-        msgspec.structs.replace(action, reason=Reason.NEEDED) if action.path in kept else action for action in actions
-    )
+    stays = {key: msgspec.structs.replace(action, path=key, origin=None) for key, action in packages.items()}
+    stays |= {action.path: action for action in actions if action.path in kept}
+    needed = [msgspec.structs.replace(stays[path], reason=Reason.NEEDED) for path in sorted(kept)]
+    return *(action for action in actions if action.path not in kept), *needed
 
 
 def code_words(content: bytes) -> set[str]:
@@ -208,11 +206,11 @@ def code_words(content: bytes) -> set[str]:
     return set(words) - {name for kind, name in itertools.pairwise(words) if kind in _CLASS_KINDS}
 
 
-def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[str]:
+def _find_mentioned(after: PackageAfter) -> frozenset[str]:
     """Return the files that are no longer generated, but that the user's texts need.
 
-    The user's texts need the records that they mention, except records of renamed elements: his texts get the new name.
-    A kept file needs all files that it mentions; these need the files that they mention, and so on.
+    The user's texts need the records that they mention. A kept file needs all files that it mentions; these need the
+    files that they mention, and so on.
     """
     inputs, before, actions = after.inputs, after.inputs.last.package, after.actions
     words = {inputs.files.key(file): code_words(content) for file, content in after.users.items()}
@@ -226,8 +224,7 @@ def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[
     needed = set[str]()
     for path, role in pending.items():
         was_needed = before is not None and inputs.last.folder.path(path) not in before.artifacts
-        is_record = role is Role.RECORD and path not in origins
-        if path.endswith(".mo") and class_of(path) in (all_words if is_record or was_needed else kept_words):
+        if path.endswith(".mo") and class_of(path) in (all_words if role is Role.RECORD or was_needed else kept_words):
             needed.add(path)
     all_needed = set(needed)
     while needed:

@@ -15,26 +15,29 @@ from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.inspect.package_files import OnDisk
 
 
-class File(msgspec.Struct, frozen=True):
+class Place(msgspec.Struct, frozen=True):
     """One file of a package before the build."""
 
     role: Role
     owner: str = ""
     base: str | None = None
     """Hash of the base; None if no build wrote the file."""
-    on_disk: OnDisk = None
+    mine: OnDisk = None
     generated: str | None = None
     """Hash of the generated text; None if the file is not generated."""
+    is_displaced: bool = False
+    """Whether the file has an edit of a text that was generated for another path: a killed build, git or the user has
+    brought the file here."""
 
     @property
     def is_free(self) -> bool:
         """Whether no text of the user is at the path: the file is missing or unedited."""
-        return self.on_disk is None or self.on_disk == self.base
+        return self.mine is None or self.mine == self.base
 
     @property
     def is_edited(self) -> bool:
         """Whether the user changed a file that urdfsync wrote."""
-        return isinstance(self.on_disk, str) and self.base is not None and self.on_disk != self.base
+        return isinstance(self.mine, str) and self.base is not None and self.mine != self.base
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason:
@@ -54,58 +57,50 @@ def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason
     return Reason.KEEP if generated == base else Reason.CONFLICT
 
 
-def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action, ...]:
+def decide(places: Mapping[str, Place], moves: Mapping[str, str]) -> tuple[Action, ...]:
     """Decide on every file of a robot, by path.
 
-    `moves` has old paths by new paths of files whose element was renamed. An edited file moves to its new path (MOVE,
-    and MOVED_AWAY at the old path), unless a user's file is there.
+    `moves` has old paths by new paths of files whose element was renamed. Such a file has one action, at its new path;
+    it stays where it is if a text of the user's is in the way.
     """
-    edited = _edited_moves(files, moves)
-    origins = set(edited.values())
-    actions = []
-    for path, file in sorted(files.items()):
-        mine, generated, origin = file.on_disk, file.generated, None
-        base = file.base
-        old = moves.get(path) if generated is not None else None
-        old_mine = files[old].on_disk if old else None
-        old_base = files[old].base if old else None
-        if old and path in edited:
-            reason, origin, base, mine = Reason.MOVE, old, old_base, old_mine
-        elif old and old_base and old_mine == old_base and mine != generated and file.is_free:
-            reason, origin, base = Reason.CREATE if mine is None else Reason.UPDATE, old, old_base
-        elif path in origins and generated is None:
-            reason, mine = Reason.MOVED_AWAY, None
-        else:
-            if path in origins:
-                base, mine = None, None
-            elif old_base and old_mine is None and isinstance(mine, str) and file.base is None:
-                base = old_base  # the user moved the file there by hand
-            reason = decide_file(base, mine, generated)
-        if reason is Reason.FORGET and file.base is None:
-            continue  # no build wrote this file, and it is no longer generated
-        on_disk_hash = mine if isinstance(mine, str) else None
-        actions.append(Action(path, reason, file.role, file.owner, base, generated, origin, mine=on_disk_hash))
+    origins, actions = _find_origins(places, moves), list[Action]()
+    leaving = set(origins.values())
+    for path, place in sorted(places.items()):
+        origin, found = origins.get(path), place
+        if origin is not None:
+            found = places[origin]
+        elif path in leaving:
+            found = Place(place.role)  # the file that is here is another part's
+        reason = decide_file(found.base, found.mine, place.generated)
+        if origin is not None:
+            reason = Reason.MOVE if found.is_edited else Reason.CREATE
+        elif place.is_displaced and reason is Reason.CONFLICT:
+            reason = Reason.MOVE
+        if reason is Reason.FORGET and found.base is None:
+            continue  # no build wrote this file, or it moves away
+        mine = found.mine if isinstance(found.mine, str) and reason is not Reason.CREATE else None
+        actions.append(Action(path, reason, place.role, place.owner, found.base, place.generated, origin, mine=mine))
     return tuple(actions)
 
 
-def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[str, str]:
-    """Return the old paths by new paths of the edited files that move with their elements."""
-    edited = {new: old for new, old in moves.items() if files[old].is_edited}
-    taken = {path for path in moves if not files[path].is_free}
+def _find_origins(places: Mapping[str, Place], moves: Mapping[str, str]) -> dict[str, str]:
+    """Return the old paths by new paths of the files that can move to the path of their element."""
+    edited = {path: old for path, old in moves.items() if places[old].is_edited}
+    taken = {path for path in moves if not places[path].is_free}
     # if an edited file can't move, no other file can move to its path, and so on
     while blocked := edited.keys() & taken - set(edited.values()):
-        edited = {new: old for new, old in edited.items() if new not in blocked}
-    return edited
+        edited = {path: old for path, old in edited.items() if path not in blocked}
+    plain = {path: old for path, old in moves.items() if places[old].mine == places[old].base is not None}
+    taken = {path for path in plain if places[path].mine == places[path].generated} | taken - set(edited.values())
+    return {path: old for path, old in plain.items() if path not in taken} | edited
 
 
-def put_off(
-    actions: Iterable[Action], value_only_keys: Collection[str], origins: Collection[str], *, has_moved: bool
-) -> tuple[Action, ...]:
+def put_off(actions: Iterable[Action], value_only_keys: Collection[str], *, has_moved: bool) -> tuple[Action, ...]:
     """Let structural changes of a robot wait while one of its files is in conflict.
 
     A build still writes files that keep the package valid: records with changed numbers (`value_only_keys`), imported
-    files, and restored files. `origins` are the old files of renamed elements; these files wait. If the package
-    `has_moved`, all files wait. If all conflicts are only about numbers, no file waits.
+    files, and restored files. If the package `has_moved`, all files wait. If all conflicts are only about numbers, no
+    file waits.
     """
     actions = tuple(actions)
     if all(action.path in value_only_keys and not has_moved for action in actions if action.is_conflict):
@@ -114,7 +109,7 @@ def put_off(
     def waits(action: Action) -> bool:
         if not action.writes:
             return False
-        if has_moved or action.origin is not None or action.path in origins:
+        if has_moved or action.origin is not None:
             return True
         if action.role is Role.IMPORT:
             return action.reason is Reason.DELETE

@@ -10,26 +10,22 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import DISPUTED, Action, Reason
-from urdfsync.engine.decide.differences import Differences, is_in_place
+from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.doubts import find_doubts
 from urdfsync.engine.decide.package_names import renamed_names
-from urdfsync.engine.decide.parts import is_of_part
-from urdfsync.engine.decide.rules import File, decide
+from urdfsync.engine.decide.places import find_places
+from urdfsync.engine.decide.rules import decide
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.package.generate import Package
 from urdfsync.matching import Doubt
-from urdfsync.modelica.files import as_file
 from urdfsync.modelica.stamp import Stamp
-from urdfsync.state.record import role_of
 
 
 class Triage(NamedTuple):
     """What the hashes of the files tell, and which parts the user's edits mean."""
 
     actions: tuple[Action, ...]
-    origins: frozenset[str]
-    """The former keys of files whose elements have other names."""
     doubts: Mapping[str, Doubt]
     names: Mapping[str, str]
     """New names by old names; empty if no edit, no text in `aside` and no use of an exchanged name needs them."""
@@ -37,9 +33,8 @@ class Triage(NamedTuple):
 
 def triage(inputs: Inputs, generation: Generation, differences: Differences) -> Triage:
     """Decide on every file by hashes; ask about edits that may belong to other parts."""
-    package, origins = generation.package, frozenset(differences.moves.values())
-    decided = decide(_find_files(inputs, generation, differences), differences.moves)
-    decided = tuple(_as_moved(inputs, differences, action) for action in decided)
+    package, moves = generation.package, differences.moves
+    decided = decide(find_places(inputs, generation, differences.ids, moves), moves)
     doubts = find_doubts(inputs, generation, differences, decided)
     actions = tuple(_adjust(inputs, package, action, doubts, differences.ids) for action in decided)
     names: Mapping[str, str] = {}
@@ -48,49 +43,7 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
         names = renamed_names(inputs, generation, differences)
     if differences.other_elements:
         actions = tuple(_with_other_names(inputs, package, actions, names))
-    return Triage(actions, origins, doubts, names)
-
-
-def _find_files(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, File]:
-    """Return every recorded or generated file as it is before the build, by key."""
-    last, files, moved = inputs.last, dict[str, File](), frozenset(differences.moves.values())
-    present = frozenset(differences.ids.values())
-
-    def add(key: str, role: Role, owner: str, generated: str | None) -> None:
-        base, file_id = last.base_of(key, role), differences.ids.get(inputs.folder.path(key))
-        if file_id and key not in moved and (stamp := inputs.files.stamp(key)) and not is_of_part(stamp, file_id):
-            base = last.record.files.get(key)  # it is a copy of another part's file, or of another project's
-        files[key] = File(role, owner, base, inputs.files.on_disk(key, role), generated)
-
-    for path, artifact in generation.package.artifacts.items():
-        add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
-    for name, entry in generation.imported.imports.items():
-        add(inputs.folder.key(entry.target), Role.IMPORT, name, entry.target_hash)
-    for key in last.files.keys() - files.keys():
-        stamp, recorded = inputs.files.stamp(key), last.record.files
-        is_folder = as_file(key) in files or as_file(key) in recorded
-        is_copy = stamp is not None and stamp.id in present and key not in moved
-        if key not in recorded and (is_folder or is_copy):
-            continue  # the user turned the class into a folder, copied it, or gave it another name
-        path = last.folder.path(key)
-        # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
-        old = last.package.artifacts.get(path) if last.package else None
-        add(key, old.role if old else role_of(path), old.owner if old else "", None)
-    return files
-
-
-def _as_moved(inputs: Inputs, differences: Differences, action: Action) -> Action:
-    """Return the action of a move for an edited file that is at the new path of its part already, with its old text.
-
-    A killed build, git or the user has brought it there.
-    """
-    path, stamp = inputs.folder.path(action.path), None
-    if action.reason is Reason.CONFLICT and path in differences.ids:
-        stamp = inputs.files.stamp(action.path)
-    if stamp is None or stamp.id != differences.ids[path] or (base := inputs.last.base(action.base)) is None:
-        return action
-    is_moved = not is_in_place(base, inputs.robot.target, path)
-    return msgspec.structs.replace(action, reason=Reason.MOVE) if is_moved else action
+    return Triage(actions, doubts, names)
 
 
 def find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:

@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import PurePosixPath
 
+import msgspec
+
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Actions, Reason
+from urdfsync.engine.actions import Action, Actions, Reason, find_left_paths
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.settle import known_base
 from urdfsync.engine.inspect.inputs import Inputs, Replaced
@@ -53,8 +55,9 @@ def put_aside(
         moved.get(key, key): _follow(inputs, former, moved[key], decision.names) if key in moved else former
         for key, former in settled.before.items()
     }
-    deleted = [one for one in decision.actions if one.writes and one.reason is Reason.DELETE] if chosen else []
-    models = (one.path for one in deleted if one.path.startswith(folder.key("")) and one.path.endswith(".mo"))
+    edited = {action.origin for action in decision.actions if action.reason is Reason.MOVE}
+    deleted = find_left_paths(decision.actions) - edited if chosen else set[str]()
+    models = (key for key in sorted(deleted) if key.startswith(folder.key("")) and key.endswith(".mo"))
     contents_of = ((key, inputs.files.read(key) or b"") for key in models)
     beside = {folder.path(key): content.decode(errors="replace") for key, content in contents_of}
     texts = dict[str, bytes]()
@@ -123,10 +126,16 @@ def _replaced(
     A `package.order` is saved only if git has united two states: then a build may remove the user's lines.
     """
     files, last, folder = inputs.files, inputs.last, inputs.folder.key("")
-    origins = {action.origin for action in decision.actions if action.origin and action.writes}
-    for action in decision.actions:
+    writing = [action for action in decision.actions if action.writes]
+    moving = {action.origin for action in writing if action.reason is Reason.MOVE}
+    origins = [
+        msgspec.structs.replace(one, path=one.origin, generated=None)
+        for one in writing
+        if one.origin not in (None, *moving, *inputs.settled.before)
+    ]
+    for action in (*writing, *origins):
         key, is_moving = action.path, action.reason is Reason.MOVE
-        if not action.writes or key not in contents or (key in origins and not is_moving):
+        if key not in contents or (key in moving and not is_moving):
             continue  # the user's text moves to another file
         if action.role is Role.ORDER and not (last.is_united and key.startswith(folder)):
             continue

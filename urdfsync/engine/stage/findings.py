@@ -21,7 +21,7 @@ from urdfsync.dependencies.reads import Reads, walk_files
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Snapshot
 from urdfsync.domain.advice import brings_back
-from urdfsync.engine.actions import Actions, Reason
+from urdfsync.engine.actions import Actions, Reason, find_deletions
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import GONE
 from urdfsync.engine.decide.package_names import (
@@ -157,7 +157,7 @@ def _look_left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     files, old, new = inputs.files, inputs.files.path(inputs.last.folder), inputs.files.path(inputs.folder)
     if not inputs.has_moved or any(action.is_waiting for action in actions):
         return
-    gone = {files.path(action.path) for action in actions if action.is_deletion}
+    gone = set(map(files.path, find_deletions(actions)))
     # a stranger may have written the record: never look into a folder elsewhere, or propose to delete it
     is_inside = files.is_inside(f"{inputs.last.folder}/package.mo")
     below = sorted(map(Path, walk_files(old))) if is_inside else [old]

@@ -12,7 +12,7 @@ from urdfsync.changes import Changes
 from urdfsync.dependencies.reads import Reads
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Actions
+from urdfsync.engine.actions import Action, Actions, find_left_paths
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.package_after import PackageAfter
 from urdfsync.engine.generation import Generation
@@ -147,6 +147,7 @@ def _file_changes(inputs: Inputs, generation: Generation, decision: Decision) ->
     changes = dict[str, FileChange]()
     shared = {inputs.files.key(file.path) for file in decision.shared}
     decided = {action.path: action for action in decision.actions}
+    gone = find_left_paths(decision.actions)
 
     def change(key: str, content: bytes | None, origin: str | None = None) -> None:
         state = inputs.files.state_on_disk(key)
@@ -154,12 +155,18 @@ def _file_changes(inputs: Inputs, generation: Generation, decision: Decision) ->
         changes[key] = FileChange(inputs.files.path(key), content, old, moved_from)
 
     for key, content in inputs.settled.contents.items():
-        if not (key in decided and decided[key].writes) and content != inputs.files.read_on_disk(key):
+        if (
+            key not in gone
+            and not (key in decided and decided[key].writes)
+            and content != inputs.files.read_on_disk(key)
+        ):
             change(key, content)
     for action in decision.actions:
-        if action.writes and action.path not in shared:
-            content = None if action.is_deletion else _content(inputs, generation, decision, action)
+        if action.writes and not action.is_deletion and action.path not in shared:
+            content = _content(inputs, generation, decision, action)
             change(action.path, content, action.origin if action.path in decision.texts else None)
+    for key in sorted(gone - shared):
+        change(key, None)
     return changes
 
 
