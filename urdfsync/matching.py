@@ -12,7 +12,7 @@ All elements are matched at once. The rows of this table are tried in order, and
 
 A content is one telling aspect of an element, such as its shapes, or all aspects together, or a file. Zeros and ones
 tell nothing: many origins and axes have them. Numbers are equal if they differ by `NOISE` at most. If an element's
-aspects lead to different elements, they prove nothing, unless one of these keeps the name.
+aspects match different elements, only the one with the element's own name counts.
 
 Rows of a table have no neighbours, so they have no places: a whole content counts, whatever its values are. But if only
 zeros and ones changed under a name, the row keeps its name: somebody may have switched it on or off. A unique text

@@ -3,7 +3,7 @@
     python tests/benchmarks/identification.py [--truths N] [--noises N] [arm leg gripper]
 
 Each truth is another robot than its source, and moves otherwise. MuJoCo simulates it once; each run adds noise anew.
-The table is that of docs/identify.md.
+docs/identify.md quotes the table.
 """
 
 from __future__ import annotations

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.urdfs import limit, mimic
 
-from urdfsync.urdf.domain import WARNINGS
 from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.validate import ADVICE
 
 
 def read(*lines: str) -> RobotReading:
@@ -198,9 +195,3 @@ def test_sizes_of_shapes(case: list[str]) -> None:
     lines = [f"<{group}>\n<geometry>{shape}</geometry></{group}>" for group in ("visual", "collision")]
     expected = "warning shape-size 3, warning shape-size 5" if is_empty else ""
     assert found('<link name="a">', *lines, "</link>") == expected
-
-
-def test_every_code_is_explained() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "findings.md").read_text(encoding="utf-8")
-    explained = set(re.findall(r"`([a-z-]+)`", page))
-    assert explained >= ADVICE.keys() | WARNINGS

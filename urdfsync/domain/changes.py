@@ -22,6 +22,7 @@ class Change(msgspec.Struct, frozen=True):
     """One change in the domain's words; `old` and `new` are plain data, None for a value that a version lacks."""
 
     path: tuple[str, ...]
+    """The element, and the place in it."""
     kind: ChangeKind
     change_class: ChangeClass
     old: Any

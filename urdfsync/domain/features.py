@@ -43,7 +43,8 @@ class Judgements(Protocol):
     def judge(self, version: Version, changed: Collection[str]) -> Iterable[Diagnostic]:
         """Return warnings about parts of a valid model that can hardly be meant.
 
-        Of two parts that contradict each other, one in `changed`, such as `link hand`, is told as the wrong one.
+        `changed` has elements such as `link hand`. Of two parts that contradict each other, a warning blames the one in
+        `changed`.
         """
         ...
 

@@ -124,6 +124,7 @@ class Outlook(msgspec.Struct, frozen=True):
     is_unmerged: bool = False
     """Whether git's index has several versions of one of the robot's files."""
     drawing: Path | None = None
+    """The diagram that `--svg` wrote."""
     changes: Changes | None = None
     """Changes of the model since the last complete build; None if there are none, or if they are unknown."""
     conflict_texts: tuple[Conflict, ...] = ()

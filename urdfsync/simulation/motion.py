@@ -1,6 +1,7 @@
 """Reads a motion from a CSV file with the inputs of a model, and writes it as Modelica.
 
-Positions and speeds follow a cubic spline, which can be differentiated; other inputs follow straight lines.
+Positions and speeds follow a cubic spline, which can be differentiated; other inputs follow straight lines. For rumoca,
+a model with `CombiTimeTable`, or a function without a known derivative, is structurally singular.
 """
 
 from __future__ import annotations

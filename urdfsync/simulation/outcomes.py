@@ -117,9 +117,13 @@ class CaseOutcome(msgspec.Struct, frozen=True):
     number: int
     """Counted from 1."""
     values: Mapping[str, float]
+    """The varied parameters."""
     status: str
+    """`within` or `beyond` the limits, or `failed`."""
     load: float
+    """The greatest share of a limit: above 1 beyond it."""
     problem: str
+    """The reason why the case failed."""
 
 
 class QuantitySummary(msgspec.Struct, frozen=True):

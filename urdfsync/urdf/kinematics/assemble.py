@@ -324,7 +324,7 @@ def _null_space(matrix: Array) -> Array:
 
 
 def _with_others(space: Array, states: Sequence[int]) -> list[int]:
-    """Return the states, plus joints until no further joint can move; each new joint moves nearly as freely as any."""
+    """Extend `states` to all freedoms: each step adds the first joint with 43 % or more of the largest freedom."""
     states = list(states)
     while len(states) < space.shape[1]:
         held = space[states]

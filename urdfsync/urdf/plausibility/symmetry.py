@@ -61,8 +61,9 @@ def find_asymmetries(
 ) -> Iterator[Finding]:
     """Yield a finding for each difference of a link or joint from the mirror image of its other side.
 
-    `poses` are those of the links with all joints at 0. `suspects` have paths of elements such as `link left_hip`: of
-    two sides, the one in the first of these collections is told as the wrong one, else the one in the second.
+    `poses` are those of the links with all joints at 0. `suspects` are two collections of
+    elements such as `link left_hip`: those with another fault, and the changed ones. A finding names the side in the
+    first collection as the wrong one. If both sides or none are in it, the second collection decides.
     """
     joints = {joint.child: joint for joint in tree.joints}
     names = [(name, across) for name in joints if (across := _other_side(name)) in joints and across < name]
