@@ -23,9 +23,9 @@ from support.cases import CASES
 from support.commands import Editor, Execute, Printed
 from support.networks import RC_FOLDER
 
-from urdfsync.checks.contents import content_hash
-from urdfsync.checks.libraries import find_standard_library
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.analysis.checks.contents import content_hash
+from urdfsync.analysis.checks.libraries import find_standard_library
+from urdfsync.common.diagnostics import UrdfsyncError
 
 if TYPE_CHECKING:
     from support.daemon import Start, Watch
@@ -133,9 +133,9 @@ def modelica_library() -> Iterator[Path]:
     Checks in this process parse, hash and take apart the library only once, which saves each of them one to four
     seconds.
     """
-    from urdfsync.checks import libraries
-    from urdfsync.checks.cache import UserCache
-    from urdfsync.checks.packed import LibraryTexts
+    from urdfsync.analysis.checks import libraries
+    from urdfsync.analysis.checks.cache import UserCache
+    from urdfsync.analysis.checks.packed import LibraryTexts
     from urdfsync.modelica.stored import parse_file
 
     try:
@@ -157,16 +157,16 @@ def modelica_library() -> Iterator[Path]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(libraries, "_class_texts", take_apart_once)
-        patch.setattr("urdfsync.checks.names.parse_file", functools.cache(parse_file))
+        patch.setattr("urdfsync.analysis.checks.names.parse_file", functools.cache(parse_file))
         for module in ("contents", "libraries"):
-            patch.setattr(f"urdfsync.checks.{module}.content_hash", hash_once)
+            patch.setattr(f"urdfsync.analysis.checks.{module}.content_hash", hash_once)
         yield folder
 
 
 @pytest.fixture
 def without_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """No Modelica Standard Library, in this process and in those of a check: nothing is compiled."""
-    monkeypatch.setattr("urdfsync.checks.libraries.library_folders", list)
+    monkeypatch.setattr("urdfsync.analysis.checks.libraries.library_folders", list)
     for name in ("MODELICAPATH", "OPENMODELICALIBRARY", "OPENMODELICAHOME"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
@@ -241,7 +241,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def execute(capsys: pytest.CaptureFixture[str]) -> Execute:
     """A function that runs a command and returns the output; the exit code must be `code`, unless this is None."""
-    from urdfsync import cli
+    from urdfsync.commands import cli
 
     def run(*arguments: object, code: int | None = 0) -> Printed:
         capsys.readouterr()
@@ -317,23 +317,26 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 _SAME = tuple(f"tests/{name}" for name in (
     # computed texts and numbers, and the decisions of a build
-    *("engine/", "merge/", "modelica/", "output/", "pages/", "patches/", "simulation/", "urdf/", "versions/"),
-    *("table/test_catalogue", "table/test_units", "test_changes", "test_forged_states", "test_hostile_templates"),
-    *("test_ignored", "test_loops", "test_matching", "test_renumbered", "test_templates", "test_verdicts"),
-    *(f"identification/test_{name}" for name in ("excite", "fit", "records", "run", "signals")),
+    *("engine/", "merge/", "modelica/", "output/", "formats/urdf/", "domain/test_comparison", "domain/test_matching"),
+    *(f"analysis/{name}/" for name in ("pages", "patches", "simulation", "versions")),
+    *("formats/table/test_catalogue", "formats/table/test_units", "test_forged_states", "test_hostile_templates"),
+    *("test_ignored", "test_loops", "test_renumbered", "test_templates", "test_verdicts"),
+    *(f"analysis/identification/test_{name}" for name in ("excite", "fit", "records", "run", "signals")),
     # other formats and checks, but for their processes and for rumoca
-    *("mjcf/", "sdf/", "checks/compilers/test_omc", "watch/test_checks", "watch/test_report", "watch/test_view"),
-    *(f"checks/test_{name}" for name in ("afterbuild", "fingerprint", "names", "packed", "report", "robot")),
-    "checks/test_texts",
+    *("formats/mjcf/", "formats/sdf/", "watch/test_checks", "watch/test_report", "watch/test_view"),
+    "analysis/checks/compilers/test_omc",
+    *(f"analysis/checks/test_{name}" for name in ("afterbuild", "fingerprint", "names", "packed", "report", "robot")),
+    "analysis/checks/test_texts",
     # git's merges
     *("test_edits_meet_exports", "test_merge", "test_unite"),
     "test_unmerged",
     # texts of the project itself
-    *("test_corpus_page", "test_docs", "test_domains_page", "test_spelling", "test_urdf_page"),
+    *("test_corpus_page", "test_docs", "test_domains_page", "common/test_spelling", "test_urdf_page"),
 ))  # fmt: skip
 # beside those: processes, and libraries that load
 _MAY_DIFFER = tuple(f"tests/{name}" for name in (
-    *("mjcf/test_worker", "sdf/test_worker", "pages/test_browser", "simulation/test_fmu", "simulation/test_plot"),
+    *("formats/mjcf/test_worker", "formats/sdf/test_worker", "analysis/pages/test_browser"),
+    *("analysis/simulation/test_fmu", "analysis/simulation/test_plot"),
 ))  # fmt: skip
 
 
@@ -359,7 +362,7 @@ def _is_same_with_every_python(item: pytest.Item) -> bool:
         return True
     needs = {"modelica_library", "corpus"} & set(getattr(item, "fixturenames", ()))
     is_random = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
-    return bool(needs or is_random) and "checks/compilers" not in item.nodeid
+    return bool(needs or is_random) and "analysis/checks/compilers" not in item.nodeid
 
 
 def pytest_collection_finish() -> None:

@@ -14,10 +14,10 @@ from support.commands import Execute
 from support.networks import LADDER, edit, source
 
 import urdfsync
-from urdfsync.checks.results import CheckResult
-from urdfsync.diagnostics import ConfigError
+from urdfsync.analysis.checks.results import CheckResult
+from urdfsync.analysis.simulation.results import SimulateResult
+from urdfsync.common.diagnostics import ConfigError
 from urdfsync.engine.actions import FileStatus
-from urdfsync.simulation.results import SimulateResult
 
 REPOSITORY = Path(__file__).parents[1]
 ROBOTS = REPOSITORY / "modelica/UrdfSync/Resources/robots"
@@ -68,11 +68,11 @@ def test_a_robot_that_does_not_exist_is_the_error_of_the_command(project: Path, 
 
 
 def test_checks_and_simulations_are_values(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.checks.run.check_robots", lambda *_: iter([CheckResult("ladder", "Ladder")]))
+    monkeypatch.setattr("urdfsync.analysis.checks.run.check_robots", lambda *_: iter([CheckResult("ladder", "Ladder")]))
     (checked,) = results = urdfsync.check(physics=True)
     assert (checked.robot, str(results)) == ("ladder", "ladder: right: syntax and layout; 0.0 s")
     simulated = SimulateResult("ladder", "Ladder.Test", 1, 0.5, 1e-6, (), {"time": (0.0, 1.0)}, (), 2, is_known=False)
-    monkeypatch.setattr("urdfsync.simulation.run.simulate", lambda *_: simulated)
+    monkeypatch.setattr("urdfsync.analysis.simulation.run.simulate", lambda *_: simulated)
     result = urdfsync.simulate(files={"csv": Path("ladder.csv")})
     assert result.series["time"] == (0.0, 1.0)
     assert Path("ladder.csv").read_text() == "time\n0.0\n1.0\n"
@@ -95,7 +95,10 @@ def test_all_names_are_there_and_on_the_page_and_nothing_is_loaded_before() -> N
     with pytest.raises(AttributeError, match="has no attribute 'biuld'"):
         _ = urdfsync.biuld  # type: ignore[attr-defined]
     code = "import sys, urdfsync; print(*(name for name in sys.modules if name.startswith(('urdfsync.', 'msgspec'))))"
-    assert subprocess.check_output([sys.executable, "-c", code], text=True).split() == ["urdfsync.version"]
+    assert subprocess.check_output([sys.executable, "-c", code], text=True).split() == [
+        "urdfsync.common",
+        "urdfsync.common.version",
+    ]
 
 
 @pytest.mark.slow

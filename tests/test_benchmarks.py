@@ -9,7 +9,7 @@ import pytest
 from benchmarks.measuring import UnexpectedError, measure
 from benchmarks.robots import Source, chain, mesh, write_meshes, write_workspace, write_xacro_workspace
 
-from urdfsync import cli
+from urdfsync.commands import cli
 
 
 @pytest.mark.parametrize("script", ["print('no')", "print('yes'); raise SystemExit(3)"])

@@ -22,11 +22,11 @@ ROOT = Path(__file__).parents[1]
 CHANGES = {
     "template": ("templates/urdf/link/record.mo.jinja", '("Numbers of " ~ title)', '("All numbers of " ~ title)'),
     "reader": (
-        "urdfsync/urdf/parse/elements.py",
+        "urdfsync/formats/urdf/parse/elements.py",
         "        inertial = reader.read(part, place, Inertial, owner)\n",
         "        inertial = None\n",
     ),
-    "model": ("urdfsync/urdf/model/joint.py", "{joint.type} joint", "the {joint.type} joint"),
+    "model": ("urdfsync/formats/urdf/model/joint.py", "{joint.type} joint", "the {joint.type} joint"),
 }
 """A file of the program, one of its lines, and the new line."""
 

@@ -20,8 +20,8 @@ from support.modelica import compile_task, execute
 from support.packages import Package, generate, proposed_base, read, scaled
 from support.urdfs import dynamics, limit, link, robot
 
-from urdfsync.checks.package import PackageTexts
-from urdfsync.checks.texts import check_layout
+from urdfsync.analysis.checks.package import PackageTexts
+from urdfsync.analysis.checks.texts import check_layout
 from urdfsync.domain import Role, Target
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import is_identifier

@@ -17,9 +17,9 @@ from support import corpus as corpora
 from support.corpus import ABSENT, FOLDER, REPOSITORY
 from support.packages import read
 
-from urdfsync.diagnostics import Diagnostic
-from urdfsync.urdf.assembly import Assembly
-from urdfsync.urdf.options import LeftOut, Options
+from urdfsync.common.diagnostics import Diagnostic
+from urdfsync.formats.urdf.assembly import Assembly
+from urdfsync.formats.urdf.options import LeftOut, Options
 
 PAGE = REPOSITORY / "tests" / "golden" / "corpus.md"
 HEADER = """| robot | has beside links and joints | Run drives | sensors | contacts | not modelled | left out |

@@ -12,20 +12,21 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 
-from urdfsync import cli, config
-from urdfsync.checks.cache import LIMIT
-from urdfsync.checks.contents import MOST_BYTES
-from urdfsync.checks.libraries import NEXT, OLDEST
-from urdfsync.checks.results import MOST_SINGLE_EDITS, CheckOptions
+from urdfsync.analysis.checks.cache import LIMIT
+from urdfsync.analysis.checks.contents import MOST_BYTES
+from urdfsync.analysis.checks.libraries import NEXT, OLDEST
+from urdfsync.analysis.checks.results import MOST_SINGLE_EDITS, CheckOptions
+from urdfsync.analysis.simulation.motion import MOST_ROWS
+from urdfsync.analysis.simulation.results import STEPS, STOP, SimulateOptions
+from urdfsync.analysis.simulation.results import TOLERANCE as SIMULATED_TO
+from urdfsync.commands import cli
 from urdfsync.domain import Target
 from urdfsync.domain.experiment import TOLERANCE
 from urdfsync.engine.result import Exit
+from urdfsync.formats.urdf.domain import DOMAIN
+from urdfsync.formats.urdf.options import Options
 from urdfsync.output.markdown import FOLDED
-from urdfsync.simulation.motion import MOST_ROWS
-from urdfsync.simulation.results import STEPS, STOP, SimulateOptions
-from urdfsync.simulation.results import TOLERANCE as SIMULATED_TO
-from urdfsync.urdf.domain import DOMAIN
-from urdfsync.urdf.options import Options
+from urdfsync.project import config
 
 REPOSITORY = Path(__file__).parents[1]
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"

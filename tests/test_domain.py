@@ -12,26 +12,38 @@ import msgspec
 import pytest
 from support.meshes import stl
 
-from urdfsync import config, registry
-from urdfsync.changes import compare
-from urdfsync.config import Keys
-from urdfsync.diagnostics import Severity
-from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target, Version
+from urdfsync.common.diagnostics import Severity
+from urdfsync.common.files import Templates, digest, templates_digest
+from urdfsync.domain import (
+    Artifact,
+    Dependency,
+    Domain,
+    Import,
+    Lookup,
+    Order,
+    Role,
+    Snapshot,
+    Target,
+    Version,
+    registry,
+)
 from urdfsync.domain.advice import Advice
 from urdfsync.domain.bench import Benches
 from urdfsync.domain.changes import Effects
+from urdfsync.domain.comparison import compare
 from urdfsync.domain.experiment import Checks
 from urdfsync.domain.features import Mentions
 from urdfsync.domain.scene import Pictures
 from urdfsync.engine.package import generate
-from urdfsync.files import Templates, digest, templates_digest
+from urdfsync.formats.urdf import advice, benches, scene
+from urdfsync.formats.urdf.diff import effects
+from urdfsync.formats.urdf.domain import DOMAIN
+from urdfsync.formats.urdf.meshes import lookup
 from urdfsync.modelica.names import is_identifier, within
-from urdfsync.state import statefile
-from urdfsync.state.record import Generator, Record, as_read, as_recorded
-from urdfsync.urdf import advice, benches, scene
-from urdfsync.urdf.diff import effects
-from urdfsync.urdf.domain import DOMAIN
-from urdfsync.urdf.meshes import lookup
+from urdfsync.project import config
+from urdfsync.project.config import Keys
+from urdfsync.project.state import statefile
+from urdfsync.project.state.record import Generator, Record, as_read, as_recorded
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>

@@ -13,7 +13,8 @@ from support.corpus import REPOSITORY
 from support.daemon import Daemons
 from support.networks import edit
 
-from urdfsync import cli, registry
+from urdfsync.commands import cli
+from urdfsync.domain import registry
 from urdfsync.engine.result import Exit
 from urdfsync.watch import events
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import pinocchio as pin
 import pytest
 
-from urdfsync.state import statefile
-from urdfsync.state.record import as_read, as_recorded
-from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.robot import Robot
+from urdfsync.formats.urdf.parse.source import read_robot
+from urdfsync.formats.urdf.robot import Robot
+from urdfsync.project.state import statefile
+from urdfsync.project.state.record import as_read, as_recorded
 
 ROOT = Path(__file__).resolve().parents[1]
 ROBOTS = ROOT / "modelica" / "UrdfSync" / "Resources" / "robots"

@@ -19,10 +19,12 @@ from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.workplace import changes, contents
 
-from urdfsync import cli, config, diagnostics
+from urdfsync.commands import cli
+from urdfsync.common import diagnostics
 from urdfsync.domain import Reading
-from urdfsync.state.lock import Lock
-from urdfsync.urdf.domain import UrdfDomain
+from urdfsync.formats.urdf.domain import UrdfDomain
+from urdfsync.project import config
+from urdfsync.project.state.lock import Lock
 
 Capture = pytest.CaptureFixture[str]
 
@@ -120,7 +122,7 @@ def test_a_signal_ends_a_build_with_130(
     with Lock(tmp_path / ".urdfsync/lock", 0) as lock:
         lock.acquire()
         # Python may lose a signal that arrives during an import, so all modules for the lock are imported
-        code = "import sys; from urdfsync import cli; from urdfsync.state.lock import Lock"
+        code = "import sys; from urdfsync.commands import cli; from urdfsync.project.state.lock import Lock"
         code += "\nacquire = Lock.acquire"
         code += "\ndef tell(*a, **k): print('waits', flush=True); return acquire(*a, **k)"
         code += "\nLock.acquire = tell; sys.exit(cli.main(['build']))"
@@ -180,7 +182,7 @@ def test_a_mistake_that_one_robot_meets_leaves_the_others_alone(
 
     monkeypatch.setattr(UrdfDomain, "read", fail)
     if command.startswith("check"):
-        monkeypatch.setattr("urdfsync.checks.run.workers", lambda *_: contextlib.nullcontext(Inline()))
+        monkeypatch.setattr("urdfsync.analysis.checks.run.workers", lambda *_: contextlib.nullcontext(Inline()))
     said = execute(*command.split(), code=2)
     if "--format=json" not in command:
         assert "[internal]" in said.err

@@ -18,10 +18,10 @@ from support.networks import LADDER, MANIFEST, RECORD, edit
 from support.networks import R1 as MODEL
 from support.workplace import Contents
 
-from urdfsync import cli
-from urdfsync.diagnostics import OutputError
+from urdfsync.commands import cli
+from urdfsync.common.diagnostics import OutputError
+from urdfsync.common.files import Tree
 from urdfsync.engine.result import Exit
-from urdfsync.files import Tree
 
 MINE = "// mine\n"
 CAN_CHANGE_MODES = os.name == "posix"

@@ -20,18 +20,18 @@ from support.networks import edit
 from support.replay import contents
 from support.urdfs import joint, limit, link, robot
 
-from urdfsync import config
-from urdfsync.dependencies import localfile
+from urdfsync.common.dependencies import localfile
+from urdfsync.common.files import digest, text_hash
 from urdfsync.domain import Import
 from urdfsync.engine.actions import FileStatus, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.inspect.package_files import bare_hash
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
-from urdfsync.files import digest, text_hash
 from urdfsync.modelica.stamp import split
-from urdfsync.state import bases, statefile
-from urdfsync.state.record import Generator, Record, as_recorded
+from urdfsync.project import config
+from urdfsync.project.state import bases, statefile
+from urdfsync.project.state.record import Generator, Record, as_recorded
 
 COUNT = int(os.environ.get("URDFSYNC_FORGERIES", "25"))
 SEEDS = [*range(COUNT)] if "URDFSYNC_FORGERIES" not in os.environ else [Random().getrandbits(32) for _ in range(COUNT)]
@@ -149,7 +149,7 @@ def no_model(record: Record, random: Random) -> Record:
 
 def the_model_now(record: Record, _: Random) -> Record:
     """Record the export as built."""
-    from urdfsync.urdf.domain import DOMAIN
+    from urdfsync.formats.urdf.domain import DOMAIN
 
     reading = DOMAIN.read(source(mass=1.5, tool=False).encode(), "arm.urdf", DOMAIN.options())
     return msgspec.structs.replace(record, snapshot=as_recorded(reading.snapshot))

@@ -16,7 +16,7 @@ from support.daemon import Watch
 from support.git import NEEDS_GIT, Repository
 from support.networks import RC_FOLDER, RECORD, edit, resistor
 
-from urdfsync import cli
+from urdfsync.commands import cli
 
 REPOSITORY = Path(__file__).parents[1]
 PRE_COMMIT = Path(sys.executable).parent / "pre-commit"

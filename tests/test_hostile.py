@@ -22,7 +22,7 @@ from support.cases import sampled
 from support.git import NEEDS_GIT, Repository
 from support.workplace import WATCH, Workplace, changes, check_output, contents
 
-from urdfsync.urdf.meshes import process
+from urdfsync.formats.urdf.meshes import process
 
 BIN = Path(sys.executable).parent
 TESTS = Path(__file__).parent

@@ -26,7 +26,7 @@ from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, link, robot
 from support.workplace import WATCH, Workplace, changes, contents
 
-from urdfsync.files import digest
+from urdfsync.common.files import digest
 
 pytestmark = [
     NEEDS_GIT,

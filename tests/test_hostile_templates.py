@@ -10,7 +10,7 @@ import pytest
 from support import hostile
 from support.networks import configure
 
-from urdfsync import cli
+from urdfsync.commands import cli
 from urdfsync.engine.package import render
 from urdfsync.engine.sources import source
 

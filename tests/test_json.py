@@ -17,8 +17,7 @@ import pytest
 from support.commands import Execute
 from support.documents import is_described
 
-from urdfsync import cli, config
-from urdfsync.checks.results import (
+from urdfsync.analysis.checks.results import (
     CheckResult,
     CheckStatus,
     CompiledModel,
@@ -28,20 +27,22 @@ from urdfsync.checks.results import (
     ToolResult,
     TrialTime,
 )
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.analysis.identification.results import Excitation, FittedNumber, Identification, Unexcited
+from urdfsync.analysis.simulation import results as simulation
+from urdfsync.analysis.simulation.cases import Cases
+from urdfsync.analysis.simulation.export import Exported
+from urdfsync.analysis.simulation.fmu import FmuTrial
+from urdfsync.analysis.simulation.models import Input
+from urdfsync.analysis.simulation.outcomes import CaseRange, JointName, JointOutcome, Outcome, Study
+from urdfsync.analysis.simulation.results import SimulateResult
+from urdfsync.commands import cli
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.domain.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
 from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
-from urdfsync.identification.results import Excitation, FittedNumber, Identification, Unexcited
 from urdfsync.output.documents import JSON_VERSION
-from urdfsync.simulation import results as simulation
-from urdfsync.simulation.cases import Cases
-from urdfsync.simulation.export import Exported
-from urdfsync.simulation.fmu import FmuTrial
-from urdfsync.simulation.models import Input
-from urdfsync.simulation.outcomes import CaseRange, JointName, JointOutcome, Outcome, Study
-from urdfsync.simulation.results import SimulateResult
+from urdfsync.project import config
 from urdfsync.watch import events
 from urdfsync.watch.report import event_values, show_json
 
@@ -286,12 +287,12 @@ def simulated() -> SimulateResult:
 
 def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
-    monkeypatch.setattr("urdfsync.simulation.run.simulate", lambda *_: simulated())
-    monkeypatch.setattr("urdfsync.simulation.files.write_outputs", lambda *_: None)
+    monkeypatch.setattr("urdfsync.analysis.simulation.run.simulate", lambda *_: simulated())
+    monkeypatch.setattr("urdfsync.analysis.simulation.files.write_outputs", lambda *_: None)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     files = ("--csv", "arm.csv", "--plot", "arm.png")
     document = printed(execute, folder, "simulate", *files)
-    monkeypatch.setattr("urdfsync.simulation.vary.vary", lambda *_: varied())
+    monkeypatch.setattr("urdfsync.analysis.simulation.vary.vary", lambda *_: varied())
     (study,) = printed(execute, folder, "simulate", "--vary", "mass=1..2")["results"]
     assert [case["status"] for case in study["cases"]] == ["within", "failed"]
     assert document["results"][0]["files"] == {"csv": "arm.csv", "plot": "arm.png"}
@@ -309,9 +310,9 @@ def identified() -> Identification:
 def test_identify(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
     motion = "time\n", Excitation("arm", 20.0, 90.0, 12.0, 30, ("hold",), {})
-    monkeypatch.setattr("urdfsync.identification.run.identify", lambda *_, **__: identified())
-    monkeypatch.setattr("urdfsync.identification.run.find_motion", lambda *_: motion)
-    monkeypatch.setattr("urdfsync.identification.plot.draw", lambda *_: b"")
+    monkeypatch.setattr("urdfsync.analysis.identification.run.identify", lambda *_, **__: identified())
+    monkeypatch.setattr("urdfsync.analysis.identification.run.find_motion", lambda *_: motion)
+    monkeypatch.setattr("urdfsync.analysis.identification.plot.draw", lambda *_: b"")
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     (fitted,) = printed(execute, folder, "identify", "arm", "log.csv", "--plot", "arm.png")["results"]
     (excited,) = printed(execute, folder, "identify", "arm", "--excite", "motion.csv")["results"]

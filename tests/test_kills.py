@@ -21,7 +21,7 @@ from support import crashes
 from support.crashes import Operation, contents, run
 
 from urdfsync.engine.result import Result
-from urdfsync.state.transaction import find_leftovers
+from urdfsync.project.state.transaction import find_leftovers
 
 KILLS = int(os.environ.get("URDFSYNC_KILLS", "20"))
 SEED = secrets.randbelow(10**9) if "URDFSYNC_KILLS" in os.environ else 20

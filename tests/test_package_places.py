@@ -13,9 +13,9 @@ from support.git import NEEDS_GIT, Repository
 from support.meshes import stl
 from support.remembered import SHORT, save
 
-from urdfsync.dependencies import facts
-from urdfsync.dependencies.places import Clone
-from urdfsync.translation.files import Files, TranslationError
+from urdfsync.common.dependencies import facts
+from urdfsync.common.dependencies.places import Clone
+from urdfsync.formats.translation.files import Files, TranslationError
 
 Place = str
 """A folder: of the project, or behind `/` of the test."""

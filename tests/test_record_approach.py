@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.checks.package import read_package
-from urdfsync.config import load
+from urdfsync.analysis.checks.package import read_package
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
+from urdfsync.project.config import load
 
 SOURCES = Path(__file__).parent / "golden"
 RECORD = {"package.mo", "package.order", "TwigParameters.mo", "TwigGeneric.mo"}

@@ -17,11 +17,11 @@ from support.packages import read
 from support.replay import Files, Fresh, Project, Stamps, without_former
 
 from urdfsync.domain import ChangeClass
+from urdfsync.domain.matching import match
 from urdfsync.engine.result import Result
 from urdfsync.engine.sources.translators import is_xacro
-from urdfsync.matching import match
-from urdfsync.state import statefile
-from urdfsync.urdf.domain import DOMAIN
+from urdfsync.formats.urdf.domain import DOMAIN
+from urdfsync.project.state import statefile
 
 SMALL = ("turtlebot3_burger", "so101_old_calib", "urdf_spirit_meshes")
 """Histories with steps of every class, renames and an invalid version."""

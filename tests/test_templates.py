@@ -3,8 +3,9 @@
 A fault in a line shows if a golden text has the line. A fault in a tag shows if the golden texts need the tag: each
 condition is true for one text and false for another, and a loop's items differ. The tests plant these faults.
 
-`tests/urdf/second/test_comparison.py` has faults in numbers and attributes, `tests/checks/test_seen_faults.py` has
-those in motion, and `tests/modelica/test_visualizers.py` those in the library's drawings.
+`tests/formats/urdf/second/test_comparison.py` has faults in numbers and attributes,
+`tests/analysis/checks/test_seen_faults.py` has those in motion, and `tests/modelica/test_visualizers.py` those in the
+library's drawings.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from support.corpus import REPOSITORY
 from support.modelica import Run, Task, simulate
 from support.urdfs import joint, links, robot
 
-from urdfsync import cli
+from urdfsync.commands import cli
 from urdfsync.engine.result import Exit
 
 PAGE = REPOSITORY / "docs" / "templates.md"

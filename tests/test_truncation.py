@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from support.replay import Project
 
-from urdfsync.diagnostics import Severity
+from urdfsync.common.diagnostics import Severity
 from urdfsync.engine.result import Exit, exit_code
 
 FULL = """\

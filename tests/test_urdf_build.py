@@ -9,7 +9,7 @@ from lxml import etree
 from support.crashes import run
 from support.replay import contents
 
-from urdfsync.diagnostics import Severity
+from urdfsync.common.diagnostics import Severity
 
 
 def test_the_order_of_elements_in_the_file_makes_no_difference(workspace: Path) -> None:

@@ -13,9 +13,9 @@ from support.modelica import URDFSYNC
 from support.packages import Package, generate
 
 from urdfsync.domain import Target
-from urdfsync.urdf.domain import DOMAIN
-from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import SENSOR_KINDS, Dynamics
+from urdfsync.formats.urdf.domain import DOMAIN
+from urdfsync.formats.urdf.options import Options
+from urdfsync.formats.urdf.robot import SENSOR_KINDS, Dynamics
 
 INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 BALL = '<geometry><sphere radius="0.05"/></geometry>'

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import urdfsync
-from urdfsync import cli
+from urdfsync.commands import cli
 
 REPOSITORY = Path(__file__).parents[1]
 PAGES = ("CHANGELOG.md", "SECURITY.md", "LICENSE")

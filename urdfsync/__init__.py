@@ -1,7 +1,7 @@
 """Keep Modelica models in step with URDF sources."""
 
 # ruff: noqa: F403, F405 - type checkers find the names below in `api`
-from urdfsync.version import __version__ as __version__
+from urdfsync.common.version import __version__ as __version__
 
 __all__ = ["Results", "UrdfsyncError", "build", "check", "diff", "edits", "library_folder", "load", "record"]
 __all__ += ["excite", "identify", "simulate", "status", "vary"]

@@ -14,21 +14,21 @@ def main() -> int:
     # collects no garbage at exit: saves 40 of 290 ms of a build, 3 of 40 ms of an up-to-date check
     atexit.register(gc.freeze)
     try:
-        from urdfsync import noop  # imported here, so that Ctrl-C during the import leaves no traceback
+        from urdfsync.common import noop  # imported here, so that Ctrl-C during the import leaves no traceback
 
         try:
             if sys.argv[1:2] == ["hook"]:
-                from urdfsync.git import hook  # imported here, so that other commands save 6 ms
+                from urdfsync.project.git import hook  # imported here, so that other commands save 6 ms
 
                 if hook.is_answered(sys.argv[1:]):
                     return 0
             if sys.argv[1:2] == ["completion"]:
-                from urdfsync.shells import completion  # imported here, so that other commands save 6 ms
+                from urdfsync.commands.shells import completion  # imported here, so that other commands save 6 ms
 
                 if completion.answer(sys.argv[2:]):
                     return 0
             if sys.argv[1:] in (["--version"], ["--help"], ["-h"]):
-                from urdfsync import overview  # likewise
+                from urdfsync.commands import overview  # likewise
 
                 trouble: str | None = overview.answer(sys.argv[1])
             else:
@@ -37,7 +37,7 @@ def main() -> int:
             trouble = None
         if trouble == "":
             return 0
-        from urdfsync import cli  # a late import: a command that was answered above saves 30 ms
+        from urdfsync.commands import cli  # a late import: a command that was answered above saves 30 ms
 
         return cli.main() if trouble is None else cli.tell_unwritten(trouble)
     except KeyboardInterrupt:

@@ -12,28 +12,28 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import msgspec
 
-from urdfsync import config as configuration
-from urdfsync.config import Config, RobotConfig
-from urdfsync.config import library_folder as library_folder
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.diagnostics import UrdfsyncError as UrdfsyncError
+from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.common.diagnostics import UrdfsyncError as UrdfsyncError
+from urdfsync.common.files import shown
 from urdfsync.domain import Target, Version
 from urdfsync.engine.build import build as build_robots
 from urdfsync.engine.options import BuildOptions, Progress, no_progress
 from urdfsync.engine.result import Result
-from urdfsync.files import shown
 from urdfsync.modelica.names import class_name, is_class_name
 from urdfsync.output.build_section import build_lines
 from urdfsync.output.console import StyledLine, findings, html, line
 from urdfsync.output.terminal import text
+from urdfsync.project import config as configuration
+from urdfsync.project.config import Config, RobotConfig
+from urdfsync.project.config import library_folder as library_folder
 
 if TYPE_CHECKING:
-    from urdfsync.checks.results import CheckResult
+    from urdfsync.analysis.checks.results import CheckResult
+    from urdfsync.analysis.identification.report import IdentificationDisplay
+    from urdfsync.analysis.identification.results import Excitation
+    from urdfsync.analysis.simulation.report import SimulationDisplay, StudyDisplay
+    from urdfsync.analysis.versions.comparison import Comparison
     from urdfsync.engine.edits import RobotEdits
-    from urdfsync.identification.report import IdentificationDisplay
-    from urdfsync.identification.results import Excitation
-    from urdfsync.simulation.report import SimulationDisplay, StudyDisplay
-    from urdfsync.versions.comparison import Comparison
 
 R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
 Place: TypeAlias = Config | Path | str | None
@@ -108,7 +108,7 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], options: Buil
     results = build_robots(config, robots, options)
     if options.dry or not any(robot.on_build == "check" for robot in robots):
         return results
-    from urdfsync.checks import afterbuild
+    from urdfsync.analysis.checks import afterbuild
 
     return afterbuild.with_checks(config, options, results)
 
@@ -131,7 +131,7 @@ def diff(*sources: str, against: str | None = None, config: Place = None, **give
     configuration. Raises UrdfsyncError if there is nothing to compare. If a version can't be read, the `result` of its
     comparison has `failed`.
     """
-    from urdfsync.versions.report import to_section
+    from urdfsync.analysis.versions.report import to_section
 
     compared = compare(sources, against, config, BuildOptions(**given))
     return Results(compared, lambda each: text(to_section(each, verbose=False)))
@@ -139,7 +139,7 @@ def diff(*sources: str, against: str | None = None, config: Place = None, **give
 
 def compare(sources: Sequence[str], against: str | None, config: Place, options: BuildOptions) -> Iterator[Comparison]:
     """Yield what `diff` returns, each comparison as soon as it is known."""
-    from urdfsync.versions import comparison
+    from urdfsync.analysis.versions import comparison
 
     folder = configuration.working_folder()
     is_near = any((place / configuration.FILE_NAME).is_file() for place in (folder, *folder.parents))
@@ -175,9 +175,9 @@ def check(
     `given` are fields of `CheckOptions`, such as `physics`. Raises UrdfsyncError for a bad configuration, an unknown
     robot, an untrusted compiler, and a cache that can't be written.
     """
-    from urdfsync.checks import compilers, run
-    from urdfsync.checks.report import to_section
-    from urdfsync.checks.results import CheckOptions
+    from urdfsync.analysis.checks import compilers, run
+    from urdfsync.analysis.checks.report import to_section
+    from urdfsync.analysis.checks.results import CheckOptions
 
     loaded = load(config)
     chosen, tools = loaded.select(robots), compilers.choose(loaded, tool, trusted=trusted)
@@ -200,11 +200,11 @@ def simulate(
     the values of each variable) and `joints` (with ranges and limits), and the differences from a revision `against`.
     It writes `files`: `csv` or `plot`. Raises UrdfsyncError for faults of the model, its inputs, the compiler or files.
     """
-    from urdfsync.checks import compilers
-    from urdfsync.simulation import run
-    from urdfsync.simulation.files import check_outputs, input_files, write_outputs
-    from urdfsync.simulation.report import SimulationDisplay
-    from urdfsync.simulation.results import SimulateOptions
+    from urdfsync.analysis.checks import compilers
+    from urdfsync.analysis.simulation import run
+    from urdfsync.analysis.simulation.files import check_outputs, input_files, write_outputs
+    from urdfsync.analysis.simulation.report import SimulationDisplay
+    from urdfsync.analysis.simulation.results import SimulateOptions
 
     loaded, files = load(config), files or {}
     robot = loaded.select_one(robots, "simulate", given.get("model", ""))
@@ -212,7 +212,7 @@ def simulate(
     chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
     options = SimulateOptions(tool=chosen, **given)
     if options.against is not None:
-        from urdfsync.simulation.against import simulate_against  # takes 60 ms with libgit2
+        from urdfsync.analysis.simulation.against import simulate_against  # takes 60 ms with libgit2
 
         result = simulate_against(loaded, robot, options, progress)
     else:
@@ -236,11 +236,11 @@ def vary(
     `summaries` and `worst`. It writes `files`: `csv` (a row for each case) or `plot`. Raises UrdfsyncError as
     `simulate` does; a case that fails raises nothing.
     """
-    from urdfsync.checks import compilers
-    from urdfsync.simulation import vary as cases
-    from urdfsync.simulation.files import check_outputs, input_files, write_outputs
-    from urdfsync.simulation.report import StudyDisplay
-    from urdfsync.simulation.results import VaryOptions
+    from urdfsync.analysis.checks import compilers
+    from urdfsync.analysis.simulation import vary as cases
+    from urdfsync.analysis.simulation.files import check_outputs, input_files, write_outputs
+    from urdfsync.analysis.simulation.report import StudyDisplay
+    from urdfsync.analysis.simulation.results import VaryOptions
 
     loaded, files = load(config), files or {}
     robot = loaded.select_one(robots, "simulate", given.get("model", ""))
@@ -274,17 +274,17 @@ def identify(
     explained), `numbers` (before, after, standard error) and `unexcited`. It writes `files`: `plot`. Raises
     UrdfsyncError for faults of the log, and for a robot that is out of step.
     """
-    from urdfsync.identification import run
-    from urdfsync.identification.report import IdentificationDisplay
-    from urdfsync.identification.results import IdentifyOptions
-    from urdfsync.simulation.files import check_outputs, input_files, write_file
+    from urdfsync.analysis.identification import run
+    from urdfsync.analysis.identification.report import IdentificationDisplay
+    from urdfsync.analysis.identification.results import IdentifyOptions
+    from urdfsync.analysis.simulation.files import check_outputs, input_files, write_file
 
     loaded, files, log = load(config), files or {}, Path(log)
     robot = loaded.select_one(robots, "identify")
     check_outputs(files, input_files(loaded, robot, None) | ({"the log": log} if log.exists() else {}))
     result = run.identify(loaded, robot, log, IdentifyOptions(**given), progress, write=write)
     for file in files.values():
-        from urdfsync.identification.plot import draw  # matplotlib takes 0.5 s, and is an extra
+        from urdfsync.analysis.identification.plot import draw  # matplotlib takes 0.5 s, and is an extra
 
         write_file(file, draw(result, file.suffix.lower().removeprefix(".")))
     return IdentificationDisplay(**msgspec.structs.asdict(result) | {"files": files})
@@ -300,9 +300,9 @@ def excite(
     **given: Any,
 ) -> Excitation:
     """Write a motion that excites the numbers of a robot, as `urdfsync identify --excite` does."""
-    from urdfsync.identification import run
-    from urdfsync.identification.results import IdentifyOptions
-    from urdfsync.simulation.files import check_outputs, input_files, write_file
+    from urdfsync.analysis.identification import run
+    from urdfsync.analysis.identification.results import IdentifyOptions
+    from urdfsync.analysis.simulation.files import check_outputs, input_files, write_file
 
     loaded, file = load(config), Path(file)
     robot = loaded.select_one(robots, "identify")
@@ -325,7 +325,7 @@ def record(
     The record's name is `class_`; without it, the name follows from the source. Raises SourceError for a source that
     can't be read, and ConfigError for a name that can't be used.
     """
-    from urdfsync import registry
+    from urdfsync.domain import registry
     from urdfsync.engine.judgements import judge
     from urdfsync.engine.package.generate import Package
     from urdfsync.engine.sources import source as sources

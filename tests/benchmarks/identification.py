@@ -25,13 +25,13 @@ import numpy as np  # noqa: E402
 from support import measured  # noqa: E402
 
 import urdfsync  # noqa: E402
-from urdfsync import cli  # noqa: E402
+from urdfsync.analysis.identification import run, signals  # noqa: E402
+from urdfsync.analysis.identification.fit import Fit, LeastSquares, pseudo_inertia  # noqa: E402
+from urdfsync.analysis.identification.records import Records, read_records  # noqa: E402
+from urdfsync.analysis.identification.results import IdentifyOptions  # noqa: E402
+from urdfsync.commands import cli  # noqa: E402
 from urdfsync.domain.regressor import Array  # noqa: E402
 from urdfsync.engine.options import no_progress  # noqa: E402
-from urdfsync.identification import run, signals  # noqa: E402
-from urdfsync.identification.fit import Fit, LeastSquares, pseudo_inertia  # noqa: E402
-from urdfsync.identification.records import Records, read_records  # noqa: E402
-from urdfsync.identification.results import IdentifyOptions  # noqa: E402
 
 SOURCES = {"arm": measured.arm(), "leg": measured.LEG, "gripper": measured.GRIPPER}
 _OPTIONS = IdentifyOptions()

@@ -9,11 +9,11 @@ import time
 from pathlib import Path
 
 from benchmarks.measuring import Cost, Measurement
-from urdfsync.config import templates_folder
 from urdfsync.domain import Artifact, Target
 from urdfsync.engine.package.render import Renderer
-from urdfsync.table.domain import DOMAIN
-from urdfsync.table.model import TableOptions
+from urdfsync.formats.table.domain import DOMAIN
+from urdfsync.formats.table.model import TableOptions
+from urdfsync.project.config import templates_folder
 
 _HEADER = "name,torque [N.cm],inertia [g.cm2],poles [integer],maker"
 

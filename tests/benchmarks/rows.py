@@ -30,8 +30,8 @@ from benchmarks.robots import (
     write_workspace,
     write_xacro_workspace,
 )
-from urdfsync.checks.cache import UserCache
-from urdfsync.checks.libraries import copy_named, find_standard_library
+from urdfsync.analysis.checks.cache import UserCache
+from urdfsync.analysis.checks.libraries import copy_named, find_standard_library
 from urdfsync.merge import merge
 
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"

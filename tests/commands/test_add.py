@@ -11,7 +11,7 @@ from support.commands import Execute
 from support.crashes import Operation, before_each
 from support.files import unchanged
 
-from urdfsync import config
+from urdfsync.project import config
 
 ADD = ("add", "--domain", "rcnetwork")
 

@@ -9,13 +9,13 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync import cli
-from urdfsync.checks.compilers.compiler import Tool
-from urdfsync.checks.results import CheckOptions, CheckResult, EditEffect, ToolResult
-from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.analysis.checks.compilers.compiler import Tool
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult, EditEffect, ToolResult
+from urdfsync.commands import cli
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.domain.experiment import Deviation, Quantity
 from urdfsync.engine.options import Progress
+from urdfsync.project.config import Config, RobotConfig
 
 Capture = pytest.CaptureFixture[str]
 

@@ -147,7 +147,7 @@ def test_a_revision_comes_before_a_file_of_its_name(
 
 @NEEDS_GIT
 def test_a_mesh_in_large_file_storage(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
-    from urdfsync.files import digest
+    from urdfsync.common.files import digest
 
     content = (arm / "tip.stl").read_bytes()
     pointer = f"version https://git-lfs.github.com/spec/v1\noid sha256:{digest(content)}\nsize {len(content)}\n"

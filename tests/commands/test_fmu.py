@@ -12,10 +12,10 @@ from support.commands import Execute
 from support.fmu import REFERENCE, Fmpy, archive
 from support.simulation import Compiler
 
-from urdfsync import cli
-from urdfsync.checks.compilers import omc
-from urdfsync.checks.compilers.compiler import CompileResult
-from urdfsync.simulation.results import SimulateOptions
+from urdfsync.analysis.checks.compilers import omc
+from urdfsync.analysis.checks.compilers.compiler import CompileResult
+from urdfsync.analysis.simulation.results import SimulateOptions
+from urdfsync.commands import cli
 
 
 @pytest.mark.parametrize(("arguments", "words"), [
@@ -92,7 +92,7 @@ def test_findings_and_differences_are_warnings_and_the_file_is_there(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     far = {"time": [0.0, 0.5, 1.0], "elbow_tau": [0.0, 2.0, 5.0]}
-    monkeypatch.setattr("urdfsync.checks.process.run", Fmpy(["`x` is no name"], me=far))
+    monkeypatch.setattr("urdfsync.analysis.checks.process.run", Fmpy(["`x` is no name"], me=far))
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     assert cli.main(["fmu", "--check", "--kind", "me"]) == 1
     assert Path("ArmRun.fmu").is_file()
@@ -135,7 +135,7 @@ def test_what_the_check_finds_is_in_the_json(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("urdfsync.checks.process.run", Fmpy(["`x` is no name"], me=dict(REFERENCE)))  # type: ignore[arg-type]
+    monkeypatch.setattr("urdfsync.analysis.checks.process.run", Fmpy(["`x` is no name"], me=dict(REFERENCE)))  # type: ignore[arg-type]
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     assert cli.main(["fmu", "--check", "--kind", "me", "--format=json"]) == 1
     (robot,) = json.loads(capsys.readouterr().out)["results"]

@@ -18,8 +18,8 @@ from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, resistor
 
-from urdfsync import cli
-from urdfsync.state.lock import build_lock
+from urdfsync.commands import cli
+from urdfsync.project.state.lock import build_lock
 
 pytestmark = [pytest.mark.slow, NEEDS_GIT]
 

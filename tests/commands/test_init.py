@@ -12,7 +12,7 @@ from support.commands import Execute, Terminal
 from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, links, robot
 
-from urdfsync import config
+from urdfsync.project import config
 
 INIT = ("init", "--domain", "rcnetwork")
 

@@ -11,7 +11,8 @@ import pytest
 from support.commands import Execute
 from support.screen import Terminal
 
-from urdfsync import cli, config
+from urdfsync.commands import cli
+from urdfsync.project import config
 
 
 def test_library(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,7 @@ import pytest
 from support.commands import Execute
 from support.urdfs import joint, link, robot
 
-from urdfsync import noop
+from urdfsync.common import noop
 
 COUNTED = ["12 robots: in step"]
 REPEATED = ["2 robots: still 2 findings; --verbose shows them"]

@@ -16,7 +16,7 @@ from support.commands import Execute
 from support.files import unchanged
 from support.networks import ROBOT, edit
 
-from urdfsync import cli
+from urdfsync.commands import cli
 from urdfsync.modelica.stamp import split
 
 REMOVE = ("remove", "filter", "--yes")
@@ -113,7 +113,8 @@ def test_a_terminal_is_asked(plant: Path, rc_site: Path, answer: str, stays: boo
     import pty
 
     main, terminal = pty.openpty()
-    code = f"import sys; sys.path[:0] = {[str(rc_site), *sys.path]}; from urdfsync.cli import main; sys.exit(main())"
+    paths = [str(rc_site), *sys.path]
+    code = f"import sys; sys.path[:0] = {paths}; from urdfsync.commands import cli; sys.exit(cli.main())"
     command = [sys.executable, "-c", code, "remove", "filter"]
     with subprocess.Popen(command, stdin=terminal, stdout=subprocess.PIPE, text=True) as process:
         os.write(main, f"{answer}\n".encode())

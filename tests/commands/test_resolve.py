@@ -11,10 +11,10 @@ from support.commands import SETTLE, Editor, Execute
 from support.crashes import Operation, before_each
 from support.networks import FRESH, LADDER, MINE, MODEL, add_resistor, edit
 
-from urdfsync import cli
 from urdfsync.api import build_and_check
+from urdfsync.commands import cli
 from urdfsync.engine.result import Result
-from urdfsync.state.lock import build_lock
+from urdfsync.project.state.lock import build_lock
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 from support.commands import Execute
 from support.documents import is_described
 
-from urdfsync import cli
+from urdfsync.commands import cli
 from urdfsync.output.documents import JSON_VERSION
 
 

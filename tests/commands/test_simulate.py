@@ -11,8 +11,8 @@ from support.commands import Execute
 from support.files import outputs
 from support.simulation import Compiler
 
-from urdfsync.checks.process import LimitError
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.analysis.checks.process import LimitError
+from urdfsync.common.diagnostics import Diagnostic, Severity
 
 
 @pytest.mark.slow
@@ -116,7 +116,7 @@ def test_an_interruption_leaves_nothing(compiler: Compiler, execute: Execute, mo
     def interrupt(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("urdfsync.checks.compilers.run_job", interrupt)
+    monkeypatch.setattr("urdfsync.analysis.checks.compilers.run_job", interrupt)
     before = outputs()
     assert "interrupted" in execute("simulate", "--csv", "a.csv", code=130).words
     assert outputs() == before
@@ -129,7 +129,7 @@ def test_a_limit_of_time_is_told_with_its_option(
         limits = arguments[3]
         raise LimitError(Diagnostic(Severity.ERROR, "out-of-time", f"{limits.owner}: {limits.seconds:g} s"))  # type: ignore[attr-defined]
 
-    monkeypatch.setattr("urdfsync.checks.compilers.run_job", take_too_long)
+    monkeypatch.setattr("urdfsync.analysis.checks.compilers.run_job", take_too_long)
     assert "the simulation of `Arm.ArmTest`: 5 s [out-of-time]" in execute("simulate", "--timeout", "5", code=2).words
 
 

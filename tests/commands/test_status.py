@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 
-from urdfsync.state.lock import build_lock
+from urdfsync.project.state.lock import build_lock
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ import psutil
 import pytest
 from support.daemon import LIMIT, REPOSITORY, Start, holds, ladder, stopped
 
-from urdfsync import cli
+from urdfsync.commands import cli
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 

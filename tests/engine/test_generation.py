@@ -11,7 +11,7 @@ from support.networks import edit, resistor, run, source
 from support.networks import inner_kinds as kinds
 from support.networks import set_keys as configure
 
-from urdfsync import registry
+from urdfsync.domain import registry
 from urdfsync.engine.actions import Reason
 
 

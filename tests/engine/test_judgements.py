@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.urdfs import joint, limit, link, robot
 
-from urdfsync import cli
+from urdfsync.commands import cli
 
 CONFIG = '[robots.pair]\nsource = "pair.urdf"\npackage = "Pair"\n'
 

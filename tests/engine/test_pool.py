@@ -20,16 +20,16 @@ import pytest
 from support.networks import edit, run_all
 from support.replay import contents
 
-from urdfsync import config
-from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.facts import CONTENT, PATH
-from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.common.dependencies.facts import CONTENT, PATH
+from urdfsync.common.dependencies.reads import Reads
+from urdfsync.common.diagnostics import UrdfsyncError
+from urdfsync.common.processes.workers import Workers, workers
 from urdfsync.engine import pool, remembered
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.pool import plan_in_worker
-from urdfsync.processes.workers import Workers, workers
+from urdfsync.project import config
+from urdfsync.project.config import Config, RobotConfig
 
 COUNT = 8
 

@@ -19,9 +19,9 @@ from support.commands import Execute
 from support.modelica import CACHE, URDFSYNC
 from support.urdfs import ELBOW_ARM
 
-from urdfsync.checks import libraries
-from urdfsync.checks.compilers import omc, rumoca
-from urdfsync.checks.compilers.compiler import CompileJob, CompileTask
+from urdfsync.analysis.checks import libraries
+from urdfsync.analysis.checks.compilers import omc, rumoca
+from urdfsync.analysis.checks.compilers.compiler import CompileJob, CompileTask
 from urdfsync.engine.decide import fit
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.statements import EditedStatements, compare

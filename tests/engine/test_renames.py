@@ -197,7 +197,7 @@ def test_an_edit_of_the_description_conflicts_with_a_new_name_in_it(built: Path,
 def test_a_changed_mass_loads_no_numpy(built: Path) -> None:
     """It takes as long as the rest of such a build."""
     edit("dog.urdf", 'mass value="9.0"', 'mass value="8.0"')
-    code = "import sys; from urdfsync import cli; cli.main(['build']); print(*sys.modules)"
+    code = "import sys; from urdfsync.commands import cli; cli.main(['build']); print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert "1 file written" in done.stdout
     assert not {"numpy", "yourdfpy", "deepdiff"} & {*done.stdout.split()}

@@ -8,9 +8,9 @@ from typing import Any
 import msgspec
 import pytest
 
-from urdfsync.changes import Changes
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.result import Checked, Exit, Result, exit_code

@@ -15,7 +15,7 @@ from support.commands import Execute
 from support.networks import edit, rename, run
 
 from urdfsync.engine.result import Exit
-from urdfsync.state import file_operations
+from urdfsync.project.state import file_operations
 
 R1 = "modelica/Ladder/Elements/R1Parameters.mo"
 R2 = "modelica/Ladder/Elements/R2Parameters.mo"

@@ -8,10 +8,10 @@ import pytest
 from support.commands import Execute
 from support.networks import MODEL, R2, drop, edit, run
 
-from urdfsync import config
 from urdfsync.engine.actions import Choice, UsersChoice, sides_hash
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
+from urdfsync.project import config
 
 
 @pytest.fixture

@@ -20,11 +20,11 @@ from support.modelica import GRAVITY, Array, Run, Task, simulate
 from support.packages import read
 from support.replay import Project
 
-from urdfsync.diagnostics import Severity
+from urdfsync.common.diagnostics import Severity
 from urdfsync.domain import Target
+from urdfsync.domain.matching import match
 from urdfsync.engine.result import Result
-from urdfsync.matching import match
-from urdfsync.urdf.domain import DOMAIN
+from urdfsync.formats.urdf.domain import DOMAIN
 
 ROTOR = 0.03
 """Inertia about the joint's axis, in kg.m2."""

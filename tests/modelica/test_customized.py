@@ -15,7 +15,7 @@ from support.packages import generate
 from support.urdfs import dynamics, joint, link, links, robot
 
 from urdfsync.domain import Target
-from urdfsync.urdf.physics.reference import SLIDING_STEEPNESS, TURNING_STEEPNESS
+from urdfsync.formats.urdf.physics.reference import SLIDING_STEEPNESS, TURNING_STEEPNESS
 
 pytestmark = pytest.mark.slow
 

@@ -13,12 +13,12 @@ from support.packages import generate
 from support.urdfs import joint, link, robot
 
 from urdfsync.domain import Target
+from urdfsync.formats.urdf.kinematics.tree import KinematicTree
+from urdfsync.formats.urdf.model.record import obstacles
+from urdfsync.formats.urdf.parse.source import read_robot
+from urdfsync.formats.urdf.physics import completion, motion
+from urdfsync.formats.urdf.robot import MOTION_KINDS
 from urdfsync.modelica.literals import vector
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.record import obstacles
-from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics import completion, motion
-from urdfsync.urdf.robot import MOTION_KINDS
 
 pytestmark = pytest.mark.slow
 

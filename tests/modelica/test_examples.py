@@ -1,6 +1,6 @@
 """The library's examples: controllers follow, and generated packages are what their robots are.
 
-That each kind of link and joint compiles, tests/urdf/test_artifacts.py shows with one of everything.
+That each kind of link and joint compiles, tests/formats/urdf/test_artifacts.py shows with one of everything.
 """
 
 from __future__ import annotations

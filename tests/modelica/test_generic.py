@@ -15,8 +15,8 @@ from support.packages import generate
 from support.urdfs import joint, link, links, mimic, robot
 
 from urdfsync.domain import Target
-from urdfsync.urdf.kinematics.poses import start_positions
-from urdfsync.urdf.physics import motion
+from urdfsync.formats.urdf.kinematics.poses import start_positions
+from urdfsync.formats.urdf.physics import motion
 
 pytestmark = pytest.mark.slow
 

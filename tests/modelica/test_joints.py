@@ -14,12 +14,12 @@ from support.modelica import DRIVES, GRAVITY, Run, Task, bench, simulate
 from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
-from urdfsync.checks.compilers import omc
+from urdfsync.analysis.checks.compilers import omc
 from urdfsync.domain import Target
 from urdfsync.domain.experiment import Quantity
-from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.reference import Reference, read
+from urdfsync.formats.urdf.physics import motion
+from urdfsync.formats.urdf.physics.motion import Course
+from urdfsync.formats.urdf.physics.reference import Reference, read
 
 pytestmark = pytest.mark.slow
 

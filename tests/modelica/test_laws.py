@@ -14,9 +14,9 @@ from support.modelica import Run, Series, Task, simulate, simulate_all
 from support.packages import Package, generate
 from support.urdfs import dynamics, joint, limit, links, robot
 
-from urdfsync.checks.compilers import omc
+from urdfsync.analysis.checks.compilers import omc
 from urdfsync.domain import Target
-from urdfsync.urdf.physics.reference import read
+from urdfsync.formats.urdf.physics.reference import read
 
 pytestmark = pytest.mark.slow
 

@@ -7,7 +7,7 @@ from pathlib import PurePosixPath
 
 import pytest
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
 from urdfsync.modelica.layout import check_class_file, check_order, check_places, with_within
 
 ALONE = "move this class to a file of its own: a file in a package holds one class [second-class]"

@@ -1,6 +1,6 @@
 """House rules of the Modelica library that no compiler checks, over every file that the library holds.
 
-That its layout is right, tests/checks/test_texts.py says.
+That its layout is right, tests/analysis/checks/test_texts.py says.
 """
 
 from __future__ import annotations

@@ -17,10 +17,10 @@ from support.modelica import DRIVES, Run, Series, Task, bench, simulate, simulat
 from support.packages import generate, strict
 from support.urdfs import joint, limit, link, mimic, robot
 
+from urdfsync.analysis.simulation.joints import joint_results
 from urdfsync.domain import Target
 from urdfsync.domain.bench import JointSignals, Signal
-from urdfsync.simulation.joints import joint_results
-from urdfsync.urdf.benches import bench as bench_of
+from urdfsync.formats.urdf.benches import bench as bench_of
 
 pytestmark = pytest.mark.slow
 

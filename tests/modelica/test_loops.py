@@ -15,9 +15,9 @@ from support.loops import FOUR_BAR, ROBOTS
 from support.modelica import DRIVES, GRAVITY, Run, Series, Task, bench, compile_task, simulate
 from support.packages import generate_robot
 
-from urdfsync.checks.compilers import omc
+from urdfsync.analysis.checks.compilers import omc
 from urdfsync.domain import Target
-from urdfsync.urdf.robot import Robot
+from urdfsync.formats.urdf.robot import Robot
 
 OPENMODELICA = pytest.param("omc", marks=pytest.mark.skipif(omc.program("") is None, reason="no OpenModelica"))
 RECORDED = ("FourBar", "FiveBar", "SliderCrank", "Spatial")

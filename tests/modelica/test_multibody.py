@@ -16,9 +16,9 @@ from support import generic
 from support.modelica import URDFSYNC, Task, simulate
 from support.urdfs import dynamics, joint, link, links, robot
 
-from urdfsync.urdf.model.record import tables as integer_tables
-from urdfsync.urdf.physics import motion
-from urdfsync.urdf.robot import MOTION_KINDS
+from urdfsync.formats.urdf.model.record import tables as integer_tables
+from urdfsync.formats.urdf.physics import motion
+from urdfsync.formats.urdf.robot import MOTION_KINDS
 
 pytestmark = pytest.mark.slow
 

@@ -13,10 +13,10 @@ from support.packages import generate
 from support.urdfs import joint, links, robot
 
 from urdfsync.domain import Target
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.reference import Reference, read
+from urdfsync.formats.urdf.kinematics.tree import KinematicTree
+from urdfsync.formats.urdf.parse.source import read_robot
+from urdfsync.formats.urdf.physics import motion
+from urdfsync.formats.urdf.physics.reference import Reference, read
 
 pytestmark = pytest.mark.slow
 

@@ -14,7 +14,7 @@ from support.files import unchanged
 from support.networks import edit
 from support.schemas import validate
 
-from urdfsync.checks.results import CheckResult, ToolResult
+from urdfsync.analysis.checks.results import CheckResult, ToolResult
 from urdfsync.domain.experiment import Deviation, Quantity
 from urdfsync.engine.result import Exit
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from support.screen import Terminal
 
-from urdfsync import cli
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.commands import cli
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 

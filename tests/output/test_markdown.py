@@ -10,7 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.output.console import line
 from urdfsync.output.markdown import FOLDED, LONGEST, MOST_ROWS, document
 from urdfsync.output.sections import Mark, Section, TextTable

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.domain.changes import Change, Effect
+from urdfsync.domain.comparison import Changes
 from urdfsync.output.outline import effect_rows, number_table, outline
 
 

@@ -12,7 +12,7 @@ import jsonschema_rs
 import pytest
 from support.schemas import validate
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.output.sarif import document, read_meanings
 from urdfsync.output.sections import Mark, Section
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.output.sections import Mark, Section, TextTable, findings_table
 
 ERROR = Diagnostic(Severity.ERROR, "no-link", "there is no link", "arm.urdf", 3, hint="export it again")

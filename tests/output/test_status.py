@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.domain.changes import Change
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import Action, Actions, FileStatus, Kind, Reason
 from urdfsync.engine.result import Result
 from urdfsync.output.status import status_section, summary

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.domain.changes import Change
+from urdfsync.domain.comparison import Changes
 from urdfsync.output.build_section import change_parts
 from urdfsync.output.sections import Mark, Section
 from urdfsync.output.terminal import details

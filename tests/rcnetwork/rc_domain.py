@@ -17,8 +17,7 @@ from typing import Any
 import msgspec
 from msgspec.structs import replace
 
-from urdfsync.changes import find_differences
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.common.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import (
     Artifact,
     ChangeClass,
@@ -40,7 +39,8 @@ from urdfsync.domain import (
 )
 from urdfsync.domain.advice import Advice, Proposal
 from urdfsync.domain.changes import Change
-from urdfsync.state.record import as_recorded
+from urdfsync.domain.comparison import find_differences
+from urdfsync.project.state.record import as_recorded
 
 GROUND = "ground"
 _NAME = re.compile(r"[A-Z][A-Za-z0-9]*", re.ASCII)

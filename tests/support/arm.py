@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from support.corpus import REPOSITORY
-from urdfsync.checks.contents import package_texts
-from urdfsync.checks.package import PackageTexts
+from urdfsync.analysis.checks.contents import package_texts
+from urdfsync.analysis.checks.package import PackageTexts
 
 FOLDER = REPOSITORY / "modelica" / "UrdfSync" / "Examples" / "SixAxisArm"
 NAME = "UrdfSync.Examples.SixAxisArm"

@@ -16,14 +16,14 @@ from pathlib import Path
 import msgspec
 import psutil
 
-from urdfsync.checks import process
-from urdfsync.checks.cache import UserCache
-from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, Complaint, Tool
-from urdfsync.checks.process import LimitError, Limits
-from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, CompiledModel, ToolResult
-from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.processes.workers import Workers, tell
+from urdfsync.analysis.checks import process
+from urdfsync.analysis.checks.cache import UserCache
+from urdfsync.analysis.checks.compilers.compiler import CompileJob, CompileResult, Complaint, Tool
+from urdfsync.analysis.checks.process import LimitError, Limits
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult, CheckStatus, CompiledModel, ToolResult
+from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.common.processes.workers import Workers, tell
+from urdfsync.project.config import Config, RobotConfig
 
 FAULT = Diagnostic(Severity.ERROR, "fault", "as it was asked for")
 

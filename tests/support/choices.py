@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from urdfsync.config import Config
 from urdfsync.engine.actions import Choice, UsersChoice
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
+from urdfsync.project.config import Config
 
 
 def options(loaded: Config, *, choices: Mapping[str, Choice] | None = None, **request: Any) -> BuildOptions:

@@ -15,11 +15,12 @@ from unittest import mock
 import jsonschema_rs
 import pytest
 
-from urdfsync import config, registry
-from urdfsync.config import Config
-from urdfsync.config.schema import config_schema
-from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import ConfigError, Diagnostic
+from urdfsync.common.dependencies.reads import Reads
+from urdfsync.common.diagnostics import ConfigError, Diagnostic
+from urdfsync.domain import registry
+from urdfsync.project import config
+from urdfsync.project.config import Config
+from urdfsync.project.config.schema import config_schema
 
 ROOT = Path(os.path.abspath("/project"))  # noqa: PTH100 - a drive on Windows
 
@@ -72,7 +73,7 @@ def _is_beyond(problem: Diagnostic) -> bool:
 @contextmanager
 def compared(seen: list[str]) -> Iterator[None]:
     """Compare each configuration that is read meanwhile with the schema; add differences to `seen`."""
-    module = importlib.import_module("urdfsync.config.load")
+    module = importlib.import_module("urdfsync.project.config.load")
     parse: Callable[[str, Path, str], Config] = module.parse
 
     def hold(text: str, file: Path, name: str) -> Config:

@@ -18,11 +18,11 @@ from typing import Any
 from support import edits
 from support.choices import options
 from support.urdfs import joint, limit, link, robot
-from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result
-from urdfsync.state import file_operations
-from urdfsync.state.store import Store
+from urdfsync.project import config
+from urdfsync.project.state import file_operations
+from urdfsync.project.state.store import Store
 
 CHANGES = ("exchange", "place", "replace")
 """Operations on targets."""

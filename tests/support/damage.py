@@ -6,8 +6,8 @@ import random
 import re
 from pathlib import Path
 
-from urdfsync import registry
-from urdfsync.diagnostics import SourceError
+from urdfsync.common.diagnostics import SourceError
+from urdfsync.domain import registry
 from urdfsync.engine.sources.source import read_file_source, read_permissively
 
 _NUMBERS = ("0", "-1", "nan", "inf", "1e300", "-1e-300", "99999999999", "", "1 2 3 4 5 6 7 8 9", "&#55;", "../../etc")

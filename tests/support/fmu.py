@@ -10,11 +10,11 @@ from typing import Any
 import pytest
 
 from support.simulation import Compiler
-from urdfsync import config
-from urdfsync.checks.compilers.compiler import CompileResult, Export, Tool
-from urdfsync.simulation import fmu
-from urdfsync.simulation.export import Exported, export
-from urdfsync.simulation.results import SimulateOptions, SimulateResult
+from urdfsync.analysis.checks.compilers.compiler import CompileResult, Export, Tool
+from urdfsync.analysis.simulation import fmu
+from urdfsync.analysis.simulation.export import Exported, export
+from urdfsync.analysis.simulation.results import SimulateOptions, SimulateResult
+from urdfsync.project import config
 
 DESCRIPTION = b"""<fmiModelDescription description="Arm.ArmRun, exported by urdfsync 0.1.0">
   <ModelExchange modelIdentifier="Arm_ArmRun">
@@ -40,7 +40,7 @@ def archive() -> bytes:
 @pytest.fixture
 def openmodelica(compiler: Compiler, monkeypatch: pytest.MonkeyPatch) -> Compiler:
     """A stand-in for OpenModelica that makes an FMU from any model."""
-    monkeypatch.setattr("urdfsync.checks.compilers.find_missing", lambda _: None)
+    monkeypatch.setattr("urdfsync.analysis.checks.compilers.find_missing", lambda _: None)
     compiler.results = [CompileResult(fmu=archive(), version="1.27.0")]
     return compiler
 

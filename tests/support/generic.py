@@ -1,6 +1,6 @@
 """Generic robots, which read the record of a robot: models to compile, and the same motion by Pinocchio.
 
-Pinocchio's free motion is that of `urdfsync.urdf.physics.reference`, the base at rest or free, integrated by a
+Pinocchio's free motion is that of `urdfsync.formats.urdf.physics.reference`, the base at rest or free, integrated by a
 Runge-Kutta method: of fourth order for axes, of second order for the attitude of a free base.
 """
 
@@ -16,12 +16,12 @@ from support.modelica import URDFSYNC, Array, Run, Task, bench
 from support.packages import Package, generate
 from support.urdfs import dynamics, every_number, joint, link, links, mimic, robot
 from urdfsync.domain import Target
+from urdfsync.formats.urdf.kinematics.tree import KinematicTree
+from urdfsync.formats.urdf.physics import motion
+from urdfsync.formats.urdf.physics.motion import Course
+from urdfsync.formats.urdf.physics.reference import Configuration, Reference, read
+from urdfsync.formats.urdf.second.dynamics import mechanism_efforts
 from urdfsync.modelica.literals import vector
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.reference import Configuration, Reference, read
-from urdfsync.urdf.second.dynamics import mechanism_efforts
 
 FORMS = ("GenericRobot", "ArticulatedRobot")
 """The two formulations."""

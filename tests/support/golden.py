@@ -19,14 +19,14 @@ import msgspec
 from support.corpus import REPOSITORY
 from support.library import library_artifacts
 from support.packages import RENDERER, Package, generate
-from urdfsync import config
+from urdfsync.common.files import text_hash
 from urdfsync.domain import Artifact, Order, Target
 from urdfsync.engine.decide.parts import file_ids
 from urdfsync.engine.package.render import Renderer
-from urdfsync.files import text_hash
+from urdfsync.formats.urdf.artifacts import record
+from urdfsync.formats.urdf.options import Options
 from urdfsync.modelica.stamp import Stamp, stamped
-from urdfsync.urdf.artifacts import record
-from urdfsync.urdf.options import Options
+from urdfsync.project import config
 
 GOLDEN = REPOSITORY / "tests" / "golden"
 LIBRARY = REPOSITORY / "modelica" / "UrdfSync"

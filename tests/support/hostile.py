@@ -17,7 +17,7 @@ from pathlib import Path
 
 from support.meshes import write_hostile
 from support.urdfs import joint, limit, link, robot
-from urdfsync.state.expansion import Expansion, dumps
+from urdfsync.project.state.expansion import Expansion, dumps
 
 CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 MANIFEST = ".urdfsync/robots/arm.state"

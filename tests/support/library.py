@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from urdfsync.domain import Artifact, Import, Order, Role
-from urdfsync.urdf.meshes.lookup import key
-from urdfsync.urdf.model.joint import joint_model
-from urdfsync.urdf.model.numbers import shape_part
-from urdfsync.urdf.model.shapes import link_model, link_shapes
-from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import (
+from urdfsync.formats.urdf.meshes.lookup import key
+from urdfsync.formats.urdf.model.joint import joint_model
+from urdfsync.formats.urdf.model.numbers import shape_part
+from urdfsync.formats.urdf.model.shapes import link_model, link_shapes
+from urdfsync.formats.urdf.options import Options
+from urdfsync.formats.urdf.robot import (
     JOINT_KINDS,
     Box,
     Capsule,

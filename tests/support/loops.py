@@ -8,8 +8,8 @@ from typing import Any
 
 from msgspec.structs import asdict
 
-from urdfsync.urdf.options import LoopFrame, LoopOption
-from urdfsync.urdf.robot import Inertia, Inertial, Joint, JointType, Limit, Link, Loop, Origin, Robot, Vector
+from urdfsync.formats.urdf.options import LoopFrame, LoopOption
+from urdfsync.formats.urdf.robot import Inertia, Inertial, Joint, JointType, Limit, Link, Loop, Origin, Robot, Vector
 
 UPRIGHT: Vector = (math.pi / 2, 0.0, 0.0)
 """Turns x and y into a vertical plane."""

@@ -19,10 +19,10 @@ import numpy as np
 import pytest
 
 from support.mjcfs import FOLDER, SOURCE, stl
-from urdfsync.mjcf.document import read_document
-from urdfsync.mjcf.urdf import translated
-from urdfsync.translation.files import Files, TranslationError
-from urdfsync.translation.writer import in_xml
+from urdfsync.formats.mjcf.document import read_document
+from urdfsync.formats.mjcf.urdf import translated
+from urdfsync.formats.translation.files import Files, TranslationError
+from urdfsync.formats.translation.writer import in_xml
 
 _READ_AS_BODIES = {
     "body/frame": "axisangle childclass euler name pos quat xyaxes zaxis",

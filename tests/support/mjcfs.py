@@ -9,13 +9,13 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from urdfsync.diagnostics import Severity
-from urdfsync.mjcf.document import MjcfDocument, read_document
-from urdfsync.mjcf.urdf import translated
-from urdfsync.translation.files import Files, TranslationError
-from urdfsync.urdf.options import Options
-from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.robot import Joint, Link, Robot
+from urdfsync.common.diagnostics import Severity
+from urdfsync.formats.mjcf.document import MjcfDocument, read_document
+from urdfsync.formats.mjcf.urdf import translated
+from urdfsync.formats.translation.files import Files, TranslationError
+from urdfsync.formats.urdf.options import Options
+from urdfsync.formats.urdf.parse.source import RobotReading, read_robot
+from urdfsync.formats.urdf.robot import Joint, Link, Robot
 
 FOLDER = "/robots/arm"
 SOURCE = f"{FOLDER}/arm.xml"

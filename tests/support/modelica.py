@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from support.corpus import REPOSITORY
-from urdfsync.checks import libraries as modelica_libraries
-from urdfsync.checks.cache import UserCache
-from urdfsync.checks.compilers import compiler, run_job
-from urdfsync.checks.compilers.compiler import CompileJob, CompilerError, CompileTask, Simulation, Tool
-from urdfsync.checks.process import Limits
+from urdfsync.analysis.checks import libraries as modelica_libraries
+from urdfsync.analysis.checks.cache import UserCache
+from urdfsync.analysis.checks.compilers import compiler, run_job
+from urdfsync.analysis.checks.compilers.compiler import CompileJob, CompilerError, CompileTask, Simulation, Tool
+from urdfsync.analysis.checks.process import Limits
 
 Array = NDArray[np.float64]
 

@@ -11,12 +11,12 @@ import msgspec
 
 from support import robots
 from support.robots import NAMES
-from urdfsync.diagnostics import Severity
+from urdfsync.common.diagnostics import Severity
 from urdfsync.domain import Import, Version
-from urdfsync.state.record import as_read, as_recorded
-from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.robot import Camera, Mesh, Robot, Sensor
-from urdfsync.urdf.validate import ADVICE, check
+from urdfsync.formats.urdf.meshes import lookup
+from urdfsync.formats.urdf.robot import Camera, Mesh, Robot, Sensor
+from urdfsync.formats.urdf.validate import ADVICE, check
+from urdfsync.project.state.record import as_read, as_recorded
 
 Data = dict[str, Any]
 

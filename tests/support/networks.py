@@ -9,11 +9,11 @@ from typing import Any
 
 from support.choices import options
 from support.states import records
-from urdfsync import config
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.state import bases
+from urdfsync.project import config
+from urdfsync.project.state import bases
 
 Snapshot = Callable[[Path], dict[str, tuple[int, bytes]]]
 """The fixture `snapshot_of`."""

@@ -9,7 +9,7 @@ from typing import Any
 from support.packages import Package, generate
 from urdfsync.domain import Companion, Target
 from urdfsync.domain.experiment import Mismatch, Numbers, Sample
-from urdfsync.urdf.second.comparison import compare_numbers
+from urdfsync.formats.urdf.second.comparison import compare_numbers
 
 BOT = Target("Bot", "Bot")
 

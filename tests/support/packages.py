@@ -11,16 +11,16 @@ from typing import Any, get_args
 import msgspec
 
 from support.corpus import REPOSITORY
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
 from urdfsync.domain import Artifact, Companion, Import, Lookup, Order, Reading, Role, Target, Version
 from urdfsync.engine.judgements import judge
 from urdfsync.engine.package.render import Renderer
-from urdfsync.state.record import as_read, as_recorded
-from urdfsync.urdf.artifacts import record
-from urdfsync.urdf.domain import DOMAIN
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import LeftOut, Options
-from urdfsync.urdf.robot import Robot
+from urdfsync.formats.urdf.artifacts import record
+from urdfsync.formats.urdf.domain import DOMAIN
+from urdfsync.formats.urdf.kinematics.tree import KinematicTree
+from urdfsync.formats.urdf.options import LeftOut, Options
+from urdfsync.formats.urdf.robot import Robot
+from urdfsync.project.state.record import as_read, as_recorded
 
 _EXTENDS = re.compile(r"  extends UrdfSync\.Records\.Robot\(\n(.*?)\);\n\n", re.DOTALL)
 _MODIFIER = re.compile(r"^    (?=\w)", re.MULTILINE)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 
-from urdfsync import cli
+from urdfsync.commands import cli
 
 
 def patch_and_told(*arguments: str, code: int = 0) -> tuple[bytes, list[str]]:

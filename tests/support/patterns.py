@@ -30,12 +30,12 @@ ONE_CHARACTER = (ops.LITERAL, ops.NOT_LITERAL, ops.ANY, ops.IN)
 CHARACTERS = "a 0\n\t;\"'/*<>=-_.,()[]{}|:#@A\\é$%^&+?!~`\0"
 SHORT, LARGE = 1_000, 200_000
 LOCAL = {
-    ("checks/compilers/omc.py", "task.pattern"): "['.*']",  # of the user's own command line
-    ("checks/compilers/rumoca.py", "task.pattern"): "['.*']",
+    ("analysis/checks/compilers/omc.py", "task.pattern"): "['.*']",  # of the user's own command line
+    ("analysis/checks/compilers/rumoca.py", "task.pattern"): "['.*']",
     ("engine/sources/file_kinds.py", "pattern"): "[pattern for _, pattern, _ in _OTHERS]",
     ("engine/package/imports.py", "beginning"): "[*_HINTS]",
     ("modelica/files.py", "b'\\\\b' + re.escape(name) + b'\\\\b'"): "[rb'\\bname\\b']",
-    ("urdf/meshes/reading.py", "statements"): "[rb'^ *((?:[vf]|usemtl) .*)', rb'^ *([vf] .*)']",
+    ("formats/urdf/meshes/reading.py", "statements"): "[rb'^ *((?:[vf]|usemtl) .*)', rb'^ *([vf] .*)']",
 }
 """Local names, by module and argument of `re`, with an expression for the patterns that they stand for."""
 

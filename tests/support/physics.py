@@ -12,11 +12,11 @@ import msgspec
 from support import recorded_omc
 from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
-from urdfsync.checks import compilation
+from urdfsync.analysis.checks import compilation
 from urdfsync.domain import Target
 from urdfsync.domain.experiment import Deviation, Experiment, Sample
-from urdfsync.urdf.domain import DOMAIN
-from urdfsync.urdf.options import Options
+from urdfsync.formats.urdf.domain import DOMAIN
+from urdfsync.formats.urdf.options import Options
 
 
 @dataclasses.dataclass(frozen=True)

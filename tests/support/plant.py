@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from support.corpus import REPOSITORY
-from urdfsync.checks import libraries
+from urdfsync.analysis.checks import libraries
 from urdfsync.modelica.stored import StoredClasses
 
 MARKED_PLANT = """\

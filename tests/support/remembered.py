@@ -9,8 +9,9 @@ from pathlib import Path
 from unittest import mock
 
 from support.meshes import stl
-from urdfsync import cli, noop
-from urdfsync.dependencies import facts
+from urdfsync.commands import cli
+from urdfsync.common import noop
+from urdfsync.common.dependencies import facts
 
 LIMIT = 60.0
 """Seconds after which a test fails because nothing was remembered."""

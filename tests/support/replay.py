@@ -17,11 +17,11 @@ import msgspec
 from support import corpus
 from support.choices import options
 from support.packages import proposed_base, read
-from urdfsync import config
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result
 from urdfsync.modelica.stamp import with_stamp
-from urdfsync.state import statefile
+from urdfsync.project import config
+from urdfsync.project.state import statefile
 
 ALL = "URDFSYNC_REPLAYS"
 """Environment variable: a number of steps with random edits; with it, all histories of the corpus are replayed."""

@@ -11,10 +11,10 @@ from xml.sax.saxutils import quoteattr
 import msgspec
 from hypothesis import strategies as st
 
-from urdfsync.urdf.assembly import Assembly
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import (
+from urdfsync.formats.urdf.assembly import Assembly
+from urdfsync.formats.urdf.kinematics.tree import KinematicTree
+from urdfsync.formats.urdf.options import Options
+from urdfsync.formats.urdf.robot import (
     MOTION_KINDS,
     Box,
     Calibration,

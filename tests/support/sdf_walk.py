@@ -12,9 +12,9 @@ from xml.etree.ElementTree import Element, SubElement, fromstring, tostring
 import msgspec
 
 from support.sdfs import reading
-from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.translation.files import TranslationError
-from urdfsync.urdf.robot import Robot
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.formats.translation.files import TranslationError
+from urdfsync.formats.urdf.robot import Robot
 
 _DESCRIPTION = Path(__file__).parents[1] / "sdf" / "description.txt"
 _NEWEST = "1.12"

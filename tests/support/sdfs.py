@@ -7,16 +7,16 @@ from collections.abc import Mapping
 
 import pytest
 
-from urdfsync.diagnostics import Severity
-from urdfsync.sdf.document import SdfDocument
-from urdfsync.sdf.frames import Frames
-from urdfsync.sdf.robot import translated
-from urdfsync.sdf.worker import choose_model
-from urdfsync.translation.files import Files, TranslationError
-from urdfsync.translation.writer import write
-from urdfsync.urdf.options import Options
-from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.robot import Joint, Link, Robot
+from urdfsync.common.diagnostics import Severity
+from urdfsync.formats.sdf.document import SdfDocument
+from urdfsync.formats.sdf.frames import Frames
+from urdfsync.formats.sdf.robot import translated
+from urdfsync.formats.sdf.worker import choose_model
+from urdfsync.formats.translation.files import Files, TranslationError
+from urdfsync.formats.translation.writer import write
+from urdfsync.formats.urdf.options import Options
+from urdfsync.formats.urdf.parse.source import RobotReading, read_robot
+from urdfsync.formats.urdf.robot import Joint, Link, Robot
 
 FOLDER = "/robots/arm"
 SOURCE = f"{FOLDER}/arm.sdf"

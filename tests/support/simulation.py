@@ -11,14 +11,15 @@ import pytest
 
 from support import urdfs
 from support.modelica import CACHE
-from urdfsync import cli, config
-from urdfsync.checks.cache import UserCache
-from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, SimulationResult, Tool
-from urdfsync.checks.process import Limits
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.analysis.checks.cache import UserCache
+from urdfsync.analysis.checks.compilers.compiler import CompileJob, CompileResult, SimulationResult, Tool
+from urdfsync.analysis.checks.process import Limits
+from urdfsync.analysis.simulation.results import SimulateOptions, SimulateResult
+from urdfsync.analysis.simulation.run import simulate
+from urdfsync.commands import cli
+from urdfsync.common.diagnostics import UrdfsyncError
 from urdfsync.engine.options import no_progress
-from urdfsync.simulation.results import SimulateOptions, SimulateResult
-from urdfsync.simulation.run import simulate
+from urdfsync.project import config
 
 ARM = urdfs.robot(
     *urdfs.links(base=None, upper=2.0, lower=1.0),
@@ -99,7 +100,7 @@ def arm(built_arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
 def compiler(arm: Path, modelica_library: Path, monkeypatch: pytest.MonkeyPatch) -> Compiler:
     """A compiler that compiles nothing, for the arm."""
     found = Compiler()
-    monkeypatch.setattr("urdfsync.checks.compilers.run_job", found)
+    monkeypatch.setattr("urdfsync.analysis.checks.compilers.run_job", found)
     return found
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.state import statefile
-from urdfsync.state.record import Record
+from urdfsync.project.state import statefile
+from urdfsync.project.state.record import Record
 
 
 def records(state: Path) -> tuple[Record, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from urdfsync.urdf.robot import Joint, Link, Loop, Origin, Robot
+from urdfsync.formats.urdf.robot import Joint, Link, Loop, Origin, Robot
 
 _Point = tuple[float, float]
 _BARS = dict(zip("abcdefgjklm", (38.0, 41.5, 39.3, 40.1, 55.8, 39.4, 36.7, 50.0, 61.9, 7.8, 15.0), strict=True))

@@ -1,15 +1,15 @@
-"""A robot with two joints to check, which the fixture `arm` of `tests/checks` builds, and its findings."""
+"""A robot with two joints to check, which the fixture `arm` of `tests/analysis/checks` builds, and its findings."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from support.urdfs import dynamics, joint, link, robot
-from urdfsync import config
-from urdfsync.checks.results import CheckOptions, CheckResult
-from urdfsync.checks.robot import check_robot
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult
+from urdfsync.analysis.checks.robot import check_robot
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
+from urdfsync.project import config
 
 LINKS = link("base", 3.0), link("arm", 2.0, rpy="0.1 0.2 0.3"), link("hand", 0.7)
 JOINTS = (

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from urdfsync.domain import Version
-from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.robot import Dynamics, Robot
+from urdfsync.formats.urdf.parse.source import read_robot
+from urdfsync.formats.urdf.robot import Dynamics, Robot
 
 
 def robot(*elements: str, name: str = "own", version: str = "1.0") -> str:

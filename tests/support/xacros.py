@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.diagnostics import SourceError
+from urdfsync.common.diagnostics import SourceError
 from urdfsync.engine.sources.expansion import SourceFiles, expand
 
 HEAD = '<robot name="{0}" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'

@@ -16,14 +16,14 @@ import pytest
 from support.daemon import LIMIT, MODEL, RECORD, REPOSITORY, Daemons, Watch, until
 from support.networks import configure, edit
 
-from urdfsync.checks import run
-from urdfsync.checks.cache import UserCache
-from urdfsync.checks.fingerprint import fingerprint
-from urdfsync.checks.results import CheckOptions, CheckResult, CompiledModel, ToolResult
-from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.analysis.checks import run
+from urdfsync.analysis.checks.cache import UserCache
+from urdfsync.analysis.checks.fingerprint import fingerprint
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult, CompiledModel, ToolResult
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
 from urdfsync.engine.result import Checked
+from urdfsync.project.config import Config, RobotConfig
 from urdfsync.watch import events
 
 RIGHT = CheckResult("ladder", "Ladder", tools=(ToolResult(compiled=(CompiledModel("Ladder", 12),)),), seconds=2.5)
@@ -210,7 +210,7 @@ def compilers(watch: Watch) -> list[psutil.Process]:
     while time.monotonic() < deadline and not any(event["event"] == "checked" for event in watch.events):
         with contextlib.suppress(psutil.NoSuchProcess):
             found = psutil.Process(watch.process.pid).children(recursive=True)
-            if any("urdfsync.checks.process" in process.cmdline() for process in found):
+            if any("urdfsync.analysis.checks.process" in process.cmdline() for process in found):
                 return found
         time.sleep(0.05)
     raise AssertionError(watch.said)

@@ -20,8 +20,8 @@ from support.daemon import MODEL, RECORD, REPOSITORY, Event, Start, Watch, holds
 from support.git import NEEDS_GIT, Repository
 from support.networks import configure
 
-from urdfsync import cli
-from urdfsync.state.lock import build_lock
+from urdfsync.commands import cli
+from urdfsync.project.state.lock import build_lock
 
 CONFIG = '[robots.{0}]\nsource = "{1}"\npackage = "{2}"\ndomain = "rcnetwork"\n'
 BUILD = ["settling", "building", "built"]

@@ -14,7 +14,7 @@ from support.daemon import MODEL, NEVER, RECORD, Daemons, holds, save, until
 from support.networks import configure, edit
 from support.urdfs import link
 
-from urdfsync import registry
+from urdfsync.domain import registry
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage.writes import Plan
 from urdfsync.watch import events

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from support.networks import configure, run
 
-from urdfsync import config
-from urdfsync.dependencies.facts import MODELICA, NAMES, PATH, Entry
+from urdfsync.common.dependencies.facts import MODELICA, NAMES, PATH, Entry
+from urdfsync.project import config
 from urdfsync.watch.paths import WatchedFolders, find_watched_folders
 
 

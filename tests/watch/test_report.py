@@ -15,11 +15,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.screen import Screen
 
-from urdfsync.changes import Changes
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.domain import ChangeKind as Event
 from urdfsync.domain.changes import Change
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import Console

@@ -9,10 +9,10 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from urdfsync import config
-from urdfsync.dependencies import facts
-from urdfsync.dependencies.reads import Reads, file_type, list_folder, read_file, read_variable, scan_folder
-from urdfsync.files import Tree, digest
+from urdfsync.common.dependencies import facts
+from urdfsync.common.dependencies.reads import Reads, file_type, list_folder, read_file, read_variable, scan_folder
+from urdfsync.common.files import Tree, digest
+from urdfsync.project import config
 from urdfsync.watch.robot import WatchedRobot
 
 

@@ -16,10 +16,11 @@ from support.browser import NEEDS_CHROMIUM, browser
 from support.commands import Execute
 from support.daemon import Watch, until
 
-from urdfsync import cli, config
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.commands import cli
+from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
+from urdfsync.project import config
 from urdfsync.watch import events
 from urdfsync.watch.daemon import WatchOptions
 from urdfsync.watch.view import View

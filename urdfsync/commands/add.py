@@ -6,7 +6,6 @@ import argparse
 import itertools
 from pathlib import Path
 
-from urdfsync import config, registry
 from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.commands.init import (
@@ -18,10 +17,12 @@ from urdfsync.commands.init import (
     write_schema,
     write_templates,
 )
-from urdfsync.diagnostics import ConfigError
-from urdfsync.files import shown
+from urdfsync.common.diagnostics import ConfigError
+from urdfsync.common.files import shown
+from urdfsync.domain import registry
 from urdfsync.output.console import Console
-from urdfsync.state.transaction import save
+from urdfsync.project import config
+from urdfsync.project.state.transaction import save
 
 
 def add(commands: arguments.Commands) -> None:

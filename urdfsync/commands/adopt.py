@@ -8,7 +8,6 @@ from pathlib import Path
 
 from urdfsync.api import load
 from urdfsync.commands import arguments
-from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.edits import RobotEdits, find_edited
@@ -22,6 +21,7 @@ from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console, StyledLine
 from urdfsync.output.edits import to_section
 from urdfsync.output.terminal import details, file_line
+from urdfsync.project.config import Config, RobotConfig
 
 _EDITS = 5
 """The greatest number of edits of a file that are listed without --verbose."""

@@ -14,14 +14,14 @@ from typing import Any, NamedTuple, NoReturn, TypeAlias, TypeVar, get_args
 import msgspec
 
 from urdfsync.api import load
-from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.facts import read_unrecorded
-from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.commands.overview import CODES
+from urdfsync.common.dependencies.facts import read_unrecorded
+from urdfsync.common.dependencies.reads import Reads
+from urdfsync.common.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.remembered import remember_configuration
 from urdfsync.output.console import PURPOSES, Console, Format
-from urdfsync.overview import CODES
+from urdfsync.project.config import Config, RobotConfig
 
 DRIVER_ERROR = 255
 """Exit code of a failed merge driver; git reads lower codes as numbers of conflicts."""
@@ -183,7 +183,7 @@ def _tool_name(titles: Mapping[str, str], text: str) -> str:
 
 def select_robots(args: argparse.Namespace, configuration: Config, console: Console) -> Sequence[RobotConfig]:
     """Return the robots that the arguments name, or all; warn of settings without effect."""
-    from urdfsync.config import warnings
+    from urdfsync.project.config import warnings
 
     robots = configuration.select(args.robots)
     console.warnings(warnings.find_warnings(configuration, robots))

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from urdfsync.api import build_and_check
 from urdfsync.commands import arguments
+from urdfsync.common.files import shown
 from urdfsync.engine.result import Result, exit_code
-from urdfsync.files import shown
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console, StyledLine, line
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from urdfsync.checks import compilers
-from urdfsync.checks.compilers import BOTH, COMPILERS
-from urdfsync.checks.report import closing_lines, to_section
-from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, Judgement, exit_code
-from urdfsync.checks.run import check_robots
+from urdfsync.analysis.checks import compilers
+from urdfsync.analysis.checks.compilers import BOTH, COMPILERS
+from urdfsync.analysis.checks.report import closing_lines, to_section
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult, CheckStatus, Judgement, exit_code
+from urdfsync.analysis.checks.run import check_robots
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.common.diagnostics import UrdfsyncError
 from urdfsync.output.console import Console, line
 from urdfsync.output.terminal import text
 
@@ -77,8 +77,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _judge(args: argparse.Namespace, console: Console) -> tuple[Judgement | None, UrdfsyncError | None]:
     """Compare the one robot with a log; return the fault of a log that can't be used, to be told after the check."""
-    from urdfsync.identification import run  # loads numpy
-    from urdfsync.identification.results import IdentifyOptions
+    from urdfsync.analysis.identification import run  # loads numpy
+    from urdfsync.analysis.identification.results import IdentifyOptions
 
     given = {"columns": tuple(args.columns), "topic": args.topic, "motor_side": args.motor_side}
     options = IdentifyOptions(**given, wait=args.wait)

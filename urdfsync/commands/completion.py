@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 
 from urdfsync.commands import arguments
+from urdfsync.commands.shells import completion
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.shells import completion
 
 
 def add(commands: arguments.Commands) -> None:

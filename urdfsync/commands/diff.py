@@ -6,16 +6,16 @@ import argparse
 
 import msgspec
 
+from urdfsync.analysis.versions import report
+from urdfsync.analysis.versions.comparison import Comparison, exit_code
 from urdfsync.api import compare, load
 from urdfsync.commands import arguments
-from urdfsync.config import Config
+from urdfsync.common.files import shown
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
-from urdfsync.files import shown
 from urdfsync.output.build_section import show
 from urdfsync.output.console import Console, line
-from urdfsync.versions import report
-from urdfsync.versions.comparison import Comparison, exit_code
+from urdfsync.project.config import Config
 
 
 def add(commands: arguments.Commands) -> None:
@@ -69,7 +69,7 @@ def _write_patch(args: argparse.Namespace, console: Console) -> int:
         message = "--patch writes a patch of what --edits shows" if not args.edits else "--patch writes no document"
         hint = "add --edits" if not args.edits else "leave out --format; --edits alone can write a document"
         raise arguments.UsageError(args.parser, message, hint)
-    from urdfsync.patches.patch import RobotPatch, find_patches, patch_text  # the merge takes a while to load
+    from urdfsync.analysis.patches.patch import RobotPatch, find_patches, patch_text  # the merge takes a while to load
 
     config, patches = load(args.config), list[RobotPatch]()
     for patch in find_patches(args.sources, config, BuildOptions(dry=True, wait=args.wait, progress=console.progress)):

@@ -14,8 +14,8 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
-from urdfsync.dependencies.facts import read_unrecorded
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.common.dependencies.facts import read_unrecorded
+from urdfsync.common.diagnostics import UrdfsyncError
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.inspect.package_files import encode
 from urdfsync.merge.texts import find_flaw

@@ -6,18 +6,18 @@ import argparse
 import importlib.util
 from pathlib import Path
 
-from urdfsync.checks import compilers
-from urdfsync.checks.compilers.compiler import Export
+from urdfsync.analysis.checks import compilers
+from urdfsync.analysis.checks.compilers.compiler import Export
+from urdfsync.analysis.simulation.export import TOLERANCE, export, is_exported
+from urdfsync.analysis.simulation.files import check_file, default_file, input_files, not_writable, write_file
+from urdfsync.analysis.simulation.fmu import KINDS, WrittenFmu, find_faults, try_out
+from urdfsync.analysis.simulation.report import fmu_lines
+from urdfsync.analysis.simulation.results import STOP, SimulateOptions
 from urdfsync.commands import arguments
-from urdfsync.diagnostics import ConfigError
+from urdfsync.common.diagnostics import ConfigError
+from urdfsync.common.extras import install_command
 from urdfsync.engine.result import Exit
-from urdfsync.extras import install_command
 from urdfsync.output.console import Console
-from urdfsync.simulation.export import TOLERANCE, export, is_exported
-from urdfsync.simulation.files import check_file, default_file, input_files, not_writable, write_file
-from urdfsync.simulation.fmu import KINDS, WrittenFmu, find_faults, try_out
-from urdfsync.simulation.report import fmu_lines
-from urdfsync.simulation.results import STOP, SimulateOptions
 
 _VERSIONS = {"2": "2.0", "3": "3.0"}
 _EXPORTED = {"me": "me", "cs": "cs", "both": "me_cs"}

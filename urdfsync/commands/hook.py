@@ -16,23 +16,24 @@ from pathlib import Path, PurePosixPath
 
 import msgspec
 
-from urdfsync import config as configuration
-from urdfsync import git, noop
 from urdfsync.commands import arguments
-from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies.facts import LISTINGS, UNMERGED, VARIABLE, Entry, counting
-from urdfsync.dependencies.places import Clone
-from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
+from urdfsync.common import noop
+from urdfsync.common.dependencies.facts import LISTINGS, UNMERGED, VARIABLE, Entry, counting
+from urdfsync.common.dependencies.places import Clone
+from urdfsync.common.dependencies.reads import Reads
+from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
+from urdfsync.common.files import shown
+from urdfsync.common.spelling import counted
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.remembered import remember_configuration
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.files import shown
-from urdfsync.git.clone import Commit, PathChange, export
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
-from urdfsync.spelling import counted
+from urdfsync.project import config as configuration
+from urdfsync.project import git
+from urdfsync.project.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.project.git.clone import Commit, PathChange, export
 
 _FEW = 4
 """If a hint has more files to add, it names whole folders."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from urdfsync.analysis.identification.report import excitation_lines, identification_lines
+from urdfsync.analysis.identification.results import IdentifyOptions
 from urdfsync.api import excite, identify
 from urdfsync.commands import arguments
 from urdfsync.engine.result import Exit
-from urdfsync.identification.report import excitation_lines, identification_lines
-from urdfsync.identification.results import IdentifyOptions
 from urdfsync.output.console import Console
 
 

@@ -15,19 +15,19 @@ from typing import Any, TypeAlias
 import msgspec
 import tomli_w
 
-from urdfsync import config, registry
 from urdfsync.commands import arguments, merge_driver
-from urdfsync.config import schema
-from urdfsync.config.load import in_words
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
-from urdfsync.domain import Domain, Version
+from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError
+from urdfsync.common.files import Tree, put, shown
+from urdfsync.domain import Domain, Version, registry
 from urdfsync.domain.advice import Proposal
 from urdfsync.engine.judgements import judge
 from urdfsync.engine.result import Exit
 from urdfsync.engine.sources import source as source_files
-from urdfsync.files import Tree, put, shown
 from urdfsync.modelica.names import class_name, in_ascii
 from urdfsync.output.console import Console, line
+from urdfsync.project import config
+from urdfsync.project.config import schema
+from urdfsync.project.config.load import in_words
 
 _HEADER = f"""\
 #:schema {config.STATE_FOLDER}/{schema.SCHEMA_FILE}

@@ -9,10 +9,10 @@ import sys
 
 import msgspec
 
-from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, line
+from urdfsync.project import config
 
 
 class LibraryDocument(msgspec.Struct):

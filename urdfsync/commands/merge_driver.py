@@ -8,13 +8,13 @@ import shlex
 import sys
 from pathlib import Path
 
-from urdfsync import git
 from urdfsync.commands import arguments
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.common.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.common.files import put, shown
+from urdfsync.common.spelling import counted
 from urdfsync.engine.result import Exit
-from urdfsync.files import put, shown
 from urdfsync.output.console import Console, line
-from urdfsync.spelling import counted
+from urdfsync.project import git
 
 _MARKER_SIZE = 7
 """The default length of markers."""

@@ -8,15 +8,15 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.analysis.simulation.files import check_file, write_file
 from urdfsync.api import record
 from urdfsync.commands import arguments
-from urdfsync.dependencies.facts import read_unrecorded
-from urdfsync.diagnostics import OutputError
+from urdfsync.common.dependencies.facts import read_unrecorded
+from urdfsync.common.diagnostics import OutputError
+from urdfsync.common.files import normalised, shown
 from urdfsync.engine.result import Exit
-from urdfsync.files import normalised, shown
 from urdfsync.modelica.names import is_class_name
 from urdfsync.output.console import Console, line
-from urdfsync.simulation.files import check_file, write_file
 
 
 def add(commands: arguments.Commands) -> None:

@@ -7,17 +7,17 @@ import argparse
 from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
-from urdfsync.config import Config, tomlfile
-from urdfsync.diagnostics import ConfigError
+from urdfsync.common.diagnostics import ConfigError
+from urdfsync.common.files import shown
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result, exit_code
-from urdfsync.files import shown
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
 from urdfsync.output.sections import Mark, Section, TextTable
 from urdfsync.output.terminal import file_line, text
-from urdfsync.state.transaction import save
+from urdfsync.project.config import Config, tomlfile
+from urdfsync.project.state.transaction import save
 
 _FILES = 20
 """The greatest number of deleted files that are listed without --verbose."""

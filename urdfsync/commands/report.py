@@ -9,13 +9,13 @@ from typing import Any
 
 import msgspec
 
+from urdfsync.analysis.simulation.files import default_file, input_files, write_file
 from urdfsync.api import load
 from urdfsync.commands import arguments
-from urdfsync.config import working_folder
+from urdfsync.common.files import shown
 from urdfsync.engine.result import Exit
-from urdfsync.files import shown
 from urdfsync.output.console import Console, line
-from urdfsync.simulation.files import default_file, input_files, write_file
+from urdfsync.project.config import working_folder
 
 
 class PageDocument(msgspec.Struct):
@@ -47,8 +47,8 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page of one robot, and show its path."""
-    from urdfsync.checks.robot import known_check
-    from urdfsync.pages.page import is_page  # takes 50 ms with Jinja, which `urdfsync --help` saves
+    from urdfsync.analysis.checks.robot import known_check
+    from urdfsync.analysis.pages.page import is_page  # takes 50 ms with Jinja, which `urdfsync --help` saves
 
     configuration, robot = arguments.select_robot(args, console)
     file = args.output or default_file(f"{robot.name}.html", is_page)
@@ -66,8 +66,8 @@ def prepare_page(
     `against` is the older version; `motion` is an input file that the page must not replace. Raises an error for an
     unwritable file, before the work for the page begins.
     """
-    from urdfsync.pages.content import gather  # see above
-    from urdfsync.pages.page import check_page, page
+    from urdfsync.analysis.pages.content import gather  # see above
+    from urdfsync.analysis.pages.page import check_page, page
 
     configuration = load(args.config)
     robot = configuration.select_one(args.robots, args.command, getattr(args, "model", ""))

@@ -10,20 +10,20 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import config
 from urdfsync.api import build_and_check, load
 from urdfsync.commands import arguments, editor
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import shown
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Choice, Reason, UsersChoice
 from urdfsync.engine.build import build
 from urdfsync.engine.decide.conflicts import PREFERENCES
 from urdfsync.engine.inspect.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.files import shown
 from urdfsync.output.build_section import show_result
 from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import Console
+from urdfsync.project import config
 
 
 def add(commands: arguments.Commands) -> None:

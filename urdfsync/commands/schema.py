@@ -18,22 +18,22 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
+from urdfsync.analysis.checks.results import CheckResult
+from urdfsync.analysis.identification.results import Excitation, Identification
+from urdfsync.analysis.simulation.fmu import WrittenFmu
+from urdfsync.analysis.simulation.outcomes import Study
+from urdfsync.analysis.simulation.results import SimulateResult
+from urdfsync.analysis.versions.comparison import Comparison
 from urdfsync.api import WholeRecord
-from urdfsync.checks.results import CheckResult
 from urdfsync.commands import arguments
 from urdfsync.commands.init import Guess
 from urdfsync.commands.library import LibraryDocument
 from urdfsync.commands.report import PageDocument
-from urdfsync.config import schema
 from urdfsync.engine.edits import RobotEdits
 from urdfsync.engine.result import Exit, Result
-from urdfsync.identification.results import Excitation, Identification
 from urdfsync.output.console import Console
 from urdfsync.output.documents import Document, document_keys
-from urdfsync.simulation.fmu import WrittenFmu
-from urdfsync.simulation.outcomes import Study
-from urdfsync.simulation.results import SimulateResult
-from urdfsync.versions.comparison import Comparison
+from urdfsync.project.config import schema
 
 _RESULTS: dict[str, tuple[Any, ...]] = {
     **dict.fromkeys(("build", "status", "resolve", "remove", "adopt", "hook"), (Result,)),

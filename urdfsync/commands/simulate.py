@@ -7,17 +7,17 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.analysis.checks.compilers import COMPILERS
+from urdfsync.analysis.simulation.cases import SAMPLES
+from urdfsync.analysis.simulation.files import check_distinct
+from urdfsync.analysis.simulation.report import result_lines, study_lines
+from urdfsync.analysis.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions, VaryOptions
 from urdfsync.api import simulate, vary
-from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
-from urdfsync.diagnostics import Severity
+from urdfsync.common.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.simulation.cases import SAMPLES
-from urdfsync.simulation.files import check_distinct
-from urdfsync.simulation.report import result_lines, study_lines
-from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions, VaryOptions
 
 
 def add(commands: arguments.Commands) -> None:

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from types import FrameType
 from typing import TYPE_CHECKING
 
-from urdfsync import config
 from urdfsync.commands import arguments
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
+from urdfsync.project import config
 
 if TYPE_CHECKING:
     from urdfsync.watch.daemon import Daemon

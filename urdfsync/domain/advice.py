@@ -7,7 +7,7 @@ from typing import Any, Protocol, TypeAlias
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
 from urdfsync.domain.model import Snapshot, Target
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import Any, Protocol, TypeAlias
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
 from urdfsync.domain.model import Artifact, Dependency, ElementKey, Import, Reading, Snapshot, Target, Version
 
 Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any, Mapping[str, tuple[str, str]]], str | None]

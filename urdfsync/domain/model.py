@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
 
 Snapshot: TypeAlias = Any
 """A model as its domain reads it: a frozen msgspec.Struct, `Domain.model`, with all data of artifacts.

@@ -14,11 +14,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import msgspec
 
-from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.config.trust import find_untrusted_output
-from urdfsync.dependencies.facts import Dependencies
-from urdfsync.dependencies.reads import Reads, include
-from urdfsync.diagnostics import (
+from urdfsync.common.dependencies.facts import Dependencies
+from urdfsync.common.dependencies.reads import Reads, include
+from urdfsync.common.diagnostics import (
     ConfigError,
     Diagnostic,
     OutputError,
@@ -27,6 +25,8 @@ from urdfsync.diagnostics import (
     UrdfsyncError,
     findings_of,
 )
+from urdfsync.common.files import shown
+from urdfsync.common.processes import machine
 from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.options import BuildOptions
@@ -34,12 +34,12 @@ from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.remembered import RobotRecords
 from urdfsync.engine.result import Outlook, Result
 from urdfsync.engine.stage.writes import Plan, shared_change
-from urdfsync.files import shown
-from urdfsync.processes import machine
-from urdfsync.state import notes
-from urdfsync.state.lock import Lock, LockedError, build_lock
-from urdfsync.state.store import Store
-from urdfsync.state.transaction import UNFINISHED, Transactions, find_leftovers
+from urdfsync.project.config import STATE_FOLDER, Config, RobotConfig
+from urdfsync.project.config.trust import find_untrusted_output
+from urdfsync.project.state import notes
+from urdfsync.project.state.lock import Lock, LockedError, build_lock
+from urdfsync.project.state.store import Store
+from urdfsync.project.state.transaction import UNFINISHED, Transactions, find_leftovers
 
 if TYPE_CHECKING:
     from urdfsync.engine.pool import Planned

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import Config, working_folder
-from urdfsync.diagnostics import Diagnostic, findings_of
+from urdfsync.common.diagnostics import Diagnostic, findings_of
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.generation import Generation, generate_robot
@@ -18,6 +17,7 @@ from urdfsync.engine.inspect.package_files import CLASS_FOLDER
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import decide_robot
 from urdfsync.merge import edits as merge_edits
+from urdfsync.project.config import Config, working_folder
 
 
 class EditedFile(msgspec.Struct, frozen=True):

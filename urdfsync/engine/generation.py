@@ -7,7 +7,8 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
+from urdfsync.common.files import shown
 from urdfsync.domain import Domain, ElementKey, Lookup, Reading, Role, Version
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import with_line_ends
@@ -17,7 +18,6 @@ from urdfsync.engine.package.imports import Imported
 from urdfsync.engine.renames import check_declared, find_matching, pending
 from urdfsync.engine.sources import source
 from urdfsync.engine.sources.source import Source
-from urdfsync.files import shown
 
 
 class Generation(msgspec.Struct, frozen=True):

@@ -9,9 +9,9 @@ from collections.abc import Collection, Iterator, Mapping
 
 import msgspec
 
-from urdfsync.changes import Changes
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
 from urdfsync.domain import Domain, ElementKey, Reading, Version
+from urdfsync.domain.comparison import Changes
 from urdfsync.domain.features import Judgements
 from urdfsync.engine.inspect.last_build import NO_MODEL
 

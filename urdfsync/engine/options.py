@@ -8,8 +8,8 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.config import ros_package_path
 from urdfsync.engine.actions import UsersChoice
+from urdfsync.project.config import ros_package_path
 
 Progress: TypeAlias = Callable[[str, int, int], None]
 """Shows progress; called with a step of the work, the finished amount, and the total."""

@@ -5,8 +5,7 @@
 
 from __future__ import annotations
 
-from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.reads import Reads
+from urdfsync.common.dependencies.reads import Reads
 from urdfsync.engine.decide.decision import Decision, decide_package
 from urdfsync.engine.decide.settle import settle, with_choices
 from urdfsync.engine.generation import Generation, generate_robot
@@ -15,6 +14,7 @@ from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Outlook
 from urdfsync.engine.stage.writes import Plan, stage
+from urdfsync.project.config import Config, RobotConfig
 
 
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions, reads: Reads) -> Plan:

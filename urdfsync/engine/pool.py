@@ -9,14 +9,14 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import OutputError, UrdfsyncError, findings_of
+from urdfsync.common.dependencies.reads import Reads
+from urdfsync.common.diagnostics import OutputError, UrdfsyncError, findings_of
+from urdfsync.common.processes import machine
+from urdfsync.common.processes.workers import workers
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage.writes import Plan
-from urdfsync.processes import machine
-from urdfsync.processes.workers import workers
+from urdfsync.project.config import Config, RobotConfig
 
 _AHEAD = 3
 """The greatest number of plans per worker, unfinished or not yet used: each plan holds the texts of a robot."""

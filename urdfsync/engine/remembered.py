@@ -10,19 +10,20 @@ from collections.abc import Sequence
 
 import msgspec
 
-from urdfsync import noop, registry
-from urdfsync.changes import Changes
-from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies.facts import Dependencies
-from urdfsync.dependencies.places import is_clone
-from urdfsync.dependencies.reads import Reads
-from urdfsync.dependencies.record import CONFIGURATION, ROBOT, Record, Records
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common import noop
+from urdfsync.common.dependencies.facts import Dependencies
+from urdfsync.common.dependencies.places import is_clone
+from urdfsync.common.dependencies.reads import Reads
+from urdfsync.common.dependencies.record import CONFIGURATION, ROBOT, Record, Records
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import digest, shown
+from urdfsync.domain import registry
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import Action, Actions, FileStatus, Reason
 from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Outlook, Result
-from urdfsync.files import digest, shown
+from urdfsync.project.config import STATE_FOLDER, Config, RobotConfig
 
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.UNKNOWN})
 """Reasons of actions that `build` does not list."""

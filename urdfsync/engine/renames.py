@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.common.files import shown
+from urdfsync.common.spelling import nearest
 from urdfsync.domain import Domain, ElementKey, Features, Snapshot, displaced
 from urdfsync.domain.changes import Formats
+from urdfsync.domain.matching import Elements, Matching, match
 from urdfsync.engine.inspect.inputs import Inputs
-from urdfsync.files import shown
-from urdfsync.matching import Elements, Matching, match
-from urdfsync.spelling import nearest
 
 
 def find_matching(

@@ -11,14 +11,14 @@ from typing import Any, Self
 
 import msgspec
 
-from urdfsync.changes import Changes
-from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.facts import Dependencies
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.common.dependencies.facts import Dependencies
+from urdfsync.common.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.common.files import shown
+from urdfsync.common.spelling import counted
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
 from urdfsync.engine.decide.conflicts import Conflict
-from urdfsync.files import shown
-from urdfsync.spelling import counted
+from urdfsync.project.config import Config, RobotConfig
 
 _NAMED = 3
 """The greatest number of contradictions that a sentence about a file names."""

@@ -24,6 +24,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.common.spelling import same_count
 from urdfsync.merge.layout import PICTURES, arrange, find_users_layout
 from urdfsync.merge.lines import Contradiction, Piece, merge_order, merge_sequences, merge_whole_lines
 from urdfsync.merge.pairs import pair
@@ -40,7 +41,6 @@ from urdfsync.modelica.tree import (
     is_section,
     section_name,
 )
-from urdfsync.spelling import same_count
 
 ROUNDING = 1e-6
 """The greatest difference of two numbers by rounding, relative to the larger number."""

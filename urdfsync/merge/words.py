@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
+from urdfsync.common.spelling import same_count
 from urdfsync.merge.lines import Contradiction
 from urdfsync.modelica.tree import INITIAL
-from urdfsync.spelling import same_count
 
 _LONGEST = 60
 """The greatest number of characters of a text that a sentence quotes."""

@@ -9,8 +9,8 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import TypeAlias
 
-from urdfsync.dependencies.facts import MODELICA
-from urdfsync.dependencies.reads import is_file, scan_folder
+from urdfsync.common.dependencies.facts import MODELICA
+from urdfsync.common.dependencies.reads import is_file, scan_folder
 
 ClassName: TypeAlias = tuple[str, ...]
 PACKAGE_FILE = "package.mo"

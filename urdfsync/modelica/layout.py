@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import PurePosixPath
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.spelling import nearest
 from urdfsync.modelica.files import PACKAGE_FILE, class_parts
 from urdfsync.modelica.lexer import Fault, find_markers, lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import StoredText
-from urdfsync.spelling import nearest
 
 _BYTE_ORDER_MARK = "\ufeff"
 _ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language allows repetitions

@@ -11,7 +11,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
-from urdfsync.dependencies.reads import is_file, read_file
+from urdfsync.common.dependencies.reads import is_file, read_file
 from urdfsync.modelica.classes import OPAQUE, ClassNode
 from urdfsync.modelica.files import NOT_CLASSES, PACKAGE_FILE, ClassName, class_of_file, class_parts, place_of, text_of
 from urdfsync.modelica.names import STANDARD_LIBRARIES

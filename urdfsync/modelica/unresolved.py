@@ -6,10 +6,10 @@ import enum
 from collections.abc import Callable, Collection, Container, Iterable, Iterator
 from typing import NamedTuple
 
+from urdfsync.common.spelling import nearest
 from urdfsync.modelica.classes import OPAQUE, ClassNode, Types
 from urdfsync.modelica.scopes import ANYTHING, Missing, NamedElement, Scopes
 from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
-from urdfsync.spelling import nearest
 
 _RATHER_ALIKE, _ALIKE = 0.6, 0.75
 """The least likeness (see `difflib`) of a misspelled name; the second value is for names that a library may have."""

@@ -6,12 +6,13 @@ from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from urdfsync.changes import Changes
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import shown
+from urdfsync.common.spelling import same_count
 from urdfsync.domain import ChangeClass
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import CONFLICTS, ORPHANS, USERS, Action, Reason
 from urdfsync.engine.result import Checked, DisputedFile, Result
-from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, settle_hint
 from urdfsync.output.console import Console, StyledLine
 from urdfsync.output.outline import OutlineRow, outline
@@ -19,7 +20,6 @@ from urdfsync.output.phrases import change_counts, generator_change, reason
 from urdfsync.output.repeated import show_findings
 from urdfsync.output.sections import Mark, Section, TextTable
 from urdfsync.output.terminal import change_line, file_line, text
-from urdfsync.spelling import same_count
 
 _BUILD = "run `urdfsync build`, and commit what it writes"
 _SETTLE = "run `urdfsync build` for both sides, and settle the conflicts with `urdfsync resolve`"

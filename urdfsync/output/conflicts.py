@@ -6,13 +6,13 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from urdfsync.common.spelling import counted
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.result import DisputedFile, Result
 from urdfsync.modelica.markers import find_markers
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import reason
-from urdfsync.spelling import counted
 
 FULL = 3
 """The greatest number of conflicts of a robot that are shown in full without --verbose."""

@@ -17,11 +17,11 @@ from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 
-from urdfsync import noop
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common import noop
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.spelling import visible
+from urdfsync.common.streams import Stream, has_colours, has_marks, is_terminal
 from urdfsync.output.documents import Document, plain
-from urdfsync.spelling import visible
-from urdfsync.streams import Stream, has_colours, has_marks, is_terminal
 
 if TYPE_CHECKING:
     import rich.console

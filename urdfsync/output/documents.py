@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
 
 JSON_VERSION: Literal[3] = 3
 """Version of the JSON documents and events; the number grows if a key is removed or changes its meaning."""

@@ -5,15 +5,15 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from urdfsync.common.files import shown
+from urdfsync.common.spelling import counted
 from urdfsync.engine.edits import EditedFile, RobotEdits
-from urdfsync.files import shown
 from urdfsync.merge.edits import in_words
 from urdfsync.modelica.layout import first_fault
 from urdfsync.modelica.parser import parse
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import StyledLine, line
 from urdfsync.output.sections import Mark, Section, TextTable
-from urdfsync.spelling import counted
 
 
 def to_section(edited: RobotEdits, *, verbose: bool | None = None, most: int = 20) -> Section:

@@ -14,9 +14,9 @@ from typing import Any
 import jinja2
 import markupsafe
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
+from urdfsync.common.spelling import visible
 from urdfsync.output.sections import Mark, Section, findings_table
-from urdfsync.spelling import visible
 
 FOLDED = 30
 """Tables and lists with more rows are folded."""

@@ -14,11 +14,11 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from urdfsync.changes import Changes
+from urdfsync.common.spelling import growth, same_count
 from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.domain.changes import Change, Effect, is_number
+from urdfsync.domain.comparison import Changes
 from urdfsync.output.sections import TextTable
-from urdfsync.spelling import growth, same_count
 
 _NAMES = 140
 """The greatest number of characters of the names in a title; a title has one name at least."""

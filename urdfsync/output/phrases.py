@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
-from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import Action, Choice, Reason
 
 _NAMED = {

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence, Set
 
-from urdfsync.config import STATE_FOLDER
-from urdfsync.dependencies.record import Records
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.dependencies.record import Records
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.engine.remembered import finding_key, still
 from urdfsync.engine.result import Result
 from urdfsync.output.console import Console, line
+from urdfsync.project.config import STATE_FOLDER
 
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:

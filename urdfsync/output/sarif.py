@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from urdfsync import config, git
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
+from urdfsync.common.version import __version__
 from urdfsync.engine.result import Exit
 from urdfsync.output.sections import Section
-from urdfsync.version import __version__
+from urdfsync.project import config, git
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 

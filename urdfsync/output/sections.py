@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.output.console import StyledLine
 
 

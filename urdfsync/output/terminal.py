@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 
+from urdfsync.common.streams import has_marks
 from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.sections import Mark, Section
-from urdfsync.streams import has_marks
 
 _STYLES = {Mark.WRONG: "bold red", Mark.OPEN: "yellow", Mark.NONE: "", Mark.FINE: "green"}
 _FILES = {

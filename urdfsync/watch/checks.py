@@ -9,11 +9,11 @@ from typing import Self
 
 import msgspec
 
-from urdfsync.checks.afterbuild import BuildCheck, BuildChecker, is_general
-from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, internal_error
+from urdfsync.analysis.checks.afterbuild import BuildCheck, BuildChecker, is_general
+from urdfsync.common.diagnostics import Diagnostic, internal_error
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Checked
+from urdfsync.project.config import Config, RobotConfig
 from urdfsync.watch import events
 
 _PATIENCE = 10.0

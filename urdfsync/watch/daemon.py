@@ -21,16 +21,16 @@ from queue import Empty, SimpleQueue
 
 import msgspec
 
-from urdfsync import config
-from urdfsync.config import STATE_FOLDER, Config, warnings
-from urdfsync.dependencies.facts import LISTINGS, Dependencies, Entry, changes, look
-from urdfsync.dependencies.reads import Reads, read_file
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.common.dependencies.facts import LISTINGS, Dependencies, Entry, changes, look
+from urdfsync.common.dependencies.reads import Reads, read_file
+from urdfsync.common.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.common.files import shown
 from urdfsync.engine.build import WAITING, build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
-from urdfsync.files import shown
-from urdfsync.state.lock import Lock, LockedError
+from urdfsync.project import config
+from urdfsync.project.config import STATE_FOLDER, Config, warnings
+from urdfsync.project.state.lock import Lock, LockedError
 from urdfsync.watch import events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner

@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.diagnostics import Diagnostic
 from urdfsync.engine.result import Checked, Result
 
 

@@ -11,8 +11,8 @@ from queue import SimpleQueue
 
 import msgspec
 
-from urdfsync.config import RobotConfig
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.project.config import RobotConfig
 from urdfsync.watch import events
 
 _MAX_VARIABLE = 100_000

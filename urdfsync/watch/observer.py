@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from watchdog import events, observers
 
-from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.files import shown
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import shown
 from urdfsync.watch.paths import WatchedFolders
 
 if TYPE_CHECKING:

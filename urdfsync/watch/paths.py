@@ -9,8 +9,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import Config
-from urdfsync.dependencies.facts import LISTINGS, Entry
+from urdfsync.common.dependencies.facts import LISTINGS, Entry
+from urdfsync.project.config import Config
 
 _MAX_STEPS = 1000
 """The greatest number of folders and links on the way to a file: links may lead in a circle."""

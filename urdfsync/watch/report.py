@@ -16,10 +16,12 @@ from typing import Any, NamedTuple, Self
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import shown
+from urdfsync.common.spelling import counted
+from urdfsync.common.streams import has_marks
 from urdfsync.engine.actions import CONFLICTS, ORPHANS, Actions, Reason
 from urdfsync.engine.result import Checked, Result, check_result
-from urdfsync.files import shown
 from urdfsync.output.build_section import build_section
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, findings, line, rich_console, write_lines
@@ -28,8 +30,6 @@ from urdfsync.output.outline import outline
 from urdfsync.output.phrases import change_counts, generator_change
 from urdfsync.output.repeated import findings_told, note, untold
 from urdfsync.output.terminal import details
-from urdfsync.spelling import counted
-from urdfsync.streams import has_marks
 from urdfsync.watch import events
 from urdfsync.watch.terminal import StatusArea
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import RobotConfig
-from urdfsync.dependencies.facts import CONTENT, PATH, VARIABLE, Dependencies, Entry, Facts, aged, is_young, look
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.dependencies.facts import CONTENT, PATH, VARIABLE, Dependencies, Entry, Facts, aged, is_young, look
+from urdfsync.common.diagnostics import Diagnostic
+from urdfsync.project.config import RobotConfig
 
 
 class WatchedRobot(msgspec.Struct):

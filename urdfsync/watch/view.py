@@ -17,13 +17,13 @@ from urllib.parse import quote, unquote
 
 import msgspec
 
-from urdfsync import config
-from urdfsync.checks.robot import known_check
-from urdfsync.diagnostics import OutputError, UrdfsyncError, internal_error
+from urdfsync.analysis.checks.robot import known_check
+from urdfsync.analysis.pages.content import gather
+from urdfsync.analysis.pages.page import page
+from urdfsync.analysis.versions.comparison import VersionContents
+from urdfsync.common.diagnostics import OutputError, UrdfsyncError, internal_error
 from urdfsync.engine.options import no_progress
-from urdfsync.pages.content import gather
-from urdfsync.pages.page import page
-from urdfsync.versions.comparison import VersionContents
+from urdfsync.project import config
 from urdfsync.watch import events
 from urdfsync.watch.daemon import WatchOptions
 

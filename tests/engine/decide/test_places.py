@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 
-from urdfsync.files import text_hash
+from urdfsync.common.files import text_hash
 from urdfsync.modelica.stamp import Stamp, split, with_stamp
 
 ELEMENTS = Path("modelica/Ladder/Elements")

@@ -13,9 +13,9 @@ from support.networks import MANIFEST, configure, edit, own_model, resistor, run
 from support.replay import contents
 from support.states import rewrite
 
-from urdfsync.files import text_hash
-from urdfsync.state import bases
-from urdfsync.state.store import Store
+from urdfsync.common.files import text_hash
+from urdfsync.project.state import bases
+from urdfsync.project.state.store import Store
 
 OWN = {"Pump.mo": b"within Mine;\nmodel Pump\nend Pump;\n", "Resources/table.csv": b"1,2\n", "package.order": b"Pump\n"}
 """A package of the user's own."""

@@ -10,11 +10,11 @@ import pytest
 from support.commands import Execute
 from support.networks import LADDER, rename, run
 
-from urdfsync import config
-from urdfsync.dependencies import facts
+from urdfsync.common.dependencies import facts
+from urdfsync.common.files import digest
 from urdfsync.domain import Role
 from urdfsync.engine.inspect.package_files import CLASS_FOLDER, PackageFiles, text_hash
-from urdfsync.files import digest
+from urdfsync.project import config
 
 FILE = f"{LADDER}/Ladder.mo"
 
@@ -36,7 +36,7 @@ def old(project: Path, monkeypatch: pytest.MonkeyPatch) -> bytes:
 
 def test_a_file_is_read_again_once_its_stat_values_differ(old: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patched:
-        patched.setattr("urdfsync.files.read_unrecorded", lambda path: b"not read again")
+        patched.setattr("urdfsync.common.files.read_unrecorded", lambda path: b"not read again")
         state = files().state(FILE)
     assert state is not None
     assert state.sha256 == digest(old)
@@ -63,7 +63,7 @@ def test_a_file_that_is_gone_or_a_folder_is_not_what_it_was(old: bytes) -> None:
 def test_a_file_that_was_just_written_is_read_each_time(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run()
     assert files().state(FILE)
-    monkeypatch.setattr("urdfsync.files.read_unrecorded", lambda path: b"read again")
+    monkeypatch.setattr("urdfsync.common.files.read_unrecorded", lambda path: b"read again")
     state = files().state(FILE)
     assert state is not None
     assert state.sha256 == digest(b"read again")

@@ -9,9 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.networks import edit, failure, kinds, make_parent, run, said, set_keys
 
-from urdfsync import cli, config
+from urdfsync.commands import cli
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.inspect.parents import check, merge_order
+from urdfsync.project import config
 
 
 def package(folder: Path, order: str | None = None) -> Path:

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from support.networks import C1, configure, drop, rename, run
 
-from urdfsync import config
-from urdfsync.dependencies.reads import Reads
+from urdfsync.common.dependencies.reads import Reads
 from urdfsync.engine.inspect import users_files
 from urdfsync.engine.result import Result
+from urdfsync.project import config
 
 USE = "  .Ladder.Elements.C1 other;\n"
 

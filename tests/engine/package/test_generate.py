@@ -11,10 +11,10 @@ from support.commands import Execute
 from support.networks import RC_FOLDER, configure, edit, failure, own_model, run
 from support.replay import contents
 
-from urdfsync.diagnostics import OutputError
+from urdfsync.common.diagnostics import OutputError
+from urdfsync.common.files import Templates
 from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
 from urdfsync.engine.package.generate import Package, check_paths, generate
-from urdfsync.files import Templates
 
 
 @pytest.mark.parametrize(

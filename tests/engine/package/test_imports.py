@@ -15,9 +15,8 @@ from support.networks import LADDER, edit, resistor, run, said, source
 from support.networks import inner_kinds as kinds
 from support.replay import contents
 
-from urdfsync import registry
-from urdfsync.diagnostics import Severity
-from urdfsync.domain import Conversion, Dependency
+from urdfsync.common.diagnostics import Severity
+from urdfsync.domain import Conversion, Dependency, registry
 from urdfsync.engine.actions import Reason
 
 

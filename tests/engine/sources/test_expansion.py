@@ -14,10 +14,10 @@ from support.commands import Execute
 from support.files import unchanged
 from support.xacros import problem, value, write_line
 
-from urdfsync.config import load
 from urdfsync.engine.sources import expansion
 from urdfsync.engine.sources.expansion import SourceFiles
-from urdfsync.state.expansion import Expansion
+from urdfsync.project.config import load
+from urdfsync.project.state.expansion import Expansion
 
 
 @pytest.mark.slow

@@ -22,10 +22,10 @@ from support.remembered import save, saved
 from support.replay import contents
 from support.xacros import EXPANDED, RECORD
 
-from urdfsync.dependencies import facts
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.dependencies import facts
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.engine.sources.source import Source
-from urdfsync.state.expansion import dumps, loads
+from urdfsync.project.state.expansion import dumps, loads
 
 CHANGED = "inputs changed since the last build"
 

@@ -14,7 +14,7 @@ from support.networks import LADDER, MANIFEST, ROBOT, edit, run, run_all, said, 
 from support.networks import inner_kinds as kinds
 from support.states import record, rewrite
 
-from urdfsync import cli
+from urdfsync.commands import cli
 from urdfsync.engine.actions import Reason
 
 LINKS = tuple(urdfs.link(name, 1.0) for name in ("base", "arm", "hand"))

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
+from urdfsync.domain.matching import Doubt
 from urdfsync.engine.actions import Action, Choice, Reason
-from urdfsync.matching import Doubt
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.changes import Changes
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.common.files import shown
 from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain.comparison import Changes
+from urdfsync.domain.matching import Doubt
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.decide.differences import Differences, compare_with_last
@@ -26,8 +28,6 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.inspect.parents import SharedFile
-from urdfsync.files import shown
-from urdfsync.matching import Doubt
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.markers import find_markers
 

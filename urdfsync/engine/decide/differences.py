@@ -7,16 +7,16 @@ from pathlib import PurePosixPath
 
 import msgspec
 
-from urdfsync import changes
-from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, displaced
+from urdfsync.domain import comparison as changes
+from urdfsync.domain.comparison import Changes
+from urdfsync.domain.matching import Matching, without_exchanges
 from urdfsync.engine.decide.parts import file_ids, find_former_ids, find_part_ids, ids_of, recorded_ids
 from urdfsync.engine.decide.places import find_moves
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import option_values
 from urdfsync.engine.renames import find_matching, pending
-from urdfsync.matching import Matching, without_exchanges
 from urdfsync.modelica.files import class_path
 
 GONE = "_gone"

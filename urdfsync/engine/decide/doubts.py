@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 
 from urdfsync.domain import ElementKey, Role, Snapshot
+from urdfsync.domain.matching import Doubt
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.package_names import elements_by_identifier, identifier_of
@@ -20,9 +21,8 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.commits import PastCommit
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.package.generate import Package
-from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
-from urdfsync.state.record import edit_key
+from urdfsync.project.state.record import edit_key
 
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""

@@ -14,10 +14,10 @@ from pathlib import Path, PurePosixPath
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import shown
 from urdfsync.engine.decide.package_after import PackageAfter, code_words
 from urdfsync.engine.decide.package_names import class_of, declared_names
-from urdfsync.files import shown
 from urdfsync.modelica.classes import ClassNode
 from urdfsync.modelica.files import (
     PACKAGE_FILE,

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from urdfsync.dependencies.reads import is_file
+from urdfsync.common.dependencies.reads import is_file
 from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Choice, Reason, find_deletions
 from urdfsync.engine.decide.differences import Differences

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from urdfsync.common.files import digest
 from urdfsync.domain import Artifact, ElementKey, displaced
+from urdfsync.domain.matching import Doubt, Matching
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import LastBuild
 from urdfsync.engine.renames import find_matching
-from urdfsync.files import digest
-from urdfsync.matching import Doubt, Matching
 from urdfsync.modelica.stamp import Stamp
-from urdfsync.state.record import Record
+from urdfsync.project.state.record import Record
 
 _DIGITS = 8
 """The number of digits of a part's id, which begins the id of each of its files."""

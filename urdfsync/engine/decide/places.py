@@ -19,7 +19,7 @@ from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import Folder
 from urdfsync.modelica.files import as_file, class_parts
 from urdfsync.modelica.stamp import Stamp
-from urdfsync.state.record import role_of
+from urdfsync.project.state.record import role_of
 
 
 def find_places(

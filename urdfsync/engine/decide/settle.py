@@ -10,7 +10,9 @@ from collections.abc import Mapping
 
 import msgspec
 
-from urdfsync.diagnostics import ConfigError, OutputError
+from urdfsync.common.diagnostics import ConfigError, OutputError
+from urdfsync.common.files import shown
+from urdfsync.common.spelling import nearest
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Choice, Reason, UsersChoice
 from urdfsync.engine.decide.conflicts import Conflict
@@ -19,12 +21,10 @@ from urdfsync.engine.decide.package_names import names_of
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs, Replaced, Settled
 from urdfsync.engine.inspect.package_files import bare_hash, encode, text_hash, with_line_ends
-from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.markers import find_markers
 from urdfsync.modelica.stamp import Stamp, split, with_stamp
-from urdfsync.spelling import nearest
-from urdfsync.state.record import role_of
+from urdfsync.project.state.record import role_of
 
 _EDITED = frozenset({Reason.KEEP, Reason.MOVE, Reason.MERGE})
 """Reasons of actions on edited files for which the user may choose `--take`."""

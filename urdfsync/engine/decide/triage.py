@@ -9,6 +9,7 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync.domain import Role
+from urdfsync.domain.matching import Doubt
 from urdfsync.engine.actions import DISPUTED, Action, Reason
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.doubts import find_doubts
@@ -18,7 +19,6 @@ from urdfsync.engine.decide.rules import decide
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.package.generate import Package
-from urdfsync.matching import Doubt
 from urdfsync.modelica.stamp import Stamp
 
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import git
-from urdfsync.dependencies import reads
-from urdfsync.diagnostics import SourceError
+from urdfsync.common.dependencies import reads
+from urdfsync.common.diagnostics import SourceError
 from urdfsync.engine.inspect.package_files import PackageFiles
-from urdfsync.git.revisions import Revision, open_repository
 from urdfsync.modelica.stamp import Stamp, split
+from urdfsync.project import git
+from urdfsync.project.git.revisions import Revision, open_repository
 
 if TYPE_CHECKING:
     import pygit2

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, find_own_library
-from urdfsync.dependencies.places import real
-from urdfsync.dependencies.reads import is_file, read_file
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
-from urdfsync.domain import Domain
+from urdfsync.common.dependencies.places import real
+from urdfsync.common.dependencies.reads import is_file, read_file
+from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.common.files import Templates, digest, shown
+from urdfsync.common.version import __version__
+from urdfsync.domain import Domain, registry
 from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
 from urdfsync.engine.inspect.commits import PastCommit, read_commits
@@ -26,13 +26,12 @@ from urdfsync.engine.inspect.users_files import UsersFiles, read_saved_facts, re
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources import source
 from urdfsync.engine.sources.source import Source
-from urdfsync.files import Templates, digest, shown
-from urdfsync.git.unmerged import find_unmerged
 from urdfsync.modelica.files import text_of
-from urdfsync.state.notes import Use
-from urdfsync.state.record import Generator, Record, unite
-from urdfsync.state.store import Store
-from urdfsync.version import __version__
+from urdfsync.project.config import Config, RobotConfig, find_own_library
+from urdfsync.project.git.unmerged import find_unmerged
+from urdfsync.project.state.notes import Use
+from urdfsync.project.state.record import Generator, Record, unite
+from urdfsync.project.state.store import Store
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge

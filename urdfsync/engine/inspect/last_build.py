@@ -11,16 +11,16 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.config import RobotConfig
-from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.common.diagnostics import UrdfsyncError
+from urdfsync.common.files import Templates, digest
 from urdfsync.domain import Domain, ElementKey, Features, Role, Snapshot, Target, Version
 from urdfsync.engine.inspect.package_files import Folder, PackageFiles
 from urdfsync.engine.package.generate import Package, generate
 from urdfsync.engine.package.imports import RecordedFile
-from urdfsync.files import Templates, digest
-from urdfsync.state.notes import Notes
-from urdfsync.state.record import Record, as_read
-from urdfsync.state.store import Aside, Store
+from urdfsync.project.config import RobotConfig
+from urdfsync.project.state.notes import Notes
+from urdfsync.project.state.record import Record, as_read
+from urdfsync.project.state.store import Aside, Store
 
 NO_MODEL = (
     ArithmeticError,

@@ -11,14 +11,14 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from urdfsync import files
-from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import reads
-from urdfsync.dependencies.facts import NOTHING, is_young
-from urdfsync.diagnostics import OutputError
+from urdfsync.common import files
+from urdfsync.common.dependencies import reads
+from urdfsync.common.dependencies.facts import NOTHING, is_young
+from urdfsync.common.diagnostics import OutputError
+from urdfsync.common.files import Tree, digest, normalised, placed, shown
 from urdfsync.domain import Role
-from urdfsync.files import Tree, digest, normalised, placed, shown
 from urdfsync.modelica.stamp import Stamp, split
+from urdfsync.project.config import Config, RobotConfig
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge

@@ -13,11 +13,11 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.reads import file_type, is_file, is_folder, read_file
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.files import shown
+from urdfsync.common.dependencies.reads import file_type, is_file, is_folder, read_file
+from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.common.files import shown
 from urdfsync.modelica.names import LIBRARY, within
+from urdfsync.project.config import Config, RobotConfig
 
 
 class SharedFile(msgspec.Struct, frozen=True):

@@ -11,18 +11,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from urdfsync.dependencies.places import named, real
-from urdfsync.diagnostics import SourceError
+from urdfsync.common.dependencies.places import named, real
+from urdfsync.common.diagnostics import SourceError
 from urdfsync.domain import Role
 from urdfsync.engine.inspect.commits import plain
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import LastBuild
 from urdfsync.engine.inspect.package_files import encode, text_hash
 from urdfsync.engine.package.generate import Package
-from urdfsync.git.revisions import open_repository
 from urdfsync.modelica import markers
 from urdfsync.modelica.stamp import Stamp, split, with_stamp
-from urdfsync.state.record import role_of
+from urdfsync.project.git.revisions import open_repository
+from urdfsync.project.state.record import role_of
 
 if TYPE_CHECKING:
     from urdfsync.merge import Merge

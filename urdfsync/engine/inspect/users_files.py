@@ -8,10 +8,10 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import FILE_NAME, Config, RobotConfig
-from urdfsync.dependencies import reads
-from urdfsync.dependencies.facts import Facts
+from urdfsync.common.dependencies import reads
+from urdfsync.common.dependencies.facts import Facts
 from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_that_use, modelica_files
+from urdfsync.project.config import FILE_NAME, Config, RobotConfig
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
 """Files that mark a folder as another project, or as a virtual environment of Python."""

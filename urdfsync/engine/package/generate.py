@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync.dependencies.facts import read_unrecorded
-from urdfsync.dependencies.reads import is_file, walk_files
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.common.dependencies.facts import read_unrecorded
+from urdfsync.common.dependencies.reads import is_file, walk_files
+from urdfsync.common.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.common.files import Templates, digest, normalised, shown, text_hash
 from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
-from urdfsync.files import Templates, digest, normalised, shown, text_hash
 from urdfsync.modelica.files import class_path
 from urdfsync.modelica.literals import without_literals
 from urdfsync.modelica.stamp import Stamp, stamped

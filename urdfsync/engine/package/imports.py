@@ -14,15 +14,15 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.config import RobotConfig
-from urdfsync.dependencies.facts import MAX_FILE
-from urdfsync.dependencies.places import place
-from urdfsync.dependencies.reads import file_type, read_file
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
+from urdfsync.common.dependencies.facts import MAX_FILE
+from urdfsync.common.dependencies.places import place
+from urdfsync.common.dependencies.reads import file_type, read_file
+from urdfsync.common.diagnostics import Diagnostic, Severity, SourceError, StateError
+from urdfsync.common.files import digest, shown
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources import ros_packages
-from urdfsync.files import digest, shown
+from urdfsync.project.config import RobotConfig
 
 _POINTER = b"version https://git-lfs"
 """The beginning of a pointer of Git LFS."""

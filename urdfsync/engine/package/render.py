@@ -28,9 +28,9 @@ from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
-from urdfsync.dependencies.places import named, place
-from urdfsync.dependencies.reads import walk_files
-from urdfsync.files import put
+from urdfsync.common.dependencies.places import named, place
+from urdfsync.common.dependencies.reads import walk_files
+from urdfsync.common.files import put
 from urdfsync.modelica import literals
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping
 
 import msgspec
 
-from urdfsync.dependencies.facts import MAX_FILE
-from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.processes import reserve_stdout
+from urdfsync.common.dependencies.facts import MAX_FILE
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.processes import reserve_stdout
 
 _GARBAGE_THRESHOLD = 100_000
 """New objects after which Python looks for cycles."""

@@ -16,18 +16,18 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies.places import label
-from urdfsync.dependencies.reads import read_file, read_variable
-from urdfsync.diagnostics import SourceError
+from urdfsync.common.dependencies.places import label
+from urdfsync.common.dependencies.reads import read_file, read_variable
+from urdfsync.common.diagnostics import SourceError
+from urdfsync.common.files import digest, shown, text_digest
+from urdfsync.common.processes import exit_cause, importable, python_module
 from urdfsync.domain import Translator
 from urdfsync.engine.sources import ros_packages
 from urdfsync.engine.sources.exchange import Answer, Request, fault, not_unicode
 from urdfsync.engine.sources.translators import XACRO
 from urdfsync.engine.sources.xacro_worker import find_matches
-from urdfsync.files import digest, shown, text_digest
-from urdfsync.processes import exit_cause, importable, python_module
-from urdfsync.state.expansion import Expansion
+from urdfsync.project.config import Config, RobotConfig
+from urdfsync.project.state.expansion import Expansion
 
 CPU_SECONDS = 20.0
 """CPU time for one expansion, on Linux and macOS. The largest robots take 2 s."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.markers import find_markers
 
 _BEGINNING = 20_000

@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync.dependencies.reads import is_file, is_folder, list_folder, read_file, scan_folder
+from urdfsync.common.dependencies.reads import is_file, is_folder, list_folder, read_file, scan_folder
 
 _NAME = rb"<name>\s*([^<\s]+)\s*</name>"
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})

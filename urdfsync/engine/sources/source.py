@@ -12,12 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync import registry
-from urdfsync.config import Config, RobotConfig, templates_folder
-from urdfsync.config.trust import find_untrusted_command
-from urdfsync.dependencies.facts import PATH, look, read_unrecorded
-from urdfsync.dependencies.places import label, real
-from urdfsync.dependencies.reads import (
+from urdfsync.common.dependencies.facts import PATH, look, read_unrecorded
+from urdfsync.common.dependencies.places import label, real
+from urdfsync.common.dependencies.reads import (
     cannot_record,
     depend_on,
     file_type,
@@ -26,13 +23,15 @@ from urdfsync.dependencies.reads import (
     list_folder,
     read_file,
 )
-from urdfsync.diagnostics import ConfigError, Detail, Diagnostic, Severity, SourceError, UrdfsyncError
-from urdfsync.domain import Companion, CompanionKind, Domain, Reading, Snapshot, Translator
+from urdfsync.common.diagnostics import ConfigError, Detail, Diagnostic, Severity, SourceError, UrdfsyncError
+from urdfsync.common.files import Templates, digest, kind_of, shown, templates_digest
+from urdfsync.domain import Companion, CompanionKind, Domain, Reading, Snapshot, Translator, registry
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources.translators import XACRO, find_translator
-from urdfsync.files import Templates, digest, kind_of, shown, templates_digest
-from urdfsync.state.expansion import Expansion, dumps
-from urdfsync.state.store import Store
+from urdfsync.project.config import Config, RobotConfig, templates_folder
+from urdfsync.project.config.trust import find_untrusted_command
+from urdfsync.project.state.expansion import Expansion, dumps
+from urdfsync.project.state.store import Store
 
 if TYPE_CHECKING:
     from urdfsync.engine.sources.expansion import SourceFiles

@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from urdfsync import registry
-from urdfsync.domain import Translator
-from urdfsync.extras import install_command
+from urdfsync.common.extras import install_command
+from urdfsync.domain import Translator, registry
 
 XACRO = Translator(
     "xacro",

@@ -28,15 +28,15 @@ from xml.parsers import expat
 
 from msgspec.structs import replace
 
-from urdfsync.dependencies.facts import MAX_FILE, read_unrecorded
-from urdfsync.dependencies.places import place
-from urdfsync.dependencies.reads import list_folder
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.common.dependencies.facts import MAX_FILE, read_unrecorded
+from urdfsync.common.dependencies.places import place
+from urdfsync.common.dependencies.reads import list_folder
+from urdfsync.common.diagnostics import Diagnostic
+from urdfsync.common.files import text_digest
+from urdfsync.common.processes import limits
 from urdfsync.engine.sources import ros_packages
 from urdfsync.engine.sources.exchange import Answer, Request, fault, serve, too_large
 from urdfsync.engine.sources.file_kinds import find_conflict, find_kind
-from urdfsync.files import text_digest
-from urdfsync.processes import limits
 
 if sys.platform != "win32":
     import resource

@@ -11,7 +11,9 @@ from pathlib import PurePosixPath
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.common.files import digest, shown
+from urdfsync.common.spelling import counted
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Reason, find_left_paths
 from urdfsync.engine.decide.decision import Decision
@@ -19,12 +21,10 @@ from urdfsync.engine.decide.settle import known_base
 from urdfsync.engine.inspect.inputs import Inputs, Replaced
 from urdfsync.engine.inspect.package_files import PackageFiles, bare_hash, encode, text_hash
 from urdfsync.engine.package.generate import Package
-from urdfsync.files import digest, shown
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.stamp import split, with_stamp
-from urdfsync.spelling import counted
-from urdfsync.state.record import role_of
-from urdfsync.state.store import Aside
+from urdfsync.project.state.record import role_of
+from urdfsync.project.state.store import Aside
 
 
 def put_aside(

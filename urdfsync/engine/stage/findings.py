@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync.changes import Changes
-from urdfsync.dependencies.facts import PATH
-from urdfsync.dependencies.reads import Reads, walk_files
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.common.dependencies.facts import PATH
+from urdfsync.common.dependencies.reads import Reads, walk_files
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import shown
 from urdfsync.domain import ChangeClass, Snapshot
 from urdfsync.domain.advice import brings_back
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import Actions, Reason, find_deletions
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import GONE
@@ -36,8 +37,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.users_files import read_saved_facts
 from urdfsync.engine.judgements import find_jumps, judge
-from urdfsync.files import shown
-from urdfsync.state.notes import Use
+from urdfsync.project.state.notes import Use
 
 if TYPE_CHECKING:
     from urdfsync.engine.decide.fit import Misfit

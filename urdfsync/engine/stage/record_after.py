@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 import msgspec
 
 from urdfsync.domain import ChangeClass, ElementKey
+from urdfsync.domain.matching import Matching
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
@@ -18,11 +19,10 @@ from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import hash_of, option_values
 from urdfsync.engine.inspect.package_files import bare_hash, encode, text_hash
 from urdfsync.engine.sources.source import expansion_hash
-from urdfsync.matching import Matching
-from urdfsync.state.notes import Notes, Use
-from urdfsync.state.record import Open, Record, as_recorded, edit_key, unite
-from urdfsync.state.statefile import key_of
-from urdfsync.state.store import Aside
+from urdfsync.project.state.notes import Notes, Use
+from urdfsync.project.state.record import Open, Record, as_recorded, edit_key, unite
+from urdfsync.project.state.statefile import key_of
+from urdfsync.project.state.store import Aside
 
 _MOST_ANCESTORS = 50
 """The greatest number of earlier records that a record names: branches are seldom longer."""

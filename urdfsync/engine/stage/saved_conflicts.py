@@ -14,8 +14,8 @@ from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import encode
 from urdfsync.engine.result import SavedVersions
-from urdfsync.state.store import saved_name
-from urdfsync.state.transaction import FileChange
+from urdfsync.project.state.store import saved_name
+from urdfsync.project.state.transaction import FileChange
 
 
 class SavedConflicts(msgspec.Struct, frozen=True):

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.changes import Changes
-from urdfsync.dependencies.reads import Reads
-from urdfsync.diagnostics import OutputError
+from urdfsync.common.dependencies.reads import Reads
+from urdfsync.common.diagnostics import OutputError
+from urdfsync.common.files import digest, shown
 from urdfsync.domain import Role
+from urdfsync.domain.comparison import Changes
 from urdfsync.engine.actions import Action, Actions, find_left_paths
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.package_after import PackageAfter
@@ -25,14 +26,13 @@ from urdfsync.engine.stage.aside import put_aside, tell_aside
 from urdfsync.engine.stage.findings import UNMERGED, find_findings, find_uses
 from urdfsync.engine.stage.record_after import notes_after, records_after
 from urdfsync.engine.stage.saved_conflicts import save_conflicts
-from urdfsync.files import digest, shown
 from urdfsync.modelica.markers import join_sides
 from urdfsync.modelica.stamp import Stamp, with_stamp
-from urdfsync.state import bases, expansion, statefile
-from urdfsync.state.notes import Notes
-from urdfsync.state.record import Record, unite
-from urdfsync.state.store import Aside, StateHashes
-from urdfsync.state.transaction import FileChange, Writes
+from urdfsync.project.state import bases, expansion, statefile
+from urdfsync.project.state.notes import Notes
+from urdfsync.project.state.record import Record, unite
+from urdfsync.project.state.store import Aside, StateHashes
+from urdfsync.project.state.transaction import FileChange, Writes
 
 
 class Plan(msgspec.Struct, frozen=True):

@@ -1,0 +1,268 @@
+"""Results of checks in words: a line for each robot, with details in indented lines below."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from pathlib import PurePath
+
+from urdfsync.analysis.checks.results import (
+    KINDS,
+    CheckResult,
+    CheckStatus,
+    EditEffect,
+    Judgement,
+    listed,
+    part_word,
+    worst,
+)
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.spelling import counted
+from urdfsync.domain.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
+from urdfsync.output.console import StyledLine, line
+from urdfsync.output.sections import Mark, Section, TextTable
+
+_MARKS = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.DIFFERS: Mark.WRONG, CheckStatus.FAILED: Mark.WRONG}
+_ADVICE = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
+_MOST = 3
+"""The greatest number of differing numbers of one file that are reported."""
+_FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction "}
+"""Quantities whose unit tells whether they are forces or torques, with the word that comes first."""
+
+
+def _sentences(result: CheckResult) -> list[tuple[str, str]]:
+    """Return the sentences below the first line, with their styles."""
+    sentences = [*_numbers(result), *(_two_tools(result) if len(result.tools) > 1 else ())]
+    sentences += _measured(result.log) if result.log else ()
+    if result.between is None:
+        sentences += _differences(result)
+    if result.strict and result.is_doubtful:
+        sentences.append(("the source has parts that can hardly be meant: see the warnings", "bold red"))
+    for effect in result.effects:
+        changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
+        style = _edit_style(result) if changed else "dim"
+        sentences.append((f"{_edited(effect)} {changed or 'no compared motion or force'}", style))
+    sentences += [(f"{file} (edited): its effect is not compared", "dim") for file in result.uncompared_edits]
+    sentences += [(gap, "magenta") for gap in result.gaps]
+    if not result.built:
+        sentences.append(
+            ("there is no package yet; the files that `urdfsync build` would write were checked", "yellow")
+        )
+    elif result.conflicting:
+        sentences.append(("files are in conflict; settle them with `urdfsync resolve`", "yellow"))
+    elif not result.in_step:
+        sentences.append(("the package is out of step; run `urdfsync build`", "yellow"))
+    return sentences
+
+
+def _measured(log: Judgement) -> Iterator[tuple[str, str]]:
+    """Yield how far the model is from a log: one number, then each joint."""
+    yield f"{log.log}: {100 * log.misfit:.1f} % of the measured efforts unexplained ({log.seconds:.3g} s)", "bold"
+    for joint in log.joints:
+        left = f"{joint.after:.3g} of {joint.measured:.3g} {joint.unit} are left (RMS)"
+        yield f"  {joint.element}: {100 * (joint.explained or 0):.1f} % explained; {left}", ""
+
+
+def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield the numbers that differ from the source, then those that the user changed: the first ones of each file."""
+    numbers, advice = result.numbers or Numbers(), _ADVICE
+    for each, more in _by_file(numbers.differences):
+        fault = f"{each.quantity} of {each.element} is {each.given}, and {each.expected} in {_place(each)}"
+        file = f"{PurePath(result.folder, each.file).as_posix()}{f':{each.line}' if each.line else ''}"
+        yield f"{file}: {fault}{more}{advice}", "bold red"
+        advice = ""
+    for each, more in _by_file(numbers.edits):
+        change = f"changes {each.quantity} of {each.element}: {each.expected} in {_place(each)}"
+        yield f"{each.file} (edited) {change}, {each.given} in line {each.line}{more}", _edit_style(result)
+
+
+def _place(each: Mismatch) -> str:
+    return f"{each.source}:{each.source_line}" if each.source_line else each.source
+
+
+def _by_file(differences: Iterable[Mismatch]) -> Iterator[tuple[Mismatch, str]]:
+    """Yield the first differences in each file; the last one comes with the number of further differences."""
+    for _, group in itertools.groupby(differences, lambda each: each.file):
+        own = list(group)
+        more = f" (and {len(own) - _MOST} more there)" if len(own) > _MOST else ""
+        yield from ((each, "") for each in own[: _MOST - 1])
+        yield from ((each, more) for each in own[_MOST - 1 : _MOST])
+
+
+def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield how the package differs from the reference, by the first compiler that could simulate the package."""
+    advice = "" if result.numbers and result.numbers.differences else _ADVICE
+    reference = result.reference or "the reference"
+    deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
+    for deviation, others in _by_kind([deviation for deviation in deviations if not deviation.agrees]):
+        what, amount = _amount(deviation)
+        yield f"{deviation.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"
+        if deviation.unit in ("N·m", "N", "kg"):
+            yield f"  its largest {what} by {reference} is {_digits(deviation.value)} {deviation.unit}", "dim"
+        advice = ""
+
+
+def _details(result: CheckResult) -> Iterator[str]:
+    """Yield each model, and each number that was compared."""
+    for tool in result.tools:
+        by = f" by {tool.tool}" if len(result.tools) > 1 else ""
+        for model in tool.compiled:
+            yield f"{model.model}: compiles{by}"
+        for part, deviation in worst(tool.deviations or ()).items():
+            place = f"{deviation.element}, {deviation.quantity}"
+            most = f"relative differences of up to {deviation.relative:.1e} ({place})"
+            yield f"{part}: {most if deviation.relative else 'no difference'}{by}"
+        for trial in tool.times:
+            yield f"{trial.name}: {trial.seconds:.1f} s{by}"
+        for deviation in tool.deviations or ():
+            what, amount = _amount(deviation)
+            yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e}){by}"
+    for deviation in result.between or ():
+        what, amount = _amount(deviation)
+        yield f"{deviation.element}: {what} differs by {amount} between the compilers"
+    for effect in result.effects:
+        yield from (f"{_edited(effect)} {_change(deviation)}" for deviation in effect.deviations)
+
+
+def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield how far two compilers agree, which of three results stands alone, and the compilers' time and memory."""
+    first, second = result.tools
+    if result.between is not None:
+        outliers: dict[str, list[Deviation]] = {}
+        reference = result.reference or "the reference"
+        by_second = {deviation.key: deviation for deviation in second.deviations or ()}
+        between = {deviation.key: deviation for deviation in result.between}
+        for deviation in first.deviations or ():
+            if deviation.key not in by_second or deviation.key not in between:
+                continue  # a compiler has not simulated it
+            three = deviation, by_second[deviation.key], between[deviation.key]
+            if not all(each.agrees for each in three):
+                outlier = _outlier(first.tool, second.tool, reference, *three)
+                outliers.setdefault(outlier, []).append(max(three, key=lambda each: each.relative))
+        for name, deviations in outliers.items():
+            for deviation, others in _by_kind(deviations):
+                what, amount = _amount(deviation)
+                who = f"{name} stands alone, by {amount}" if name else f"all three differ, by up to {amount}"
+                yield f"{deviation.element}: {what}: {who}{others}", "bold red"
+        for deviation, others in _by_kind([deviation for deviation in result.between_edited if not deviation.agrees]):
+            what, amount = _amount(deviation)
+            sentence = (
+                f"{deviation.element}: with your edits, the {what} by {second.tool} differs from that by {first.tool}"
+            )
+            yield f"{sentence} by {amount}{others}", "bold red"
+        largest_difference = max((each.relative for each in result.between), default=0.0)
+        if all(each.agrees for each in result.between):
+            agreement = f"to {largest_difference:.1e}" if largest_difference else "exactly"
+            yield f"{first.tool} and {second.tool} agree {agreement}", ""
+    yield "; ".join(f"{tool.tool}: {tool.seconds:.1f} s, {tool.megabytes:.0f} MB" for tool in result.tools), "dim"
+
+
+def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
+    """Return which of two compilers and the reference differs from the other two; empty if no two agree.
+
+    The deviations are: the first from the reference, the second from the reference, the second from the first.
+    """
+    for name, agreeing in ((second, deviations[0]), (first, deviations[1]), (reference, deviations[2])):
+        if agreeing.agrees:
+            return name
+    return ""
+
+
+def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
+    """Yield the sentences that concern several robots, each once."""
+    for label, field in (("not compared", "unchecked"), ("for the comparison", "notes")):
+        robots: dict[str, list[str]] = {}
+        for result in results:
+            for sentence in dict.fromkeys(getattr(result, field)):
+                robots.setdefault(sentence, []).append(result.robot)
+        for sentence, names in robots.items():
+            who = "all robots" if len(names) == len(results) else listed(names)
+            which = "" if len(results) == 1 else f" ({who})"
+            yield line((f"{label}: ", "bold"), (f"{sentence}{which}", ""))
+    if len(results) > 1:
+        counts = Counter(result.status for result in results)
+        tally = ", ".join(f"{counts[status]} {status}" for status in CheckStatus if counts[status])
+        yield line((f"{counted(len(results), 'robot')}: {tally}", "bold"))
+
+
+def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
+    """Return the sentences about a robot, and how far each part agrees with the reference.
+
+    For documents `verbose` is None: the section also lists the parts that were not compared. On a terminal,
+    `verbose=True` adds each number.
+    """
+    status, sentences = result.status, _sentences(result)
+    rows = [
+        (part, f"{part_word(each)}, to {each.relative:.1e}", f"{each.element}, {each.quantity}")
+        for part, each in worst(result.deviations).items()
+    ]
+    finding = None
+    if status not in (CheckStatus.RIGHT, CheckStatus.FAILED):
+        file = f"{result.folder}/package.mo" if result.folder else ""
+        # faults come first; gaps and stale files come last
+        told = sentences[0 if status is CheckStatus.DIFFERS else -1][0].strip()
+        severity = Severity.NOTE if status is CheckStatus.INCOMPLETE else Severity.WARNING
+        finding = Diagnostic(severity, status.replace(" ", "-"), f"{result.package}: {told}", file)
+    more = _details(result) if verbose else ()
+    if verbose is None:
+        more = (f"not compared: {sentence}" for sentence in dict.fromkeys(result.unchecked))
+    points = [line(("  ", ""), sentence) for sentence in (*sentences, *((words, "dim") for words in more))]
+    table = TextTable(f"Compared with {result.reference}", ("", "", "Worst"), rows)
+    about = result.robot, result.summary, _MARKS.get(status, Mark.OPEN)
+    return Section(*about, points, [table], result.diagnostics, finding, most=len(points))
+
+
+def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> Iterator[tuple[Deviation, str]]:
+    """Yield the first deviation of each kind, with the names of the other elements that have one.
+
+    The element nearest to the cause comes first: one of `owners`, which are edited. Otherwise it is the first from the
+    root, since a displaced link moves all links behind it. For efforts it is the last joint, since each joint carries
+    all links behind it. Free motion repeats no kind.
+    """
+    told = set[Sequence[Quantity]]()
+    for is_free, quantities in itertools.product((False, True), KINDS):
+        own = (each for each in deviations if (each.part is Aspect.FREE_MOTION) == is_free)
+        kind = [each for each in own if each.quantity in quantities]
+        if Quantity.EFFORT in quantities:
+            kind.reverse()
+        kind.sort(key=lambda deviation: (deviation.element not in owners, deviation.quantity is Quantity.REACTION))
+        names = list(dict.fromkeys(deviation.element for deviation in kind))
+        if names and not (is_free and quantities in told):
+            told.add(quantities)
+            yield kind[0], f" (also {listed(names[1:])})" if names[1:] else ""
+
+
+def _edit_style(result: CheckResult) -> str:
+    return "bold red" if result.strict else "cyan"
+
+
+def _edited(effect: EditEffect) -> str:
+    words = "changes" if len(effect.files) == 1 else "together change" if effect.deviations else "change"
+    return f"{listed(effect.files)} (edited) {words}"
+
+
+def _change(deviation: Deviation, others: str = "") -> str:
+    what, amount = _amount(deviation)
+    return f"the {what} of {deviation.element} by {amount}{others}"
+
+
+def _amount(deviation: Deviation) -> tuple[str, str]:
+    """Return the quantity that differs, and by how much: `torque`, `0.4 N·m`.
+
+    Lengths are in mm; a difference of rotation matrices is given as an angle.
+    """
+    what, unit, value = str(deviation.quantity), deviation.unit, deviation.difference
+    if deviation.quantity in _FORCES:
+        what = f"{_FORCES[deviation.quantity]}{'force' if unit == 'N' else 'torque'}"
+    if deviation.quantity is Quantity.ORIENTATION:
+        value, unit = math.degrees(2 * math.asin(min(value / 2, 1))), "°"
+    elif unit == "m":
+        value, unit = 1000 * value, "mm"
+    return what, f"{_digits(value)} {unit}" if math.isfinite(deviation.difference) else "more than any number"
+
+
+def _digits(value: float) -> str:
+    """Return a number with three significant digits."""
+    return f"{float(f'{value:.3g}'):.10g}"

@@ -1,0 +1,1 @@
+"""A project on disk: its configuration, its recorded state, and its repository."""
