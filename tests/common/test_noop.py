@@ -26,10 +26,10 @@ from support.screen import print_on_terminal
 from urdfsync.commands import cli
 from urdfsync.common import noop
 from urdfsync.common.dependencies import facts, program
-from urdfsync.common.dependencies.record import Record, Records
+from urdfsync.common.dependencies.memory import Memory, Remembered
 from urdfsync.engine.inspect import last_build
 from urdfsync.engine.inspect.package_files import PackageFiles
-from urdfsync.engine.remembered import RobotRecords
+from urdfsync.engine.remembered import RobotMemory
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -152,8 +152,8 @@ def test_the_result_of_a_table_of_10_000_rows_is_remembered(folder: Path) -> Non
     """It has 20,000 actions, in 9 MB."""
     result = os.urandom(9_000_000)
     time.sleep(0.1)
-    records = Records(".urdfsync")
-    records.save("motors.robot", "key", Record({}, ["in step"], result))
+    records = Memory(".urdfsync")
+    records.save("motors.robot", "key", Remembered({}, ["in step"], result))
     found = records.recall("motors.robot", "key")
     assert found is not None
     assert found.result == result
@@ -452,8 +452,8 @@ def test_record_and_plan_agree(
 @contextlib.contextmanager
 def _nothing_remembered() -> Iterator[None]:
     with (
-        mock.patch.object(RobotRecords, "recall", return_value=None),
-        mock.patch.object(RobotRecords, "remember"),
+        mock.patch.object(RobotMemory, "recall", return_value=None),
+        mock.patch.object(RobotMemory, "remember"),
     ):
         yield
 
@@ -522,7 +522,7 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     anyway, _ = imported("-c", "import runpy")
     names = imported("-m", "urdfsync", *BUILD)
     assert names[1] == f"{IN_STEP}\n"
-    ours = {f"urdfsync.common.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "record")}
+    ours = {f"urdfsync.common.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "memory")}
     ours |= {
         "urdfsync",
         "urdfsync.common.noop",

@@ -78,7 +78,7 @@ def test_many_robots_at_once_are_built_as_one_after_the_other(robots: Path, star
 
 @pytest.mark.slow
 def test_what_workers_read_is_recorded_as_a_dependency(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(remembered.RobotRecords, "recall", lambda *_: None)
+    monkeypatch.setattr(remembered.RobotMemory, "recall", lambda *_: None)
     (robots / "n2.json").write_text((robots / "n1.json").read_text())
     run_all(jobs=1)
     with Reads() as alone:

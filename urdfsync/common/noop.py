@@ -1,8 +1,8 @@
 """Answers `build` and `status` while nothing has changed, without loading the rest of the program.
 
-Each robot has a record of its dependencies, and the configuration has one, too: what reading it has read, and its
-robots. If all records hold, and no robot has more to tell than one line, this module writes these lines. Otherwise the
-command runs, and asks the records again. Each command begins here, so this module imports only fast modules: argparse
+Each robot's last result is remembered with its dependencies, and so are the configuration and its robots. If all these
+hold, and no robot has more to tell than one line, this module writes these lines. Otherwise the command runs, and asks
+the memory again. Each command begins here, so this module imports only fast modules: argparse
 would take 15 of 25 ms.
 """
 
@@ -12,7 +12,7 @@ import os
 import sys
 
 from urdfsync.common import streams
-from urdfsync.common.dependencies.record import CONFIGURATION, ROBOT, Records
+from urdfsync.common.dependencies.memory import CONFIGURATION, ROBOT, Memory
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 25 ms
 if TYPE_CHECKING:
@@ -68,27 +68,27 @@ def find_lines(arguments: Sequence[str]) -> list[tuple[str, str, str, int]] | No
             return None
     if command not in _OPTIONS or modes > 1 or (file := find_config(arguments)) is None:
         return None
-    records = Records(state_folder(file))
-    told = recall(records, file, command, named)
+    memory = Memory(state_folder(file))
+    told = recall(memory, file, command, named)
     # sources and folders name robots, too
     if not told or not told.keys() >= set(named):
         return None
-    if any(not records.told(robot).issuperset(keys) for robot, (_, _, _, *keys) in told.items()):
+    if any(not memory.told(robot).issuperset(keys) for robot, (_, _, _, *keys) in told.items()):
         return None
     return [(robot, line, end.removeprefix(NONE), len(keys)) for robot, (line, _, end, *keys) in told.items()]
 
 
-def recall(records: Records, config_file: str, command: str, named: Collection[str] = ()) -> dict[str, Sequence[str]]:
-    """Return the words of each robot's record, if all records hold, and have all that a command would say.
+def recall(memory: Memory, config_file: str, command: str, named: Collection[str] = ()) -> dict[str, Sequence[str]]:
+    """Return what is remembered of each robot, if all results hold, and have all that a command would say.
 
     Returns nothing if the command has to find that out. `named` are the robots that matter; none for all.
     """
     told: dict[str, Sequence[str]] = {}
-    configuration = records.recall(f"{os.path.basename(config_file)}{CONFIGURATION}")
+    configuration = memory.recall(f"{os.path.basename(config_file)}{CONFIGURATION}")
     words = iter(configuration.words if configuration else ())
     for robot, key in zip(words, words, strict=True):
         if not named or robot in named:
-            known = records.recall(f"{robot}{ROBOT}", key)
+            known = memory.recall(f"{robot}{ROBOT}", key)
             if not known or len(known.words) < 3 or command not in known.words[1].split():
                 return {}
             told[robot] = known.words
@@ -97,7 +97,7 @@ def recall(records: Records, config_file: str, command: str, named: Collection[s
 
 def is_in_step(config_file: str) -> bool:
     """Return whether all robots of a configuration are in step; False if that has to be found out."""
-    return bool(recall(Records(state_folder(config_file)), config_file, IN_STEP))
+    return bool(recall(Memory(state_folder(config_file)), config_file, IN_STEP))
 
 
 def state_folder(config_file: str) -> str:

@@ -31,7 +31,7 @@ from urdfsync.engine.inspect.inputs import read_stray_states
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.plan import plan_robot
-from urdfsync.engine.remembered import RobotRecords
+from urdfsync.engine.remembered import RobotMemory
 from urdfsync.engine.result import Outlook, Result
 from urdfsync.engine.stage.writes import Plan, shared_change
 from urdfsync.project.config import STATE_FOLDER, Config, RobotConfig
@@ -105,7 +105,7 @@ class _Builder:
 
     def __init__(self, config: Config, options: BuildOptions, lock: Lock) -> None:
         self._config, self._options, self._lock = config, options, lock
-        self._records = RobotRecords(config, options)
+        self._memory = RobotMemory(config, options)
         self.plans: Generator[tuple[RobotConfig, Planned]] | None = None
         """The plans of the robots that are not remembered, if there are many."""
         self._state_folder = config.root / STATE_FOLDER
@@ -120,7 +120,7 @@ class _Builder:
             if not robot.output.is_relative_to(self._config.root):
                 continue  # it matters who trusts the folder
             with contextlib.suppress(UrdfsyncError):  # its domain is missing, or broken: the build reports it
-                if found := self._records.recall(robot):
+                if found := self._memory.recall(robot):
                     known[robot.name] = _Built(*found)
         return known
 
@@ -194,7 +194,7 @@ class _Builder:
         # without `renews`, a plan writes less than the next one may
         if self._reads.complete and self._options.renews and not (plan.writes or plan.outlook.writes):
             result = Result.of(self._config, robot, plan.outlook, dry=self._options.dry, reads=facts)
-            self._records.remember(robot, result)
+            self._memory.remember(robot, result)
         return _Built(plan.outlook, facts)
 
     def _note_edits(self, robot: RobotConfig, plan: Plan) -> None:

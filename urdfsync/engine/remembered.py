@@ -12,9 +12,9 @@ import msgspec
 
 from urdfsync.common import noop
 from urdfsync.common.dependencies.facts import Dependencies
+from urdfsync.common.dependencies.memory import CONFIGURATION, ROBOT, Memory, Remembered
 from urdfsync.common.dependencies.places import is_clone
 from urdfsync.common.dependencies.reads import Reads
-from urdfsync.common.dependencies.record import CONFIGURATION, ROBOT, Record, Records
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.common.files import digest, shown
 from urdfsync.domain import registry
@@ -40,11 +40,11 @@ class _Stored(msgspec.Struct, frozen=True, array_like=True):
     """Hash of the robot's lines in the configuration if `diagnostics` state one; else empty."""
 
 
-class RobotRecords:
-    """The records of the robots of one configuration, for one command."""
+class RobotMemory:
+    """The results of the robots of one configuration that are remembered, for one command."""
 
     def __init__(self, config: Config, options: BuildOptions) -> None:
-        self._config, self._records = config, Records(config.root / STATE_FOLDER)
+        self._config, self._memory = config, Memory(config.root / STATE_FOLDER)
         self._asks_for_plan = bool(options.full or options.draw or options.choices or options.adopts or options.removes)
         folders = [(robot.name, str(robot.folder)) for robot in config.robots]
         shared = repr((folders, options.merges, config.file, config.check, options.package_paths))
@@ -63,7 +63,7 @@ class RobotRecords:
         Returns None if anything has changed since, if nothing is remembered, or if the options ask for a new plan.
         Raises ConfigError for a broken domain.
         """
-        if self._asks_for_plan or (found := self._records.recall(f"{robot.name}{ROBOT}", self.key(robot))) is None:
+        if self._asks_for_plan or (found := self._memory.recall(f"{robot.name}{ROBOT}", self.key(robot))) is None:
             return None
         try:
             stored = msgspec.msgpack.decode(found.result, type=_Stored)
@@ -86,14 +86,14 @@ class RobotRecords:
             content = msgspec.msgpack.encode(stored)
         except UnicodeEncodeError:  # a file's name is not UTF-8
             return
-        self._records.save(f"{robot.name}{ROBOT}", self.key(robot), Record(result.reads, words, content))
+        self._memory.save(f"{robot.name}{ROBOT}", self.key(robot), Remembered(result.reads, words, content))
 
 
 def remember_configuration(config: Config, reads: Reads) -> None:
     """Remember a configuration without warnings whose robots were all built: then a no-op build need not read it."""
-    records, record = Records(config.root / STATE_FOLDER), f"{config.file.name}{CONFIGURATION}"
-    if records.recall(record):
-        return  # the record still holds
+    memory, name = Memory(config.root / STATE_FOLDER), f"{config.file.name}{CONFIGURATION}"
+    if memory.recall(name):
+        return  # it still holds
     for robot in config.robots:
         is_plain = registry.is_own(robot.domain) and robot.output.is_relative_to(config.root)
         if (robot.on_build == "check" and not is_clone()) or not is_plain:
@@ -101,9 +101,9 @@ def remember_configuration(config: Config, reads: Reads) -> None:
     with reads:
         strays = read_stray_states(config)
     if reads.complete and not strays:
-        robots = RobotRecords(config, BuildOptions())
+        robots = RobotMemory(config, BuildOptions())
         words = [word for robot in config.robots for word in (robot.name, robots.key(robot))]
-        records.save(record, "", Record(reads.entries, words))
+        memory.save(name, "", Remembered(reads.entries, words))
 
 
 def _lines(robot: RobotConfig) -> str:

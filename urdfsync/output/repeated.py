@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence, Set
 
-from urdfsync.common.dependencies.record import Records
+from urdfsync.common.dependencies.memory import Memory
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.engine.remembered import finding_key, still
 from urdfsync.engine.result import Result
@@ -31,7 +31,7 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
 
 def findings_told(result: Result) -> set[str]:
     """Return the keys of the findings that the last build of a robot has shown on this machine."""
-    return Records(result.root / STATE_FOLDER).told(result.robot)
+    return Memory(result.root / STATE_FOLDER).told(result.robot)
 
 
 def untold(before: Set[str], diagnostics: Sequence[Diagnostic], *, verbose: bool) -> list[Diagnostic]:
@@ -53,4 +53,4 @@ def note(result: Result, before: Set[str], diagnostics: Sequence[Diagnostic]) ->
     """Note the findings that a build has shown or counted; `before` are the noted ones."""
     keys = {*map(finding_key, diagnostics)}
     if before != keys and not (result.dry or result.failed):
-        Records(result.root / STATE_FOLDER).tell(result.robot, keys)
+        Memory(result.root / STATE_FOLDER).tell(result.robot, keys)

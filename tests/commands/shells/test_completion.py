@@ -133,7 +133,7 @@ def test_it_loads_no_more_than_the_up_to_date_check(built: Path) -> None:
             "urdfsync.common.streams",
             "urdfsync.common.version",
         ),
-        *(f"urdfsync.common.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "record")),
+        *(f"urdfsync.common.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "memory")),
     }
     assert not loaded & {"argparse", "msgspec", "json"}
 

@@ -162,7 +162,7 @@ def _find_changes(inputs: Inputs, generation: Generation, matching: Matching) ->
     if news is None:
         return None
     if news.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
-        return None  # git may have merged two models into an invalid model
+        return None  # a stranger may have written the recorded model
     if domain.describe is None and news.changes and (before := last.package_like(generation.now.snapshot)) is not None:
         news = changes.by_texts(news, generation.package.changed_models(before))
     is_same = last.record.generator == inputs.generator and last.target == robot.target
@@ -208,10 +208,10 @@ def _other_identifiers(inputs: Inputs, now: Snapshot, parts: Mapping[str, str]) 
         return found
     names = {part: key for key, part in ids_of(inputs.domain.features(now), parts).items()}
     present = inputs.domain.names(now, inputs.robot.target)
-    for record, ids in recorded_ids(last):
+    for record, model, ids in recorded_ids(last):
         if record is last.records[0]:
             continue
-        former = inputs.domain.names(last.read(record.snapshot), Target(record.package, record.class_))
+        former = inputs.domain.names(model, Target(record.package, record.class_))
         for (kind, name), part in ids.items():
             new = names.get(part, (kind, name))[1]
             old_name, new_name = former.get(f"{kind}s", {}).get(name), present.get(f"{kind}s", {}).get(new)

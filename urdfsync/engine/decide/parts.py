@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from urdfsync.common.files import digest
-from urdfsync.domain import Artifact, ElementKey, displaced
+from urdfsync.domain import Artifact, ElementKey, Snapshot, displaced
 from urdfsync.domain.matching import Doubt, Matching
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
@@ -33,10 +33,10 @@ def ids_of(elements: Iterable[ElementKey], ids: Mapping[str, str]) -> dict[Eleme
     return {key: ids.get(" ".join(key)) or first_id(" ".join(key)) for key in elements}
 
 
-def recorded_ids(last: LastBuild) -> Iterator[tuple[Record, Mapping[ElementKey, str]]]:
-    """Yield the records of all branches, each with the ids of all its elements."""
-    for record, elements in last.branches():
-        yield record, ids_of(elements, record.ids)
+def recorded_ids(last: LastBuild) -> Iterator[tuple[Record, Snapshot, Mapping[ElementKey, str]]]:
+    """Yield the records of all branches, each with its model and the ids of all its elements."""
+    for record, model, elements in last.branches:
+        yield record, model, ids_of(elements, record.ids)
 
 
 def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) -> dict[str, str]:
@@ -45,9 +45,9 @@ def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) ->
     if not (last.is_united or last.record.ids or renames):
         return {}
     present, ids, taken = inputs.domain.features(now), dict[str, str](), set[str]()
-    for record, parts in recorded_ids(last):
+    for record, model, parts in recorded_ids(last):
         if record is not last.records[0]:
-            renames = find_matching(inputs.domain, last.read(record.snapshot), now, {}).renames
+            renames = find_matching(inputs.domain, model, now, {}).renames
         gone = displaced(renames)
         for (kind, name), part in parts.items():
             key = kind, renames.get((kind, name), name)
@@ -69,7 +69,7 @@ def find_former_ids(inputs: Inputs, generation: Generation, parts: Mapping[str, 
         return dict(inputs.last.record.former_ids)
     present = {" ".join(key) for key in inputs.domain.features(generation.now.snapshot)}
     found = {owner: dict.fromkeys(ids) for owner, ids in inputs.last.record.former_ids.items()}
-    for _, ids in recorded_ids(inputs.last):
+    for _, _, ids in recorded_ids(inputs.last):
         for key, part in ids.items():
             if (owner := " ".join(key)) not in present or parts.get(owner, first_id(owner)) != part:
                 found.setdefault(owner, {})[part] = None

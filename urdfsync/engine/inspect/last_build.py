@@ -149,11 +149,11 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """The ids of the parts of that model, as in `Record.ids`."""
         return self.record.open.ids if self.record.open else {}
 
-    def branches(self) -> Iterator[tuple[Record, Mapping[ElementKey, Features]]]:
-        """Yield the readable records of all branches, each with the elements of its model."""
-        for record in self.records:
-            if (snapshot := self.read(record.snapshot)) is not None:
-                yield record, self._domain.features(snapshot)
+    @cached_property
+    def branches(self) -> tuple[tuple[Record, Snapshot, Mapping[ElementKey, Features]], ...]:
+        """The records of all branches whose models can be read, with these models and their elements."""
+        models = ((record, self.read(record.snapshot)) for record in self.records)
+        return tuple((record, model, self._domain.features(model)) for record, model in models if model is not None)
 
     @property
     def is_united(self) -> bool:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from urdfsync.common import noop
 from urdfsync.common.dependencies.facts import NOTHING, PATH
+from urdfsync.common.dependencies.memory import Memory, Remembered
 from urdfsync.common.dependencies.places import Clone
-from urdfsync.common.dependencies.record import Record, Records
 from urdfsync.project import git
 
 TYPE_CHECKING = False  # importing it from `typing` takes 2 ms
@@ -24,17 +24,17 @@ def is_answered(arguments: list[str]) -> bool:
         return False
     repository = git.Repository()
     place, key = f"{repository.folder}/urdfsync", _identify(read_index(repository))
-    if (export := Records(place).recall(_EXPORT, key)) is None:
+    if (export := Memory(place).recall(_EXPORT, key)) is None:
         return False
     with Clone(repository.top, f"{place}/clone"):
         is_in_step = all(noop.is_in_step(f"{repository.top}/{path}") for path in export.words)
-    return is_in_step and Records(place).recall(_EXPORT, key) is not None  # else another hook changed the clone
+    return is_in_step and Memory(place).recall(_EXPORT, key) is not None  # else another hook changed the clone
 
 
 def remember(repository: git.Repository, index: bytes, configurations: Sequence[str], lost: Iterable[str]) -> None:
     """Remember that the clone has the files of this index, until there is one of the `lost` files."""
     dependencies = {(PATH, f"{repository.top}/{path}"): hash(NOTHING) for path in lost}
-    Records(f"{repository.folder}/urdfsync").save(_EXPORT, _identify(index), Record(dependencies, configurations))
+    Memory(f"{repository.folder}/urdfsync").save(_EXPORT, _identify(index), Remembered(dependencies, configurations))
 
 
 def read_index(repository: git.Repository) -> bytes:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import functools
 import posixpath
 import re
-from collections.abc import Iterator
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterator
+from typing import TypeVar
 
 import msgspec
 
@@ -49,11 +49,11 @@ def key_of(record: Record) -> str:
 
 
 def _line(record: Record) -> str:
-    below = _with_paths(record, lambda key: key.removeprefix(f"{record.folder}/"))
-    return msgspec.json.encode(below, order="sorted").decode()
+    below = f"{record.folder}/"
+    return msgspec.json.encode(_with_keys(record, lambda key: key.removeprefix(below)), order="sorted").decode()
 
 
-def _with_paths(record: Record, renamed: Any) -> Record:
+def _with_keys(record: Record, renamed: Callable[[str], str]) -> Record:
     """Return a record whose files have other keys."""
 
     def with_files(part: _Records) -> _Records:
@@ -69,7 +69,7 @@ def loads(text: str, file: str) -> tuple[tuple[Record, ...], Diagnostic | None]:
     Git unites the lines of branches. A record is not the last one if another record follows from it. `file` is the
     name in diagnostics. Raises StateError for the state of a newer urdfsync.
     """
-    records, found = dict[str, Record](), None
+    records, found = list[Record](), None
     for number, content in enumerate(text.split("\n"), 1):
         if not content or content.startswith("#"):
             continue
@@ -85,13 +85,14 @@ def loads(text: str, file: str) -> tuple[tuple[Record, ...], Diagnostic | None]:
         if wrong := next(_find_faults(record), None):
             found = found or damage(file, number, wrong)
             continue
-        record = _with_paths(record, lambda path, folder=record.folder: f"{folder}/{path}")
-        records[key_of(record)] = record
+        records.append(_with_keys(record, f"{record.folder}/{{}}".format))
     if not records:
         found = found or damage(file, 1, "it is empty")
-    former = {key for record in records.values() for key in record.ancestors}
+    if len(records) < 2:
+        return tuple(records), found
+    former, by_key = {key for record in records for key in record.ancestors}, {key_of(one): one for one in records}
     # a stranger may have written records that follow from each other
-    last = tuple(record for key, record in records.items() if key not in former) or tuple(records.values())
+    last = tuple(record for key, record in by_key.items() if key not in former) or tuple(by_key.values())
     return last, found
 
 

@@ -71,8 +71,8 @@ def in_common_frames(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) 
 def coarse_features(robot: Robot) -> Mapping[ElementKey, Features]:
     """Return masses with principal moments, and ranges, of the robot without frames that have neither mass nor freedom.
 
-    They have four digits: formats write numbers with different precision. In a model that git has merged, a joint may
-    name a missing link.
+    They have four digits: formats write numbers with different precision. In a recorded model, which a stranger may
+    have written, a joint may name a missing link.
     """
     moving, features = _moving(robot, set()), dict[ElementKey, Features]()
     above = {joint.child: joint.name for joint in moving.joints}

@@ -29,7 +29,7 @@ _PLACE = frozenset({"type", "kind", "origin", "child_origin", "axis", "child_axi
 def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
     """Return contents and neighbours of links, joints and loops.
 
-    In a model that git has merged, a joint may name a missing link.
+    In a recorded model, which a stranger may have written, a joint may name a missing link.
     """
     features = dict[ElementKey, Features]()
     leading = {joint.child: joint.name for joint in snapshot.joints}

@@ -1,8 +1,8 @@
-"""The records of dependencies: each has all that a piece of work has read, and its result.
+"""The memory of finished work: each result, with all that it rests on.
 
 `.urdfsync/deps/NAME.robot` has the result of a robot's last complete build, `urdfsync.toml.config` the robots of the
 configuration. They are this machine's, and safe to lose. While each fact is as it was, the result holds: the robot is
-neither read, nor generated, nor decided again. Once all files are old, a record is written again without contents.
+neither read, nor generated, nor decided again. Once all files are old, it is written again without contents.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from urdfsync.common.dependencies.facts import Dependencies, Entry, Facts
 
 ROBOT, CONFIGURATION = ".robot", ".config"
-"""The endings of the names of records."""
+"""The endings of the names of files."""
 _FORMAT = "2"
 _FOLDER = "deps"
 _TOLD = ".told"
@@ -28,7 +28,7 @@ _VARIABLES = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPA
 """Environment variables that change the files that a command finds."""
 
 
-class Record:
+class Remembered:
     """A result, and all that it rests on."""
 
     def __init__(self, dependencies: Dependencies, words: Sequence[str], result: bytes = b"") -> None:
@@ -38,21 +38,21 @@ class Record:
         self.result = result
 
 
-class Records:
-    """The records in a state folder, for one command: it looks at each folder once."""
+class Memory:
+    """What is remembered in a state folder, for one command: it looks at each folder once."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
-        self._parent = places.place(folder)  # the hook's clone has records of its own
+        self._parent = places.place(folder)  # the hook's clone has a memory of its own
         self._seen: dict[Entry, Facts] = {}
         # messages name files relative to the working folder
         others = os.getcwd(), *map(os.environ.get, _VARIABLES)
         self._about = repr((_FORMAT, program.identity(), program.user(), others))
 
-    def recall(self, name: str, key: str = "") -> Record | None:
-        """Return the record of this name if nothing has changed since; None without one.
+    def recall(self, name: str, key: str = "") -> Remembered | None:
+        """Return what is remembered under this name if nothing has changed since; None without it.
 
-        `key` is a text of all inputs that are neither files nor equal for all commands in this folder. A record of
-        another key, machine, user, program or environment does not count, nor does a damaged one.
+        `key` is a text of all inputs that are neither files nor equal for all commands in this folder. The result of
+        another key, machine, user, program or environment does not count, nor does a damaged file.
         """
         try:
             head, listed, words, result = (localfile.read(self._place(name)) or b"").split(b"\0\0", 3)
@@ -67,19 +67,19 @@ class Records:
         # the source, which changes most, is among the first entries: further ones are not looked at
         if any(changes(known, self._seen)):
             return None
-        found = Record(aged(known, time.time_ns()), _text(words).split("\0") if words else [], result)
+        found = Remembered(aged(known, time.time_ns()), _text(words).split("\0") if words else [], result)
         if found.dependencies is not known:
             self.save(name, key, found)
         return found
 
-    def save(self, name: str, key: str, record: Record) -> None:
-        """Save a record; if that fails, or stat values of files prove nothing here, nothing is remembered."""
-        entries = record.dependencies
+    def save(self, name: str, key: str, result: Remembered) -> None:
+        """Save a result; if that fails, or stat values of files prove nothing here, nothing is remembered."""
+        entries = result.dependencies
         listed = [*(kind for kind, _ in entries), *(path for _, path in entries), *map(str, entries.values())]
-        if not all(text and "\0" not in text for text in (*listed, *record.words)):
+        if not all(text and "\0" not in text for text in (*listed, *result.words)):
             return
-        texts = self._about + key, "\0".join(listed), "\0".join(record.words)
-        content = b"\0\0".join([*(text.encode("utf-8", "surrogateescape") for text in texts), record.result])
+        texts = self._about + key, "\0".join(listed), "\0".join(result.words)
+        content = b"\0\0".join([*(text.encode("utf-8", "surrogateescape") for text in texts), result.result])
         if len(content) < MAX_FILE and os.path.isdir(self._parent):
             localfile.replace(self._place(name), content, needs_times=True)
 
