@@ -1,10 +1,12 @@
-"""All checks of the project: `python -m tests [--long] [--tests] [pytest arguments]`, or `python -m tests --renew`.
+"""All checks of the project: `python -m tests [--long] [--tests] [pytest arguments]`.
 
-`--renew` only writes the golden files anew: what templates and library write (tests/support/golden.py). `--long` adds
-the tests that take more than a few seconds, as in CI. `--tests`, for a further Python, leaves out the linter, and the
-tests whose result does not depend on the Python.
+`--long` adds the tests that take more than a few seconds, as in CI. `--tests`, for a further Python, leaves out the
+linter, and the tests whose result does not depend on the Python. Two options check nothing: `--renew` writes the golden
+files anew, which templates and library write (tests/support/golden.py); `--map [ROOM]` prints what each module of
+urdfsync holds, by the first line of its docstring.
 """
 
+import ast
 import os
 import subprocess
 import sys
@@ -36,6 +38,8 @@ def main() -> int:
     # without bytecode on disk, thousands of processes compile all modules, which takes three quarters of their time
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     environment |= COMPILER
+    if "--map" in sys.argv:
+        return print_map(*sys.argv[sys.argv.index("--map") + 1 :][:1])
     given = [argument for argument in sys.argv[1:] if argument not in OPTIONS]
     if "--renew" in sys.argv:
         own = {"PYTHONPATH": str(ROOT / "tests")}
@@ -61,6 +65,16 @@ def main() -> int:
         failed += ["types"] * bool(types.returncode)
     print(f"failed: {', '.join(failed)}" if failed else "all checks passed", flush=True)  # noqa: T201
     return 1 if failed else 0
+
+
+def print_map(room: str = "") -> int:
+    """Print the first lines of the docstrings of all modules below a room."""
+    top = ROOT / "urdfsync"
+    for file in sorted(top.joinpath(room).rglob("*.py")):
+        first = (ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) or "").partition("\n")[0]
+        name = file.relative_to(top).with_suffix("").as_posix().removesuffix("/__init__")
+        print(f"{name:<40} {first}")  # noqa: T201
+    return 0
 
 
 if __name__ == "__main__":
