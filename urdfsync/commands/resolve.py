@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -71,23 +71,19 @@ def run(args: argparse.Namespace, console: Console) -> int:
     whole = [result for result in planned if args.all or result.robot in names]
     named |= {"": [(result, each.action) for result in whole for each in result.conflicts]}
     targets = {action.path: (result, action) for pairs in named.values() for result, action in pairs}
-    concerned = {result.robot for result, _ in targets.values()}
-    concerned |= {result.robot for result in whole if not result.in_step}
     if not targets and not any(result.failed for result in planned):
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
-    robots = [robot for robot in configuration.robots if robot.name in concerned]
     # a choice holds for the texts of this plan: if the user saves a file from now on, its choice is not applied
     choices = {action.path: UsersChoice(choice, action.sides, args.moved) for _, action in targets.values()}
-    edited, folder = dict[str, str](), None
-    if choice is Choice.EDIT:
-        conflicts = (one for result in planned for one in result.conflicts if one.action.path in targets)
-        disputed = [(one.texts, one.versions.edited) for one in conflicts if one.texts]
-        folder, edited = editor.edit(disputed) if disputed else (None, {})
-    for path, text in edited.items():
-        choices[path] = msgspec.structs.replace(choices[path], text=text)
-    request = arguments.request(args, console, dry=args.dry_run, choices=choices)
+    folder, edited = _edit(planned, targets) if choice is Choice.EDIT else (None, {})
+    choices |= {path: msgspec.structs.replace(choices[path], text=text) for path, text in edited.items()}
+    concerned = {result.robot for result, _ in targets.values()}
+    concerned |= {result.robot for result in whole if not result.in_step}
+    robots = [robot for robot in configuration.robots if robot.name in concerned]
     results = []
-    for result in build_and_check(configuration, robots, request):
+    for result in build_and_check(
+        configuration, robots, arguments.request(args, console, dry=args.dry_run, choices=choices)
+    ):
         show_result(console, result, named=targets)
         results.append(result)
     accepted, problems = _compare(targets, results, choice)
@@ -102,6 +98,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
         message = "some files were not replaced by your edited text"
         problems.append(Diagnostic(Severity.NOTE, "edit-left", message, shown(folder), hint=hint))
     return console.end(code, problems)
+
+
+def _edit(planned: Iterable[Result], targets: Container[str]) -> tuple[Path | None, Mapping[str, str]]:
+    """Let the user edit the conflicts of these files; return the folder of the texts, and the edited texts by path."""
+    conflicts = (one for result in planned for one in result.conflicts if one.action.path in targets)
+    disputed = [(one.texts, one.versions.edited) for one in conflicts if one.texts]
+    return editor.edit(disputed) if disputed else (None, {})
 
 
 def _choice(args: argparse.Namespace) -> Choice:

@@ -267,61 +267,80 @@ def _with_version(
     """Compare a source with another version; `result` is that of a dry run."""
     if result.failed:
         return Comparison(result, shown(robot.source), against)
-    domain, source = registry.domain(robot.domain), robot.source
-    revision = None if is_pair or _is_file(against, source, folder) else Revision(source.parent, against)
-    text = _read_text(robot, config, options)
-    now = _read(robot, text, (source,), imports.Imported(), options)
-    if revision is None:
-        file = folder / against
-        former_text = _read_file(msgspec.structs.replace(robot, source=file), config, options)
-        former = _read(robot, former_text, (file, source), now.imported, options)
-    else:
-        former = _read_revision(revision, robot, config, now.imported, options)
-    old, new = former.model, now.model
+    former, now = _read_both(robot, against, config, options, folder, is_pair=is_pair)
+    domain, name = registry.domain(robot.domain), shown(robot.source)
     known = {(finding.code, finding.statement) for finding in former.told}
     findings = [finding for finding in now.told if (finding.code, finding.statement) not in known]
-    has_other_format = is_pair or text.format != former.text.format
-    matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed, has_other_format=has_other_format)
-    if is_pair:
-        formats = domain.formats
-        if formats is not None:
-            old, new = map(Version, formats.in_common_frames(old.snapshot, new.snapshot, matching.renames))
-        existing = domain.features(old.snapshot), domain.features(new.snapshot)
-        pairs = [(key, (key[0], name)) for key, name in matching.renames.items()]
-        renames = {key: to[1] for key, to in pairs if key in existing[0] and to in existing[1]}
-        matching = Matching(renames)  # no file has the name of a doubtful element
-    differences = changes.compare(old, new, domain, robot.options, matching)
-    name = shown(robot.source)
+    has_other_format = is_pair or now.text.format != former.text.format
+    models = former.model.snapshot, now.model.snapshot
+    matching = find_matching(domain, *models, robot.renamed, has_other_format=has_other_format)
     if is_pair:
         result = msgspec.structs.replace(result, diagnostics=tuple(robot.without_ignored(findings)))
-        asked = domain.effects
-        effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
-        news = differences if differences.changes else None
+        news, effects = _compare_motion(domain, former.model, now.model, matching, robot)
         return Comparison(result, name, against, changes=news, effects=effects, is_pair=True)
+    old, new = former.model, now.model
+    differences = changes.compare(old, new, domain, robot.options, matching)
     new = msgspec.structs.replace(new, snapshot=domain.numbered(new, [old], lambda _: matching.renames))
-    judged = [*judge(domain, new, now.reading, text.name, old, differences)]
-    judged += find_jumps(domain, new, now.reading, text.name, old, differences.renames)
-    findings = [*(text.locate(finding) for finding in judged if finding.is_new), *findings]
+    judged = [*judge(domain, new, now.reading, now.text.name, old, differences)]
+    judged += find_jumps(domain, new, now.reading, now.text.name, old, differences.renames)
+    findings = [*(now.text.locate(finding) for finding in judged if finding.is_new), *findings]
     findings += [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
-    encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]
-    is_reordered = old.snapshot == new.snapshot and encoded[0] != encoded[1]
     files, effects = dict[str, ChangeKind](), tuple[Effect, ...]()
-    if differences.changes or is_reordered:
+    if differences.changes or _is_reordered(old, new):
         templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
         packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
         if domain.describe is None:
             differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
-        changed = packages[1].changed_since(packages[0])
-        older, newer = (_contents(*pair, changed) for pair in zip(packages, (old, new), strict=True))
-        kinds = dict.fromkeys(older, ChangeKind.REMOVED) | dict.fromkeys(newer, ChangeKind.ADDED)
-        kinds |= dict.fromkeys(older.keys() & newer.keys(), ChangeKind.CHANGED)
-        for path in sorted(path for path, _ in older.items() ^ newer.items()):
-            files[Path(os.path.relpath(result.folder / path, result.root)).as_posix()] = kinds[path]
+        for path, kind in _differing_files(packages, (old, new)):
+            files[Path(os.path.relpath(result.folder / path, result.root)).as_posix()] = kind
         effects = _effects(domain, old, new, differences, robot)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(findings))
     news = differences if differences.changes else None
     versions = (old, former.imported.contents), (new, now.imported.contents)
     return Comparison(result, name, against, "", news, files, effects, versions=versions)
+
+
+def _read_both(
+    robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path, *, is_pair: bool
+) -> tuple[_ReadVersion, _ReadVersion]:
+    """Return the other version and the present one. Raises SourceError."""
+    source = robot.source
+    now = _read(robot, _read_text(robot, config, options), (source,), imports.Imported(), options)
+    if not (is_pair or _is_file(against, source, folder)):
+        return _read_revision(Revision(source.parent, against), robot, config, now.imported, options), now
+    file = folder / against
+    text = _read_file(msgspec.structs.replace(robot, source=file), config, options)
+    return _read(robot, text, (file, source), now.imported, options), now
+
+
+def _compare_motion(
+    domain: Domain, old: Version, new: Version, matching: Matching, robot: RobotConfig
+) -> tuple[Changes | None, tuple[Effect, ...]]:
+    """Return the changes and effects of two sources side by side, as far as they differ in motion."""
+    if domain.formats is not None:
+        old, new = map(Version, domain.formats.in_common_frames(old.snapshot, new.snapshot, matching.renames))
+    before, after = domain.features(old.snapshot), domain.features(new.snapshot)
+    renames = {key: name for key, name in matching.renames.items() if key in before and (key[0], name) in after}
+    # no file has the name of a doubtful element
+    differences = changes.compare(old, new, domain, robot.options, Matching(renames))
+    asked = domain.effects
+    effects = (*asked.effects(old, new), *asked.loads(old, new, differences.renames)) if asked else ()
+    return differences if differences.changes else None, effects
+
+
+def _is_reordered(old: Version, new: Version) -> bool:
+    """Whether two equal models list their elements in another order, such as rows of a table."""
+    encoded = [msgspec.json.encode(version.snapshot) for version in (old, new)]
+    return old.snapshot == new.snapshot and encoded[0] != encoded[1]
+
+
+def _differing_files(packages: Sequence[Package], versions: Sequence[Version]) -> Iterator[tuple[str, ChangeKind]]:
+    """Yield the files that differ in an older and a newer package, by path, with their changes."""
+    changed = packages[1].changed_since(packages[0])
+    older, newer = (_contents(*pair, changed) for pair in zip(packages, versions, strict=True))
+    kinds = dict.fromkeys(older, ChangeKind.REMOVED) | dict.fromkeys(newer, ChangeKind.ADDED)
+    kinds |= dict.fromkeys(older.keys() & newer.keys(), ChangeKind.CHANGED)
+    yield from ((path, kinds[path]) for path in sorted({path for path, _ in older.items() ^ newer.items()}))
 
 
 def _read_text(robot: RobotConfig, config: Config | None, options: BuildOptions) -> Source:
