@@ -20,7 +20,7 @@ import itertools
 import math
 import re
 from collections.abc import Iterable, Sequence
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import msgspec
 
@@ -187,71 +187,121 @@ class _Item(msgspec.Struct, eq=False):
     remark: str = ""
 
 
+class _Versions(NamedTuple):
+    """The three versions of a thing that has parts, with the keys that lead to the thing."""
+
+    path: ElementPath
+    base: SyntaxTree
+    mine: SyntaxTree
+    generated: SyntaxTree
+    users_layout: Layout
+
+    @property
+    def trees(self) -> tuple[SyntaxTree, SyntaxTree, SyntaxTree]:
+        """Base, mine and generated."""
+        return self.base, self.mine, self.generated
+
+    @property
+    def is_two_people(self) -> bool:
+        """Whether `generated` is the version of another person."""
+        return self.users_layout is None
+
+    @property
+    def has_statements(self) -> bool:
+        """Whether comments count statement by statement: in a class, between two people."""
+        return self.is_two_people and _has_body(self.mine)
+
+    @property
+    def is_picture(self) -> bool:
+        """Whether the thing is a part of a diagram or icon that the user has changed."""
+        return bool(self.users_layout and self.users_layout & PICTURES.intersection(self.path))
+
+
 def _merge_parts(
     path: ElementPath, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: Layout
 ) -> list[Piece]:
     """Merge a thing that has parts."""
     trees = base or SyntaxTree(mine.kind, ()), mine, generated
-    is_two_people, is_class = users_layout is None, _has_body(mine)
     if mine.kind is TreeKind.BODY:
-        users_layout = None if is_two_people else find_users_layout(*trees[:2])
+        users_layout = None if users_layout is None else find_users_layout(*trees[:2])
         trees = pair(*trees) if base else trees
-    base, mine, generated = trees
-    is_picture = bool(users_layout and users_layout & PICTURES.intersection(path))
+    versions = _Versions(path, *trees, users_layout)
+    items, notes = dict[str, _Item](), ""  # notes: comments of the user from removed parts, for the next item
+    for part in versions.mine.parts:
+        if _is_removed(versions, part):
+            notes += _remaining_notes(part, versions.base.find(part.key))
+            continue
+        items[part.key] = item = _merge_part(versions, part)
+        item.before, notes = notes + item.before, ""
+    arranged = arrange(*versions[2:4], users_layout) if mine.kind is TreeKind.BODY and users_layout else {}
+    for part in versions.generated.parts:
+        if part.key not in items and not _was_removed(versions, part):
+            items[part.key] = _added_part(versions, part, arranged.get(part.key, part.node.text))
     has_sequence = mine.kind is TreeKind.BODY or (mine.kind is TreeKind.ARRAY and PICTURES.isdisjoint(path))
-    sequence = _sequence(trees) if has_sequence else []
-    items: dict[str, _Item] = {}
-    notes = ""  # comments of the user from removed parts, for the next item
-    for part in mine.parts:
-        old, new, here = base.find(part.key), generated.find(part.key), (*path, part.key)
-        pieces: list[Piece] = [part.node.text]
-        if new and not is_section(part.key):
-            is_statement = is_two_people and is_class and not any(map(_has_body, (part.node, new.node)))
-            merge = _merge_statement if is_statement else _merge
-            pieces = merge(here, old.node if old else None, part.node, new.node, users_layout)
-        elif is_section(part.key) or old is None:
-            pass
-        elif (is_picture and mine.kind is TreeKind.ARRAY) or _is_unchanged(part.key, base, mine, users_layout):
-            notes += _remaining_notes(part, old)
-            continue
-        elif part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
-            nothing = old.node.with_parts(())
-            pieces = _merge(here, old.node, part.node, nothing, users_layout)
-        elif not is_picture and part.key not in (users_layout or ()):
-            pieces = [_contradiction(here, old.node, part.node, None)]
-        # inside of an element, keep the user's blanks: they depend on each other
-        blanks = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
-        if is_two_people and is_class and new:
-            blanks, pieces = _merge_around(here, old, part, new, pieces)
-        before, after, remark = blanks
-        if mine.separator:  # it stands before a comment to the end of the line
-            remark = _joined(_take_last_notes(pieces), remark)
-        items[part.key] = _Item(part.key, notes + before, pieces or [part.node.text], after, remark)
-        notes = ""
-    arranged = arrange(mine, generated, users_layout) if mine.kind is TreeKind.BODY and users_layout else {}
-    for part in generated.parts:
-        if part.key in items:
-            continue
-        old = base.find(part.key)
-        is_layout = is_picture or (part.key in LAYOUT and not is_two_people)
-        is_gone = old and (is_layout or _is_unchanged(part.key, base, generated, users_layout))
-        if is_gone and not is_section(part.key):
-            continue
-        pieces = [arranged.get(part.key, part.node.text)]
-        if old and not is_section(part.key):
-            pieces = [_contradiction((*path, part.key), old.node, None, part.node)]
-        items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
-    order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
+    sequence = _sequence(versions.trees) if has_sequence else []
+    order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(versions.trees, items)
     # the order may name an element that one side moved and the other side removed
     if sequence is None or set(order) - items.keys() or [key for key in order if key in sequence] != sequence:
         place = (*path, "order") if mine.kind is TreeKind.BODY else path
-        return [_contradiction(place, base, mine, generated)]
-    closing: list[Piece] = []
-    if is_two_people and is_class:
-        closings = [tree.closing for tree in trees]
-        merged = _merge_comments(*closings)
-        closing = _contradiction_of_lines((), closings) if merged is None else [merged]
-    return _text_of(trees, [items[key] for key in order], notes, closing)
+        return [_contradiction(place, *versions.trees)]
+    closing = _merge_closing(versions) if versions.has_statements else []
+    return _text_of(versions.trees, [items[key] for key in order], notes, closing)
+
+
+def _is_removed(versions: _Versions, part: Part) -> bool:
+    """Whether the other side removed a part that the user has not changed."""
+    _, base, mine, generated, users_layout = versions
+    if is_section(part.key) or generated.find(part.key) or not base.find(part.key):
+        return False
+    is_graphic = versions.is_picture and mine.kind is TreeKind.ARRAY
+    return is_graphic or _is_unchanged(part.key, base, mine, users_layout)
+
+
+def _was_removed(versions: _Versions, part: Part) -> bool:
+    """Whether the user removed a generated part that the export has not changed."""
+    is_layout = versions.is_picture or (part.key in LAYOUT and not versions.is_two_people)
+    if is_section(part.key) or not versions.base.find(part.key):
+        return False
+    return is_layout or _is_unchanged(part.key, versions.base, versions.generated, versions.users_layout)
+
+
+def _merge_part(versions: _Versions, part: Part) -> _Item:
+    """Merge a part that the user's version has."""
+    path, base, mine, generated, users_layout = versions
+    old, new, here = base.find(part.key), generated.find(part.key), (*path, part.key)
+    pieces: list[Piece] = [part.node.text]
+    if new and not is_section(part.key):
+        is_statement = versions.has_statements and not any(map(_has_body, (part.node, new.node)))
+        merge = _merge_statement if is_statement else _merge
+        pieces = merge(here, old.node if old else None, part.node, new.node, users_layout)
+    elif old and not is_section(part.key):
+        if part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
+            pieces = _merge(here, old.node, part.node, old.node.with_parts(()), users_layout)
+        elif not versions.is_picture and part.key not in (users_layout or ()):
+            pieces = [_contradiction(here, old.node, part.node, None)]
+    # inside of an element, keep the user's blanks: they depend on each other
+    blanks = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
+    if versions.has_statements and new:
+        blanks, pieces = _merge_around(here, old, part, new, pieces)
+    before, after, remark = blanks
+    if mine.separator:  # it stands before a comment to the end of the line
+        remark = _joined(_take_last_notes(pieces), remark)
+    return _Item(part.key, before, pieces or [part.node.text], after, remark)
+
+
+def _added_part(versions: _Versions, part: Part, text: str) -> _Item:
+    """Return a generated part that the user's version lacks; `text` has its place in the user's diagram."""
+    pieces: list[Piece] = [text]
+    if (old := versions.base.find(part.key)) and not is_section(part.key):
+        pieces = [_contradiction((*versions.path, part.key), old.node, None, part.node)]
+    return _Item(part.key, part.before, pieces, part.after, part.remark)
+
+
+def _merge_closing(versions: _Versions) -> list[Piece]:
+    """Merge the comments before the end of a class between two people."""
+    closings = [tree.closing for tree in versions.trees]
+    merged = _merge_comments(*closings)
+    return _contradiction_of_lines((), closings) if merged is None else [merged]
 
 
 def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
@@ -303,7 +353,7 @@ def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[s
     return own if is_changed or not generated else (generated.before, generated.after, generated.remark)
 
 
-def _remaining_notes(part: Part, old: Part) -> str:
+def _remaining_notes(part: Part, old: Part | None) -> str:
     """Return the user's comments at a removed thing, each with a line break or blank before."""
     had = comments(_with_blanks(old))
     lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", part.before)), " ")
