@@ -6,8 +6,9 @@
 from __future__ import annotations
 
 from urdfsync.common.dependencies.reads import Reads
-from urdfsync.engine.decide.decision import Decision, decide_package
+from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.settle import settle, with_choices
+from urdfsync.engine.decide.steps import decide_package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inspect.inputs import Inputs, inspect
 from urdfsync.engine.inspect.united import with_git_merges

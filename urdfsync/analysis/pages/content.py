@@ -17,7 +17,7 @@ from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
 from urdfsync.domain.changes import Effect
 from urdfsync.domain.comparison import Changes, compare
 from urdfsync.domain.scene import Body, Hinge, LoopConstraint, Scene
-from urdfsync.engine.decide.decision import decide_package
+from urdfsync.engine.decide.steps import decide_package
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inspect.inputs import Inputs, inspect

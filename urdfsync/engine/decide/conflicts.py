@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Collection, Iterable, Mapping
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -54,16 +54,6 @@ class Conflict(msgspec.Struct, frozen=True):
         if choice in self.refused or choice is (Choice.MERGE_GENERATED if self.is_of_branches else Choice.MERGE_THEIRS):
             return None
         return self.merge.with_mine if choice is Choice.MERGE_MINE else self.merge.with_generated
-
-
-class Verdicts(NamedTuple):
-    """Actions on files, with the texts that decide them."""
-
-    actions: Sequence[Action]
-    texts: Mapping[str, str] = {}
-    """The merged texts that the actions write, by key."""
-    conflicts: Mapping[str, Conflict] = {}
-    """The texts of the files that both sides changed, by key."""
 
 
 def find_conflict(

@@ -6,44 +6,46 @@ edit that git has merged with the rename of another branch.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
 
+from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.decide.conflicts import Conflict, Verdicts
+from urdfsync.engine.decide.conflicts import Conflict
+from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.package_after import PackageAfter
 from urdfsync.engine.decide.package_names import declared_names, new_name
+from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
-from urdfsync.engine.package.generate import Package
 
 if TYPE_CHECKING:
     from urdfsync.engine.decide.fit import Misfit
 
 
-def follow(
-    inputs: Inputs, package: Package, verdicts: Verdicts, users_classes: Sequence[Action], renamed: Mapping[str, str]
-) -> Verdicts:
-    """Let the user's files follow renames that their bases do not show; `users_classes` are actions on these.
+def follow(inputs: Inputs, generation: Generation, decision: Decision) -> Decision:
+    """Let the user's files follow renames that their bases do not show; adds an action for each of his own classes.
 
     They follow as the user allows merges; else they conflict, and the new text is proposed.
     """
-    after = PackageAfter(inputs, package, (*verdicts.actions, *users_classes), verdicts.texts, conflicts_empty=True)
+    package, renamed, texts = generation.package, decision.differences.former, dict(decision.texts)
+    decision = decision.with_actions((*decision.actions, *_find_users_classes(inputs, decision.actions)))
+    after = PackageAfter(inputs, package, decision.actions, texts, conflicts_empty=True)
     users = {Reason.KEEP, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
     keys = {
         action.path
         for action in after.actions
         if action.reason in users and action.path.endswith(".mo")
         if action.mine not in (None, *inputs.last.record.confirmed)
-        if action.path in verdicts.texts or not inputs.files.is_chosen(action.path)
+        if action.path in texts or not inputs.files.is_chosen(action.path)
     }
     if not renamed or not keys or not after.mentions(keys, renamed):
-        return verdicts._replace(actions=after.actions)
+        return decision
     from urdfsync.merge import Merge  # imports the parser
 
     followers = _find_followers(after, keys, renamed)
-    actions, texts, conflicts = list[Action](), dict(verdicts.texts), dict(verdicts.conflicts)
+    actions, conflicts = list[Action](), dict(decision.disputed)
     for action in after.actions:
         key = action.path
         if key in followers and (inputs.is_merging or action.reason in (Reason.MERGE, Reason.MOVE)):
@@ -55,7 +57,17 @@ def follow(
             conflicts[key] = Conflict(key, generated, mine, generated, Merge(new, new, ()), names=names)
             action = msgspec.structs.replace(action, reason=Reason.RENAMED)
         actions.append(action)
-    return Verdicts(actions, texts, conflicts)
+    return decision.with_actions(actions, texts=texts, disputed=conflicts)
+
+
+def _find_users_classes(inputs: Inputs, actions: Iterable[Action]) -> Iterator[Action]:
+    """Yield an action for each of the user's own classes in the package, which changes nothing."""
+    known, files = {key for action in actions for key in (action.path, action.origin) if key}, inputs.files
+    others = tuple(f"{files.key(one.folder)}/" for one in inputs.config.robots if one.name != inputs.robot.name)
+    for key in sorted(files.classes(inputs.folder) - known):
+        if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
+            mine = files.hash(key, Role.MODEL) if files.can_read(key) else None
+            yield Action(key, Reason.UNKNOWN, Role.MODEL, mine=mine)
 
 
 def _find_followers(

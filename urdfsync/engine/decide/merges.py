@@ -12,17 +12,15 @@ from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Choice, Reason
 from urdfsync.engine.decide.conflicts import (
     PREFERENCES,
     Conflict,
-    Verdicts,
     describe_doubt,
     find_conflict,
     only_names_changed,
     resolve,
 )
-from urdfsync.engine.decide.differences import Differences
+from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.misfits import look_for_misfits
 from urdfsync.engine.decide.package_after import PackageAfter, keep_needed
 from urdfsync.engine.decide.package_names import known_names, names_of
-from urdfsync.engine.decide.triage import Triage
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import PackageFiles
@@ -35,22 +33,23 @@ _SETTLED = frozenset({Reason.MERGE, Reason.FORGET}) | ORPHANS
 """Reasons for which a build writes the text that both branches meant."""
 
 
-def merge_edits(inputs: Inputs, generation: Generation, triaged: Triage, differences: Differences) -> Verdicts:
+def merge_edits(inputs: Inputs, generation: Generation, decision: Decision) -> Decision:
     """Merge the files that both sides changed, as far as the user allows merges and these fit the package."""
-    package, actions = generation.package, triaged.actions
+    package, actions = generation.package, decision.actions
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
-    conflicts = {one.path: _conflict(inputs, generation, one, triaged) for one in disputed}
+    conflicts = {one.path: _conflict(inputs, generation, one, decision) for one in disputed}
     conflicts = _refuse_unfit_merges(_Trials(inputs, package, actions), conflicts)
-    names = {name: new for (_, name), new in differences.renames.items()} | dict(triaged.names)
+    names = {name: new for (_, name), new in decision.differences.renames.items()} | dict(decision.names)
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
-    actions, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
-    needed = keep_needed(PackageAfter(inputs, package, actions, texts))
-    return Verdicts(*_write_git_merges(inputs.files, needed, texts), conflicts)
+    resolved, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
+    needed = keep_needed(PackageAfter(inputs, package, resolved, texts))
+    written, texts = _write_git_merges(inputs.files, needed, texts)
+    return decision.with_actions(written, texts=texts, disputed=conflicts)
 
 
-def _conflict(inputs: Inputs, generation: Generation, action: Action, triaged: Triage) -> Conflict:
+def _conflict(inputs: Inputs, generation: Generation, action: Action, decision: Decision) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder, *mine* is its `package.mo`."""
-    doubt, names = triaged.doubts.get(action.path), triaged.names
+    doubt, names = decision.doubts.get(action.path), decision.names
     key, files, last = action.origin or action.path, inputs.files, inputs.last
     path = inputs.folder.path(action.path)
     mine, generated = files.text(key), generation.package.content(path).decode()

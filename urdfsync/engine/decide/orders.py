@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Collection, Iterable, Sequence
 
 from urdfsync.common.dependencies.reads import is_file
 from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Choice, Reason, find_deletions
-from urdfsync.engine.decide.differences import Differences
+from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.parents import SharedFile, merge_order
 from urdfsync.engine.package.generate import Package
@@ -17,26 +16,16 @@ from urdfsync.modelica.markers import join_sides
 from urdfsync.modelica.names import is_identifier
 
 
-class Orders(NamedTuple):
-    """What becomes of the `package.order` files."""
-
-    actions: Sequence[Action]
-    texts: Mapping[str, str]
-    """The new texts by key; empty for no file."""
-    shared: Sequence[SharedFile]
-    """The files around this package, and around the package of the last build."""
-
-
-def decide_orders(inputs: Inputs, package: Package, differences: Differences, actions: Sequence[Action]) -> Orders:
-    """Decide on the `package.order` files, and on the packages around the robot's; `actions` are those of classes."""
-    files, robot = inputs.files, inputs.robot
-    is_same = not (differences.is_structural or inputs.has_moved)
+def decide_orders(inputs: Inputs, package: Package, decision: Decision) -> Decision:
+    """Decide on the `package.order` files, and on the packages around the robot's."""
+    files, robot, actions = inputs.files, inputs.robot, decision.actions
+    is_same = not (decision.differences.is_structural or inputs.has_moved)
     recorded = _recorded_orders(inputs, package if is_same else inputs.last.package)
     desired = {inputs.folder.key(path): names for path, names in package.orders.items()}
     if robot.folder.parent != robot.output and inputs.parents.listed:
         desired[files.key(robot.folder.parent / "package.order")] = (robot.folder.name,)
     inside = (inputs.folder.key(""), inputs.last.folder.key(""))
-    decided, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
+    decided, texts, shared = [*actions], dict(decision.texts), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
         old, written, generated = files.text(key), recorded.get(key, ()), desired.get(key, ())
         text = None if old is None else join_sides(old)  # lines of both sides of a merge may stand together
@@ -55,7 +44,7 @@ def decide_orders(inputs: Inputs, package: Package, differences: Differences, ac
         elif (old := files.text(key)) != merge_order(old, file.names):
             reason = Reason.CREATE if old is None else Reason.UPDATE
             decided.append(Action(key, reason, Role.ORDER, "parent package"))
-    return Orders(decided, texts, (*shared, *inputs.parents.shared))
+    return decision.with_actions(decided, texts=texts, shared=(*shared, *inputs.parents.shared))
 
 
 def _recorded_orders(inputs: Inputs, package: Package | None) -> dict[str, Collection[str]]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Mapping
 
 import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.domain.matching import Doubt
-from urdfsync.engine.actions import DISPUTED, Action, Reason
+from urdfsync.engine.actions import DISPUTED, Action, Actions, Reason
+from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.doubts import find_doubts
 from urdfsync.engine.decide.package_names import renamed_names
@@ -22,16 +22,7 @@ from urdfsync.engine.package.generate import Package
 from urdfsync.modelica.stamp import Stamp
 
 
-class Triage(NamedTuple):
-    """What the hashes of the files tell, and which parts the user's edits mean."""
-
-    actions: tuple[Action, ...]
-    doubts: Mapping[str, Doubt]
-    names: Mapping[str, str]
-    """New names by old names; empty if no edit, no text in `aside` and no use of an exchanged name needs them."""
-
-
-def triage(inputs: Inputs, generation: Generation, differences: Differences) -> Triage:
+def triage(inputs: Inputs, generation: Generation, differences: Differences) -> Decision:
     """Decide on every file by hashes; ask about edits that may belong to other parts."""
     package, moves = generation.package, differences.moves
     decided = decide(find_places(inputs, generation, differences.ids, moves), moves)
@@ -43,15 +34,7 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
         names = renamed_names(inputs, generation, differences)
     if differences.other_elements:
         actions = tuple(_with_other_names(inputs, package, actions, names))
-    return Triage(actions, doubts, names)
-
-
-def find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
-    """Yield the Modelica files in the package that are neither generated nor recorded."""
-    others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one.name != inputs.robot.name)
-    for key in sorted(inputs.files.classes(inputs.folder) - set(known)):
-        if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
-            yield key
+    return Decision(differences, Actions(actions), doubts=doubts, names=names)
 
 
 def _adjust(
