@@ -172,7 +172,8 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def present(self) -> str:
         """The present path of the user's file: for a conflict its old one, for a class in a folder its `package.mo`."""
-        if self.reason is Reason.KEEP and not self.is_on_disk:
+        is_users = self.status in (FileStatus.EDITED, FileStatus.CONFLICT, FileStatus.ORPHAN)
+        if is_users and not self.is_on_disk and self.path.endswith(".mo"):
             return f"{self.path.removesuffix('.mo')}/package.mo"
         return (self.origin if self.is_conflict else None) or self.path
 
@@ -185,7 +186,7 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def cause(self) -> str:
         """The reason in words; an unedited file whose part had another name, or that the user moved, is not new."""
-        if self.reason is Reason.CREATE and self.origin:
+        if self.reason in (Reason.CREATE, Reason.UPDATE) and self.origin:
             return f"so far {self.origin.rpartition('/')[2]}"
         return self.reason.text
 

@@ -43,7 +43,9 @@ def build_section(result: Result, *, verbose: bool | None = None, named: Contain
     if verbose is False:
         important = {action.path for action in listed if action.reason in _ALWAYS_LISTED and not action.is_waiting}
         listed = [action for action in listed if action.path in important or action.path in named]
-    hints = [_ORPHANS] if any(action.reason is Reason.ORPHAN for action in listed) else []
+    orphans = (result.root / action.path for action in listed if action.reason is Reason.ORPHAN)
+    # what stays in a package's former folder is the user's own afterwards
+    hints = [_ORPHANS] if any(path.is_relative_to(result.folder) for path in orphans) else []
     hints += [f"diagram: {shown(result.drawing)}"] if result.drawing else []
     return Section(
         result.robot,

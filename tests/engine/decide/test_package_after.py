@@ -24,5 +24,5 @@ def test_a_package_stays_for_the_one_inside_that_stays() -> None:
     inputs, package = cast("Inputs", SimpleNamespace(files=files)), cast("Package", None)
     actions = [Action(path, Reason.DELETE, Role.PACKAGE) for path in packages]
     actions.append(Action("P/A.mo", Reason.DELETE, Role.MODEL))
-    kept = keep_needed(PackageAfter(inputs, package, actions, {}))
+    kept = keep_needed(PackageAfter(inputs, package, actions, {}), ())
     assert {one.path for one in kept if one.reason is Reason.NEEDED} == {"P/package.mo", "P/Q/package.mo"}

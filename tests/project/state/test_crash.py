@@ -92,6 +92,15 @@ def moved(project: Path) -> Path:
 
 
 @pytest.fixture
+def elsewhere(project: Path) -> Path:
+    """A network with an edited file whose text is the same in the other folder that its package has now."""
+    run(project)
+    edit(project / LADDER / "Elements/C1.mo", "end C1;", "// mine\nend C1;")
+    configure('output = "lib"\n')
+    return project
+
+
+@pytest.fixture
 def edited(tmp_path: Path) -> Path:
     """A robot whose package has random edits, conflicts among them, and whose source has changed."""
     crashes.edited_at_random(tmp_path / "edited", Random(20))
@@ -112,7 +121,7 @@ def exchanged(tmp_path: Path) -> Path:
     return project
 
 
-@pytest.fixture(params=["changed", "project", "moved", "renamed", "edited", "exchanged"])
+@pytest.fixture(params=["changed", "project", "moved", "elsewhere", "renamed", "edited", "exchanged"])
 def scenario(request: pytest.FixtureRequest) -> Path:
     path: Path = request.getfixturevalue(request.param)
     return path
@@ -157,6 +166,7 @@ IN_SCENARIO = {
     "changed": (*ALWAYS, "place", "replace"),
     "project": ("place", "write", "make_folder", "sync"),
     "moved": crashes.NAMES,
+    "elsewhere": (*ALWAYS, "place", "make_folder", "replace"),
     "renamed": (*ALWAYS, "place", "make_folder", "replace"),
     "edited": (*ALWAYS, "place", "make_folder"),
     "exchanged": (*ALWAYS, "place", "make_folder"),

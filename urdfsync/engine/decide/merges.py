@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import msgspec
 
@@ -38,11 +38,12 @@ def merge_edits(inputs: Inputs, generation: Generation, decision: Decision) -> D
     package, actions = generation.package, decision.actions
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {one.path: _conflict(inputs, generation, one, decision) for one in disputed}
-    conflicts = _refuse_unfit_merges(_Trials(inputs, package, actions), conflicts)
+    present = frozenset(decision.differences.ids.values())
+    conflicts = _refuse_unfit_merges(_Trials(inputs, package, actions, present), conflicts)
     names = {name: new for (_, name), new in decision.differences.renames.items()} | dict(decision.names)
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
     resolved, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
-    needed = keep_needed(PackageAfter(inputs, package, resolved, texts))
+    needed = keep_needed(PackageAfter(inputs, package, resolved, texts), present)
     written, texts = _write_git_merges(inputs.files, needed, texts)
     return decision.with_actions(written, texts=texts, disputed=conflicts)
 
@@ -116,6 +117,8 @@ class _Trials(msgspec.Struct, frozen=True, dict=True):
     package: Package
     actions: Sequence[Action]
     """The actions before any merge."""
+    present: Collection[str]
+    """The ids of all generated files."""
 
     def find_unfit(self, conflicts: Mapping[str, Conflict], side: Choice | None) -> dict[str, str]:
         """Return why merges do not fit the package, by key; `side` decides contradictions, None tries clean merges."""
@@ -129,7 +132,7 @@ class _Trials(msgspec.Struct, frozen=True, dict=True):
         if not tried:
             return {}
         planned, merged = resolve(self.actions, conflicts, merging=True, choice=side)
-        planned = keep_needed(PackageAfter(self.inputs, self.package, planned, merged))
+        planned = keep_needed(PackageAfter(self.inputs, self.package, planned, merged), self.present)
         after = PackageAfter(self.inputs, self.package, planned, merged, conflicts_empty=True)
         misfits = [one for one in look_for_misfits(after, merged.keys()) if one.key in tried]
         unfit = dict[str, str]()

@@ -104,8 +104,8 @@ class PackageAfter(Mapping[str, bytes]):
         inputs, files = self.inputs, self.inputs.files
         found = {**inputs.users_files.mentioning}
         if inputs.has_moved:
-            keys = {action.path for action in self.actions}
-            rest = files.classes(inputs.last.folder) - keys - inputs.last.files.keys()
+            inside = {key for key in files.classes(inputs.last.folder) if key.startswith(inputs.folder.key(""))}
+            rest = files.classes(inputs.last.folder) - find_deletions(self.actions) - inside
             found |= {files.path(key): encode(files.any_text(key)) for key in sorted(rest)}
         return found
 
@@ -177,14 +177,15 @@ class PackageAfter(Mapping[str, bytes]):
         return found
 
 
-def keep_needed(after: PackageAfter) -> tuple[Action, ...]:
+def keep_needed(after: PackageAfter, present: Collection[str]) -> tuple[Action, ...]:
     """Return the actions; keep files that the user's files need.
 
-    Needed files are records, their meshes, and the `package.mo` of a folder with classes.
+    Needed files are records, their meshes, and the `package.mo` of a folder with classes. `present` are the ids of all
+    generated files: what is left of one of these at another path is not needed.
     """
     actions, deleted, kept = after.actions, find_deletions(after.actions), set[str]()
     if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
-        kept |= _find_mentioned(after)
+        kept |= _find_mentioned(after, present)
     packages = {action.origin or action.path: action for action in actions if action.role is Role.PACKAGE}
     for path in sorted(packages.keys() & deleted, key=lambda path: path.count("/"), reverse=True):  # innermost first
         if after.inputs.files.has_classes(path, deleted - kept):
@@ -206,7 +207,7 @@ def code_words(content: bytes) -> set[str]:
     return set(words) - {name for kind, name in itertools.pairwise(words) if kind in _CLASS_KINDS}
 
 
-def _find_mentioned(after: PackageAfter) -> frozenset[str]:
+def _find_mentioned(after: PackageAfter, present: Collection[str]) -> frozenset[str]:
     """Return the files that are no longer generated, but that the user's texts need.
 
     The user's texts need the records that they mention. A kept file needs all files that it mentions; these need the
@@ -220,7 +221,12 @@ def _find_mentioned(after: PackageAfter) -> frozenset[str]:
     for key in {action.path for action in actions if action.reason is Reason.KEEP} & words.keys():
         if before is not None and (path := inputs.last.folder.path(key)) in before.artifacts:
             kept_words |= words[key] & code_words(before.content(path))
-    pending = {action.path: action.role for action in actions if action.reason is Reason.DELETE}
+    deleted = (action for action in actions if action.reason is Reason.DELETE)
+    pending = {
+        action.path: action.role
+        for action in deleted
+        if (stamp := inputs.files.stamp(action.path)) is None or stamp.id not in present
+    }
     needed = set[str]()
     for path, role in pending.items():
         was_needed = before is not None and inputs.last.folder.path(path) not in before.artifacts

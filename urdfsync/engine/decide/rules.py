@@ -73,12 +73,13 @@ def decide(places: Mapping[str, Place], moves: Mapping[str, str]) -> tuple[Actio
             found = Place(place.role)  # the file that is here is another part's
         reason = decide_file(found.base, found.mine, place.generated)
         if origin is not None:
-            reason = Reason.MOVE if found.is_edited else Reason.CREATE
+            reason = Reason.MOVE if found.is_edited else Reason.CREATE if place.mine is None else Reason.UPDATE
         elif place.is_displaced and reason is Reason.CONFLICT:
             reason = Reason.MOVE
         if reason is Reason.FORGET and found.base is None:
             continue  # no build wrote this file, or it moves away
-        mine = found.mine if isinstance(found.mine, str) and reason is not Reason.CREATE else None
+        # an unedited text that moves gives way to the generated one
+        mine = found.mine if isinstance(found.mine, str) and (origin is None or reason is Reason.MOVE) else None
         actions.append(Action(path, reason, place.role, place.owner, found.base, place.generated, origin, mine=mine))
     return tuple(actions)
 

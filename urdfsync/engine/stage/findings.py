@@ -35,8 +35,11 @@ from urdfsync.engine.decide.package_names import (
 )
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.package_files import text_hash
 from urdfsync.engine.inspect.users_files import read_saved_facts
 from urdfsync.engine.judgements import find_jumps, judge
+from urdfsync.modelica.files import text_of
+from urdfsync.modelica.stamp import split
 from urdfsync.project.state.notes import Use
 
 if TYPE_CHECKING:
@@ -74,7 +77,7 @@ def find_findings(
         line = inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, place, line, hint=hint))
     findings += _unmerged(inputs, reads)
-    findings += () if inputs.has_moved else _twin(inputs)
+    findings += () if inputs.has_moved else (*_twin(inputs), *_strays(inputs, decision))
     findings += _unlisted(inputs, decision)
     findings += [*_look_left_behind(inputs, decision.actions), *([inputs.damage] if inputs.damage else [])]
     if inputs.former_name:
@@ -168,7 +171,7 @@ def _look_left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if not is_inside:
         message, hint = f"{message}, but urdfsync may not delete files in the old folder", "delete it by hand"
     else:
-        message += f"; these files stay there, since urdfsync did not write them: {_first(rest, _FEW)}"
+        message += f"; these files stay there, since they are yours or your files need them: {_first(rest, _FEW)}"
         hint = "move the files that you need, then delete the old folder"
     file, line = shown(inputs.config.file), inputs.robot.lines[""]
     yield Diagnostic(Severity.WARNING, "left-behind", message, file, line, hint=hint)
@@ -181,6 +184,18 @@ def _twin(inputs: Inputs) -> Iterator[Diagnostic]:
     if other and other != inputs.robot.output / name:
         message, hint = f"there is another class `{name}`", "move the files that you need, then delete it"
         yield Diagnostic(Severity.WARNING, "left-behind", message, shown(other), hint=hint)
+
+
+def _strays(inputs: Inputs, decision: Decision) -> Iterator[Diagnostic]:
+    """Yield a warning for each edited file outside of the package whose stamp says that it belongs to the package."""
+    places = {file_id: inputs.folder.key(path) for path, file_id in decision.differences.ids.items()}
+    for path, content in inputs.users_files.mentioning.items():
+        if b"__urdfsync" in content:
+            text, stamp = split(text_of(content))
+            if stamp and stamp.id in places and text_hash(text) != stamp.base:
+                message = f"it has edits of `{shown(inputs.files.path(places[stamp.id]))}`"
+                hint = "move it there, then build, or delete it"
+                yield Diagnostic(Severity.WARNING, "left-behind", message, shown(path), hint=hint)
 
 
 def _unlisted(inputs: Inputs, decision: Decision) -> Iterator[Diagnostic]:

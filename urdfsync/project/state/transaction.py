@@ -349,7 +349,8 @@ def _clear(path: str) -> str | None:
     target, old, new = _NAME.sub(r"\1/\2/\3", name).split("/")
     target, is_spare = f"{folder}{os.sep}{target}", path.endswith(file_operations.SPARE)
     content, present = ((_hash(file) or "")[:_DIGITS] or _NONE for file in (path, target))
-    if present == _NONE != new and (is_spare or content == old):  # two of three renames are missing
+    # if two of three renames are missing; a text that moves unchanged is still at its old path, too
+    if present == _NONE != new and (is_spare or content == old != new):
         file_operations.place(path, target)
         return None
     # a new file never held anything else; until an exchange, this one holds at most half of the new content
