@@ -12,7 +12,7 @@ import sys
 import tempfile
 import zlib
 from collections import Counter
-from collections.abc import Callable, Collection, Generator, Iterator, Sequence
+from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -130,33 +130,28 @@ def corpus() -> Path:
 def modelica_library() -> Iterator[Path]:
     """The folder with the Modelica Standard Library, in a version that the embedded compiler takes.
 
-    Checks in this process parse, hash and take apart the library only once, which saves each of them one to four
+    Checks in this process parse, hash and read the library only once, which saves each of them one to four
     seconds.
     """
     from urdfsync.analysis.checks import libraries
-    from urdfsync.analysis.checks.cache import UserCache
-    from urdfsync.analysis.checks.packed import LibraryTexts
     from urdfsync.modelica.stored import parse_file
 
     try:
         folder = find_standard_library()["Modelica"].parent
     except UrdfsyncError:
         pytest.skip(NO_LIBRARY)
-    known, take_apart, parts = functools.cache(content_hash), libraries._class_texts, dict[Path, LibraryTexts]()
+    known, read = functools.cache(content_hash), libraries.library_texts
+    read_fixed = functools.cache(read)
 
     def hash_once(root: Path, without: Collection[str] = ()) -> str:
         is_fixed = root.is_relative_to(folder) or root.is_relative_to(sys.prefix)
         return known(root, tuple(without)) if is_fixed else content_hash(root, without)
 
-    def take_apart_once(name: str, path: Path, cache: UserCache) -> LibraryTexts:
-        if not path.is_relative_to(folder):
-            return take_apart(name, path, cache)
-        if path not in parts:
-            parts[path] = take_apart(name, path, cache)
-        return parts[path]
+    def read_once(path: Path) -> Mapping[str, bytes]:
+        return (read_fixed if path.is_relative_to(folder) else read)(path)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(libraries, "_class_texts", take_apart_once)
+        patch.setattr(libraries, "library_texts", read_once)
         patch.setattr("urdfsync.analysis.checks.names.parse_file", functools.cache(parse_file))
         for module in ("contents", "libraries"):
             patch.setattr(f"urdfsync.analysis.checks.{module}.content_hash", hash_once)
@@ -213,16 +208,16 @@ def workspace(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def start(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Start]:
+def start(project: Path, rc_site: Path) -> Iterator[Start]:
     """A function that starts a daemon in the project, and waits until all is built; it is killed after the test."""
     from support.daemon import Watch  # watchdog takes 45 ms
 
     running = []
 
     def begin(*arguments: str, before: Sequence[str] = (), robots: int = 1) -> Watch:
-        path, store = [rc_site, RC_FOLDER], str(tmp_path / "pre-commit")
-        quick = ("--settle", "20", "--sample", "10", "--rescan", "100000", *arguments)
-        running.append(Watch(project, *quick, path=path, before=before, PRE_COMMIT_HOME=store).__enter__())
+        path = [rc_site, RC_FOLDER]
+        quick = ("--settle", "20", "--rescan", "100000", *arguments)
+        running.append(Watch(project, *quick, path=path, before=before).__enter__())
         running[-1].rest(robots=robots)
         return running[-1]
 
@@ -325,7 +320,7 @@ _SAME = tuple(f"tests/{name}" for name in (
     # other formats and checks, but for their processes and for rumoca
     *("formats/mjcf/", "formats/sdf/", "watch/test_checks", "watch/test_report", "watch/test_view"),
     "analysis/checks/compilers/test_omc",
-    *(f"analysis/checks/test_{name}" for name in ("afterbuild", "fingerprint", "names", "packed", "report", "robot")),
+    *(f"analysis/checks/test_{name}" for name in ("afterbuild", "fingerprint", "names", "report", "robot")),
     "analysis/checks/test_texts",
     # git's merges
     *("test_edits_meet_exports", "test_merge", "test_unite"),

@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import Future
+from multiprocessing import SimpleQueue
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -182,7 +183,9 @@ def test_a_mistake_that_one_robot_meets_leaves_the_others_alone(
 
     monkeypatch.setattr(UrdfDomain, "read", fail)
     if command.startswith("check"):
-        monkeypatch.setattr("urdfsync.analysis.checks.run.workers", lambda *_: contextlib.nullcontext(Inline()))
+        monkeypatch.setattr(
+            "urdfsync.common.processes.workers.workers", lambda _: contextlib.nullcontext((Inline(), SimpleQueue()))
+        )
     said = execute(*command.split(), code=2)
     if "--format=json" not in command:
         assert "[internal]" in said.err
@@ -199,6 +202,3 @@ class Inline:
         done = Future[Any]()
         done.set_result(job(*arguments))
         return done
-
-    def steps(self) -> list[str]:
-        return []

@@ -142,7 +142,7 @@ def test_the_daemon_beside_it(make: Callable[[], None], project: Path, rc_site: 
     """The daemon builds the later change; a commit of earlier staged files neither loses nor contains this change."""
     make()
     store = os.environ["PRE_COMMIT_HOME"]
-    quick = ("--settle", "50", "--sample", "20")
+    quick = ("--settle", "50")
     with Watch(project, *quick, path=[rc_site, RC_FOLDER], PRE_COMMIT_HOME=store) as watch:
         watch.rest()
         for old, new in ((100, 120), (120, 130)):

@@ -135,7 +135,7 @@ def _started(
             pytest.param("modules", command, marks=pytest.mark.slow)
             for command in (
                 *(["status"], ["diff"], *WRITING[1:], ["record", "r0.urdf"], ["check", "r0"]),
-                ["watch", "--settle", "10", "--sample", "10"],
+                ["watch", "--settle", "10"],
             )
         ),
         ("a domain of the repository", ["build"]),

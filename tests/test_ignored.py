@@ -52,7 +52,7 @@ def test_no_command_tells_what_is_ignored(noted: Path, execute: Execute, command
 
 @pytest.mark.slow
 def test_check_does_not_either(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.analysis.checks.run.workers", checks.thread_workers)
+    monkeypatch.setattr("urdfsync.common.processes.workers.workers", checks.thread_workers)
     execute("build", "-q")
     edit("modelica/Ladder/package.order", "Ladder\n", "")
     edit("modelica/Ladder/Elements/R1.mo", "end R1;", "")  # an error keeps the check from compiling

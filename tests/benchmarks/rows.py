@@ -193,10 +193,10 @@ def table(tools: Tools) -> Iterator[Pair]:
 
 
 def daemon(tools: Tools) -> Iterator[Pair]:
-    """One mass changed in the daemon, which does not wait for more events (`--settle 0 --sample 0`)."""
+    """One mass changed in the daemon, which does not wait for more events (`--settle 0`)."""
     for links, bar in ((11, 30), (133, 80), (1000, 500)):
         place = write_workspace(tools.folder / f"{links}", 1, links)
-        with Watch(place, "--settle", "0", "--sample", "0", "--rescan", "3600") as watch:
+        with Watch(place, "--settle", "0", "--rescan", "3600") as watch:
             watch.rest()
             pair = (Edits(watch, place), "python -c pass", tools.python, [scaled(bar), CPU])
             yield Pair(f"{links:,} links", *pair)
@@ -209,7 +209,7 @@ def edited(tools: Tools) -> Iterator[Pair]:
         mine, other = (changed(tools, place) for place in places)
         _edit_model(places[0])
         yield Pair(f"{links:,} links, alone", mine, "not edited", other, [ratio(1.5), CPU])
-        quick = ("--settle", "0", "--sample", "0", "--rescan", "3600")
+        quick = ("--settle", "0", "--rescan", "3600")
         with Watch(places[0], *quick) as watch, Watch(places[1], *quick) as watch_other:
             watch.rest()
             watch_other.rest()

@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 from urdfsync.analysis.checks.compilers.compiler import Tool
-from urdfsync.analysis.checks.results import CheckOptions, CheckResult, EditEffect, ToolResult
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult, EditEffect
 from urdfsync.commands import cli
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.domain.experiment import Deviation, Quantity
@@ -21,9 +21,9 @@ Capture = pytest.CaptureFixture[str]
 
 RIGHT = CheckResult("ladder", "Ladder")
 CHANGED = Deviation(Quantity.EFFORT, "R2", 1.0, 10.0, 10.0, "A")
-EDITED = msgspec.structs.replace(RIGHT, tools=(ToolResult(effects=(EditEffect(("Elements/R2.mo",), (CHANGED,)),)),))
+EDITED = msgspec.structs.replace(RIGHT, effects=(EditEffect(("Elements/R2.mo",), (CHANGED,)),))
 INCOMPLETE = msgspec.structs.replace(RIGHT, gaps=("nothing was compiled: there is no library",))
-WRONG = msgspec.structs.replace(RIGHT, tools=(ToolResult(deviations=(CHANGED,)),))
+WRONG = msgspec.structs.replace(RIGHT, deviations=(CHANGED,))
 FAILED = msgspec.structs.replace(
     RIGHT, diagnostics=(Diagnostic(Severity.ERROR, "no-compiler", "there is no compiler"),)
 )
@@ -67,13 +67,13 @@ def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeyp
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
     limits = ["--jobs", "3", "--timeout", "12.5", "--memory", "4", "--wait", "7"]
     assert cli.main(["check", "ladder", "--physics", "--strict", "--tool", "omc", *limits]) == 0
-    chosen = CheckOptions(physics=True, strict=True, tools=(Tool("omc"),), jobs=3, package_paths=(tmp_path,))
+    chosen = CheckOptions(physics=True, strict=True, tool=Tool("omc"), jobs=3, package_paths=(tmp_path,))
     assert checker.options == msgspec.structs.replace(chosen, timeout=12.5, memory=4.0, wait=7.0)
 
 
 def test_a_compiler_has_its_title_as_well(checker: Checker) -> None:
     assert cli.main(["check", "--tool", "openmodelica"]) == 0
-    assert checker.options == msgspec.structs.replace(checker.options, tools=(Tool("omc"),))
+    assert checker.options == msgspec.structs.replace(checker.options, tool=Tool("omc"))
 
 
 def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capture) -> None:

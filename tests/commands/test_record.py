@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.golden import golden
-from support.screen import Screen
+from support.screen import Terminal
 
 pytestmark = pytest.mark.usefixtures("folder")
 
@@ -42,7 +42,7 @@ def test_what_a_model_leaves_out_is_told(execute: Execute) -> None:
 
 def test_a_terminal_shows_the_same_text(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     piped = execute("record", TWIG, code=None).out
-    screen = Screen(width=400)
+    screen = Terminal()
     monkeypatch.setattr(sys, "stdout", screen)
     execute("record", TWIG)
     assert screen.getvalue() == piped

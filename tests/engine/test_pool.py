@@ -23,7 +23,7 @@ from support.replay import contents
 from urdfsync.common.dependencies.facts import CONTENT, PATH
 from urdfsync.common.dependencies.reads import Reads
 from urdfsync.common.diagnostics import UrdfsyncError
-from urdfsync.common.processes.workers import Workers, workers
+from urdfsync.common.processes.workers import workers
 from urdfsync.engine import pool, remembered
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -52,11 +52,11 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """How many processes were asked for, each time that workers started."""
     found: list[int] = []
 
-    def start(count: int) -> AbstractContextManager[Workers]:
+    def start(count: int) -> AbstractContextManager[object]:
         found.append(count)
         return workers(count)
 
-    monkeypatch.setattr(pool, "workers", start)
+    monkeypatch.setattr("urdfsync.common.processes.workers.workers", start)
     return found
 
 
@@ -123,7 +123,9 @@ def test_progress_is_told_in_robots_that_have_been_read(robots: Path, monkeypatc
             told.append((done, total))
             executor.work()
 
-    monkeypatch.setattr(pool, "workers", lambda _: contextlib.nullcontext(Workers(executor, SimpleQueue())))
+    monkeypatch.setattr(
+        "urdfsync.common.processes.workers.workers", lambda _: contextlib.nullcontext((executor, SimpleQueue()))
+    )
     run_all(jobs=2, progress=progress)
     assert told == [(number, COUNT) for number in range(COUNT)]
 

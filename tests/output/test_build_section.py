@@ -14,7 +14,7 @@ from support.files import unchanged
 from support.networks import edit
 from support.schemas import validate
 
-from urdfsync.analysis.checks.results import CheckResult, ToolResult
+from urdfsync.analysis.checks.results import CheckResult
 from urdfsync.domain.experiment import Deviation, Quantity
 from urdfsync.engine.result import Exit
 
@@ -118,7 +118,7 @@ def test_a_built_package_is_fine_in_one_line(arm: Path, execute: Execute) -> Non
 def test_a_check_says_how_far_the_package_agrees(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     torque = Deviation(Quantity.EFFORT, "joint elbow", 1.0, 10.0, 10.0, "N·m")
     result = CheckResult("arm", "Arm", reference="Pinocchio 3.4", folder="modelica/Arm")
-    wrong = msgspec.structs.replace(result, tools=(ToolResult(deviations=(torque,)),))
+    wrong = msgspec.structs.replace(result, deviations=(torque,))
 
     def check(*_: object) -> Iterator[CheckResult]:
         yield wrong

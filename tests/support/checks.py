@@ -9,9 +9,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from multiprocessing import SimpleQueue
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import psutil
@@ -20,9 +21,9 @@ from urdfsync.analysis.checks import process
 from urdfsync.analysis.checks.cache import UserCache
 from urdfsync.analysis.checks.compilers.compiler import CompileJob, CompileResult, Complaint, Tool
 from urdfsync.analysis.checks.process import LimitError, Limits
-from urdfsync.analysis.checks.results import CheckOptions, CheckResult, CheckStatus, CompiledModel, ToolResult
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult, CheckStatus, CompiledModel
 from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.common.processes.workers import Workers, tell
+from urdfsync.common.processes.workers import tell
 from urdfsync.project.config import Config, RobotConfig
 
 FAULT = Diagnostic(Severity.ERROR, "fault", "as it was asked for")
@@ -49,7 +50,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         elif name == "late":
             while not Path("early.done").exists():
                 time.sleep(0.01)
-        result.tools = (ToolResult(compiled=(CompiledModel(f"{name.title()}Run", 10),)),)
+        result.compiled = (CompiledModel(f"{name.title()}Run", 10),)
     except LimitError as error:
         result.add(error.diagnostics)
     Path(f"{name}.done").touch()
@@ -151,7 +152,7 @@ class Compiling:
 
 
 @contextlib.contextmanager
-def thread_workers(count: int) -> Iterator[Workers]:
+def thread_workers(count: int) -> Iterator[tuple[Executor, Any]]:
     """Replace `workers` by threads of this process, which see the stand-ins of a test."""
     with ThreadPoolExecutor(count) as executor:
-        yield Workers(executor, SimpleQueue())
+        yield executor, SimpleQueue()

@@ -23,7 +23,7 @@ REPOSITORY = Path(__file__).parents[2]
 LIMIT = 60.0
 """Seconds after which a test gives up, on any busy machine."""
 
-QUICK = {"settle": 0.02, "sample": 0.01, "give_up_after": 0.1}
+QUICK = {"settle": 0.02, "give_up_after": 0.1}
 
 NEVER = 100000.0
 """Seconds between rescans, too long for any test."""

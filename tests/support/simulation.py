@@ -92,7 +92,7 @@ def arm(built_arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     monkeypatch.chdir(folder)
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: CACHE.folder)
     monkeypatch.setattr(UserCache, "load", lambda *_: None)
-    monkeypatch.setattr(UserCache, "trim", lambda *_: 0)  # trimming takes a second for 10,000 files
+    monkeypatch.setattr(UserCache, "trim", lambda *_: None)  # trimming takes a second for 10,000 files
     return folder
 
 

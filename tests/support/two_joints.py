@@ -6,7 +6,7 @@ from pathlib import Path
 
 from support.urdfs import dynamics, joint, link, robot
 from urdfsync.analysis.checks.results import CheckOptions, CheckResult
-from urdfsync.analysis.checks.robot import check_robot
+from urdfsync.analysis.checks.robot import check_robot, recall_check
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.project import config
@@ -28,7 +28,8 @@ def rebuild() -> None:
 def check(physics: bool = False, fresh: bool = False, curves: bool = False) -> CheckResult:
     loaded = config.load(Path("urdfsync.toml").absolute())
     options = CheckOptions(physics=physics, compilers=2, fresh=fresh, curves=curves)
-    return check_robot(loaded, loaded.robots[0], options)
+    robot = loaded.robots[0]
+    return recall_check(loaded, robot, options) or check_robot(loaded, robot, options)
 
 
 def write(files: dict[str, str]) -> None:

@@ -25,7 +25,7 @@ WATCHING = 0.4
 """Seconds that the daemon gets for its build."""
 TIME_LIMIT = 300.0
 """Seconds after which a command counts as hanging, on any busy machine."""
-WATCH = ["watch", "--settle", "1", "--sample", "1", "--patience", "0.1"]
+WATCH = ["watch", "--settle", "1", "--patience", "0.1"]
 _LARGE = 100_000_000
 _REPORTS = "urdfsync-*.traceback.txt"
 _CONTROLS = re.compile("[\\x00-\\x1f\\x7f-\\x9f]")

@@ -10,9 +10,8 @@ from support.daemon import Daemons
 
 
 @pytest.fixture
-def running(project: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Daemons]]:
+def running(project: Path) -> Iterator[list[Daemons]]:
     """Daemons that are stopped after the test."""
-    monkeypatch.setenv("PRE_COMMIT_HOME", str(project.parent / "pre-commit"))
     found: list[Daemons] = []
     yield found
     for daemon in found:

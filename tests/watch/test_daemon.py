@@ -9,8 +9,6 @@ import contextlib
 import json
 import os
 import shutil
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -79,7 +77,7 @@ def test_it_builds_at_its_start_and_whenever_the_source_changed(start: Start) ->
 
 
 def test_a_slow_writer_is_one_build(start: Start) -> None:
-    watch = start("--settle", "500", "--sample", "100")
+    watch = start("--settle", "500")
     content = ladder(330).encode()
     with building(watch, 330) as since, Path("ladder.json").open("r+b", buffering=0) as file:
         file.truncate(0)
@@ -215,7 +213,7 @@ def test_git_works_underneath(start: Start, project: Path, monkeypatch: pytest.M
     put("second.json", 330)
     repository.commit()
     repository.git("checkout", "-q", "main")
-    watch = start("--settle", "300", "--sample", "50", robots=2)
+    watch = start("--settle", "300", robots=2)
     since = watch.mark
     repository.git("checkout", "-q", "other")
     watch.until(lambda: watch.kinds(since).count("built") == 2)
@@ -307,27 +305,6 @@ def test_the_state_folder_is_deleted(start: Start) -> None:
         shutil.rmtree(".urdfsync", ignore_errors=True)  # the daemon may be at it
     until(lambda: lock.is_file() and lock.read_text().strip() == str(watch.process.pid) and manifest.is_file())
     probe(watch)
-
-
-# Other builds, and pre-commit
-
-
-def test_it_pauses_while_pre_commit_has_stashed_changes(start: Start, project: Path) -> None:
-    watch, store = start(), project.parent / "pre-commit"
-    store.mkdir()
-    (store / f"patch{int(time.time())}-{2**22 + 1}").write_text("of a process that has ended")
-    probe(watch)
-    since = watch.mark
-    with subprocess.Popen([sys.executable, "-c", "input()"], cwd=project, stdin=subprocess.PIPE) as process:
-        (store / f"patch{int(time.time())}-{process.pid}").write_text("unstaged")
-        put("ladder.json", 330)
-        assert str(process.pid) in watch.wait("paused", since=since)["reason"]
-        assert holds(999)
-        assert process.stdin
-        process.stdin.close()
-    watch.wait("built", since=since)
-    assert holds(330)
-    assert watch.kinds(since) == ["settling", "paused", "resumed", "building", "built"]
 
 
 # --exec

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -51,26 +49,17 @@ def test_without_events_rescans_find_what_changed(running: list[Daemons]) -> Non
     assert holds(330)
 
 
-def test_what_is_stashed_away_during_a_build_is_not_built(project: Path, running: list[Daemons]) -> None:
-    """The next build would take what is left for the user's."""
-    store = project.parent / "pre-commit"
-    store.mkdir()
-    with subprocess.Popen([sys.executable, "-c", "input()"], cwd=project, stdin=subprocess.PIPE) as process:
-
-        def stash(event: events.Event) -> None:
-            if isinstance(event, events.Built) and process.poll() is None:
-                (store / f"patch{int(time.time())}-{process.pid}").write_text("unstaged")
-                RECORD.write_text("")
-
-        daemon = Daemons(stash, rescan=NEVER)
-        running.append(daemon)
-        daemon.wait(events.Paused)
-        assert daemon.kinds().count("Built") == 1
-        RECORD.unlink()
-        assert process.stdin
-        process.stdin.close()
-    daemon.wait(events.Built, 3, lambda event: bool(event.files))
-    assert holds(220.5)
+@pytest.mark.usefixtures("without_events")
+def test_without_events_a_file_that_still_changes_is_waited_for(running: list[Daemons]) -> None:
+    daemon = Daemons(rescan=0.8, settle=0.6)
+    running.append(daemon)
+    daemon.wait(events.Built)
+    since = daemon.mark
+    for ohm in range(281, 331):
+        save(ohm)
+        time.sleep(0.05)
+    daemon.wait(events.Built, since, lambda event: bool(event.files))
+    assert holds(330)
 
 
 @pytest.mark.parametrize("place", ["read", "artifacts"])

@@ -116,10 +116,10 @@ def test_a_link_in_the_place_of_a_file_is_a_change(robot: WatchedRobot) -> None:
     assert robot.changed_file == str(Path("arm.urdf").absolute())
 
 
-def test_to_settle_forgets_earlier_looks(robot: WatchedRobot) -> None:
-    earlier = msgspec.structs.replace(robot, sample=robot.seen, invalid_until=5.0)
+def test_to_settle_compares_with_the_last_look(robot: WatchedRobot) -> None:
+    earlier = msgspec.structs.replace(robot, settling={}, invalid_until=5.0)
     earlier.settle(3.0, is_told=True)
-    assert earlier == msgspec.structs.replace(robot, due=3.0, is_told=True)
+    assert earlier == msgspec.structs.replace(robot, due=3.0, is_told=True, settling=robot.seen)
 
 
 def test_facts_that_the_last_look_found_need_no_further_look(robot: WatchedRobot, folder: Path) -> None:

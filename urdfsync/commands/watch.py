@@ -24,8 +24,7 @@ _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
 """Signals that end the daemon; the daemon's own timer sends the last one."""
 _TIMES = (
-    ("settle", "MS", 300, "milliseconds without an event before a build"),
-    ("sample", "MS", 200, "milliseconds between two reads, which must find equal files"),
+    ("settle", "MS", 500, "milliseconds without a change before a build"),
     ("patience", "S", 30, "seconds before an invalid source is reported as an error"),
     ("rescan", "S", 30, "seconds between two reads of all files: the system may drop events, and mounts send none"),
 )
@@ -68,12 +67,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
     from urdfsync.watch.report import Report, show_json
 
     with contextlib.ExitStack() as stack:
-        show = listener = show_json if console.is_document else stack.enter_context(Report(console)).show
+        show = listener = show_json if console.is_document else Report(console).show
         options = WatchOptions(
             file=args.config or config.find(config.working_folder()),
             robots=tuple(args.robots),
             settle=args.settle / 1000,
-            sample=args.sample / 1000,
             give_up_after=args.patience,
             rescan=max(args.rescan, 0.1),
             command=args.exec,

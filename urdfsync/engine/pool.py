@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
+import contextlib
 from collections.abc import Generator, Sequence
-from concurrent.futures import BrokenExecutor, Future, wait
 from typing import TypeAlias
 
 import msgspec
@@ -12,7 +11,7 @@ import msgspec
 from urdfsync.common.dependencies.reads import Reads
 from urdfsync.common.diagnostics import OutputError, UrdfsyncError, findings_of
 from urdfsync.common.processes import machine
-from urdfsync.common.processes.workers import workers
+from urdfsync.common.processes.workers import do_all
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage.writes import Plan
@@ -20,8 +19,6 @@ from urdfsync.project.config import Config, RobotConfig
 
 _AHEAD = 3
 """The greatest number of plans per worker, unfinished or not yet used: each plan holds the texts of a robot."""
-_PAUSE = 0.1
-"""Seconds between two reports of progress."""
 Planned: TypeAlias = tuple[Plan | UrdfsyncError | OSError, Reads]
 """A plan or an error, and all files that the worker read."""
 
@@ -31,28 +28,19 @@ def plan_ahead(
 ) -> Generator[tuple[RobotConfig, Planned]]:
     """Yield the plan of each robot, in their order; the workers plan some robots ahead."""
     count = min(options.jobs or machine.cores(), len(robots))
-    silent = msgspec.structs.replace(options, progress=no_progress)
-    waiting, futures = deque(robots), dict[str, Future[Planned]]()
-    with workers(count) as started:
-        for robot in robots:
-            try:
-                try:
-                    while waiting and len(futures) < _AHEAD * count:
-                        futures[waiting[0].name] = started.submit(plan_in_worker, config, waiting[0], silent)
-                        waiting.popleft()
-                    future = futures.pop(robot.name)
-                    while wait([future], _PAUSE).not_done:
-                        remaining = len(waiting) + sum(not other.done() for other in futures.values()) + 1
-                        options.progress("reading", len(robots) - remaining, len(robots))
-                    planned = future.result()
-                except BrokenExecutor:  # one worker died, perhaps with another robot, and all workers ended
-                    with workers(1) as alone:
-                        planned = alone.submit(plan_in_worker, config, robot, silent).result()
-            except Exception as error:  # noqa: BLE001 - libraries raise many kinds of errors for a lost worker
+    tasks = [(config, robot, msgspec.structs.replace(options, progress=no_progress)) for robot in robots]
+
+    def look(_steps: Sequence[str], finished: int) -> None:
+        options.progress("reading", finished, len(robots))
+
+    plans = do_all(count, plan_in_worker, tasks, look, ahead=_AHEAD * count)
+    with contextlib.closing(plans):
+        for robot, planned in zip(robots, plans, strict=True):
+            if isinstance(planned, Exception):
                 reason = "a process that planned it ended unexpectedly, perhaps because memory ran out"
                 message, hint = f"robot `{robot.name}`: {reason}", "try again with `--jobs 1`"
                 lost = OutputError.of("lost-process", message, hint=hint)
-                lost.__cause__ = error
+                lost.__cause__ = planned
                 planned = lost, Reads()
             yield robot, planned
 

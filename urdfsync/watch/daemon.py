@@ -31,7 +31,7 @@ from urdfsync.engine.result import Result
 from urdfsync.project import config
 from urdfsync.project.config import STATE_FOLDER, Config, warnings
 from urdfsync.project.state.lock import Lock, LockedError
-from urdfsync.watch import events, precommit
+from urdfsync.watch import events
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
 from urdfsync.watch.observer import FileEvent, Observer
@@ -40,8 +40,6 @@ from urdfsync.watch.robot import WatchedRobot
 
 _REST = 3.0
 """The pause after a look, as a multiple of its duration."""
-_PAUSE = 0.25
-"""Seconds between two checks for the end of pre-commit."""
 
 
 class WatchOptions(msgspec.Struct, frozen=True):
@@ -51,10 +49,8 @@ class WatchOptions(msgspec.Struct, frozen=True):
     """The configuration."""
     robots: tuple[str, ...] = ()
     """Names of the robots; empty for all."""
-    settle: float = 0.3
-    """The time without an event before a build."""
-    sample: float = 0.2
-    """The time between the two looks that have to be equal; 0 means one look."""
+    settle: float = 0.5
+    """The time without an event before a build, and between the two looks that have to be equal."""
     give_up_after: float = 30.0
     """The time until an invalid source is an error."""
     rescan: float = 30.0
@@ -83,7 +79,6 @@ class Daemon:
         self._building: Sequence[str] = ()
         """Robots in the present build; empty after the wait for another process was shown."""
         self._is_working = True
-        self._is_paused = False
         self._next_rescan = 0.0
         self._next_look = math.inf
         """When to look at files, after an event."""
@@ -141,14 +136,7 @@ class Daemon:
             settled = self._find_settled(has_looked=has_looked)
             if settled and self._reload_config():
                 continue  # the new configuration lets all robots settle again
-            changed = [watched for watched in settled if self._has_to_be_built(watched)]
-            if changed or self._is_paused:
-                self._update_pause()
-            if not self._is_paused:
-                self._build(changed)
-                continue
-            for watched in changed:
-                watched.due = time.monotonic() + _PAUSE
+            self._build([watched for watched in settled if self._has_to_be_built(watched)])
 
     def _acquire(self, lock: Lock) -> None:
         """Take the daemon's lock, again if its file was deleted, since another daemon would not see the lock."""
@@ -233,7 +221,6 @@ class Daemon:
     def _seconds_until_due(self) -> float:
         now = time.monotonic()
         due = [self._next_rescan, self._next_look, *(watched.due for watched in self._robots.values())]
-        due += [now + _PAUSE] if self._is_paused else []
         return max(min(due) - now, 0.0)
 
     def _look(self) -> None:
@@ -292,11 +279,10 @@ class Daemon:
                 watched.look()
             if not watched.is_told and watched.changed_file:
                 self._touch([watched])  # the event of this change may come later
-            elif watched.seen == watched.sample or not self._options.sample:
+            elif watched.seen == watched.settling:
                 settled.append(watched)
             else:
-                watched.settle(now + self._options.sample, is_told=watched.is_told)
-                watched.sample = watched.seen
+                watched.settle(now + self._options.settle, is_told=watched.is_told)
         return settled
 
     # Builds
@@ -310,16 +296,6 @@ class Daemon:
             self._listener(events.Unchanged(watched.name))
         self._rest(watched)
         return False
-
-    def _update_pause(self) -> None:
-        """Pause builds while pre-commit has stashed changes."""
-        stash = precommit.find_stash(self._config.root)
-        if stash and not self._is_paused:
-            reason = f"pre-commit (process {stash[1]}) has stashed unstaged changes away"
-            self._listener(events.Paused(reason))
-        elif self._is_paused and not stash:
-            self._listener(events.Resumed())
-        self._is_paused = stash is not None
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
         """Build robots. A robot has to settle again if its build wrote files, or if a file was saved meanwhile."""
@@ -345,19 +321,18 @@ class Daemon:
                 watched.is_told = watched.invalid_until > 0
                 self._touch([watched])
             elif watched.invalid_until:
-                watched.sample, watched.due = watched.seen, watched.invalid_until
+                watched.settling, watched.due = watched.seen, watched.invalid_until
             elif watched.is_confirmed and not watched.has_changed:
                 self._rest(watched)
+                if watched.failure is None:
+                    self._show_all(self._checks.check(watched.robot))
             else:  # most likely the build's own writes: do not report them
                 watched.settle(time.monotonic() + self._options.settle, is_told=False)
 
     def _rest(self, watched: WatchedRobot) -> None:
-        """Let a robot rest until a change, or for a while if its build failed; after a success check its package."""
-        if watched.failure is None:
-            watched.settle(math.inf, is_told=False)
-            self._show_all(self._checks.check(watched.robot))
-        else:
-            watched.settle(time.monotonic() + self._options.rescan, is_told=False)
+        """Let a robot rest until a change, or for a while if its build failed."""
+        due = math.inf if watched.failure is None else time.monotonic() + self._options.rescan
+        watched.settle(due, is_told=False)
 
     def _take_failure(self, watched: WatchedRobot, result: Result) -> None:
         """Wait for the exporter, which may still be writing an invalid source. After some time it is an error."""

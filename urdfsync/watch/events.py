@@ -108,16 +108,6 @@ class Noted(Event, frozen=True):
     diagnostics: tuple[Diagnostic, ...]
 
 
-class Paused(Event, frozen=True):
-    """Builds pause, for example because pre-commit has stashed changes."""
-
-    reason: str
-
-
-class Resumed(Event, frozen=True):
-    """Robots are built again."""
-
-
 class Running(RobotEvent, frozen=True):
     """The command of `--exec` begins after a build of the robot."""
 

@@ -1,93 +1,52 @@
-"""The output of `urdfsync watch`: lines and a status for people, a line of JSON per event for programs.
+"""The output of `urdfsync watch`: lines for people, a line of JSON per event for programs.
 
-Lines scroll: each build has a line, with changes, errors and conflicts as `build` shows them. The next build of a robot
+Each build has a line, with changes, errors and conflicts as `build` shows them. The next build of a robot
 does not repeat the conflicts, warnings and orphans of its last build.
 """
 
 from __future__ import annotations
 
 import datetime
-import enum
 import json
 import sys
-from collections import Counter
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, Self
+from collections.abc import Hashable, Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
 
 import msgspec
 
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.common.files import shown
 from urdfsync.common.spelling import counted
-from urdfsync.common.streams import has_marks
 from urdfsync.engine.actions import CONFLICTS, ORPHANS, Actions, Reason
 from urdfsync.engine.result import Checked, Result, check_result
 from urdfsync.output.build_section import build_section
 from urdfsync.output.conflicts import conflict_lines
-from urdfsync.output.console import Console, StyledLine, findings, line, rich_console, write_lines
+from urdfsync.output.console import Console, StyledLine, findings, line, write_lines
 from urdfsync.output.documents import JSON_VERSION, plain
 from urdfsync.output.outline import outline
 from urdfsync.output.phrases import change_counts, generator_change
 from urdfsync.output.repeated import findings_told, note, untold
 from urdfsync.output.terminal import details
 from urdfsync.watch import events
-from urdfsync.watch.terminal import StatusArea
 
 _NAME_WIDTH = 24
 """The greatest number of columns of the robots' names."""
 _FEW = 2
 """Limits of a model's changes in words: their number, and the characters of the text. Further changes are counted."""
 _MAX_LENGTH = 100
-_SPACED = 4
-"""With fewer rows, a terminal has no empty row above the status."""
 
 
-class Activity(enum.StrEnum):
-    """The activity of a robot in words; the most urgent ones come first."""
-
-    ERROR = "error"
-    CONFLICT = "conflict"
-    WAITING = "waiting"
-    BUILDING = "building"
-    CHECKING = "checking"
-    SETTLING = "settling"
-    STARTING = "not looked at yet"
-    IN_STEP = "in step"
-
-
-_RANKS = list(Activity)
-_SIGNS = {
-    Activity.ERROR: ("✗", "bold red"),
-    Activity.CONFLICT: ("!", "yellow"),
-    Activity.WAITING: ("…", "yellow"),
-    Activity.BUILDING: ("…", "cyan"),
-    Activity.CHECKING: ("…", "cyan"),
-    Activity.SETTLING: ("…", "cyan"),
-    Activity.STARTING: ("…", "dim"),
-    Activity.IN_STEP: ("✓", "green"),
+_STEPS: dict[type[events.Event], str] = {
+    events.Settling: "settling: {0.file}",
+    events.Building: "building",
+    events.Waiting: "{0.reason}",
+    events.Unchanged: "as before",
+    events.Checking: "checking",
+    events.Running: "command started",
+    events.Ran: "command ended with {0.code}",
+    events.Stopping: "stopped by {0.signal}",
 }
-"""Mark and style."""
-_STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
-    events.Settling: ("settling: {0.file}", Activity.SETTLING),
-    events.Building: ("building", Activity.BUILDING),
-    events.Waiting: ("{0.reason}", Activity.WAITING),
-    events.Unchanged: ("as before", None),
-    events.Checking: ("checking", Activity.CHECKING),
-    events.Running: ("command started", None),
-    events.Ran: ("command ended with {0.code}", None),
-    events.Paused: ("paused: {0.reason}", None),
-    events.Resumed: ("building again", None),
-    events.Stopping: ("stopped by {0.signal}", None),
-}
-"""Events with one line, and the activity that begins with each; without `--verbose` only `Stopping` is shown."""
-
-
-class RobotStatus(NamedTuple):
-    """The state of one robot at one moment."""
-
-    activity: Activity
-    text: str
-    """The words after the robot's name."""
+"""Events with one line; without `--verbose`, only `Waiting` and `Stopping` are shown."""
 
 
 class LogLine(NamedTuple):
@@ -121,56 +80,23 @@ def show_json(event: events.Event) -> None:
 
 
 class Report:
-    """Lines that scroll and, on a terminal, the status of each robot below them."""
+    """Lines that scroll: what builds and checks have done and found."""
 
     def __init__(self, console: Console) -> None:
-        self._console, self._screen = console, rich_console(sys.stdout)
-        has_status = not console.quiet and sys.stdout.isatty() and not self._screen.is_dumb_terminal
-        self._area = StatusArea(sys.stdout) if has_status else None
+        self._console = console
         self._column = 0
         self._told: dict[tuple[str, str], set[Hashable]] = {}
         """The shown findings of a robot's last build, by robot and topic."""
-        self._results: dict[str, RobotStatus] = {}
-        """Results of the last builds by robots, in the order of the configuration."""
-        self._builds: dict[str, RobotStatus] = {}
-        """Robots between the first event and the end of a build."""
-        self._checks: dict[str, RobotStatus] = {}
-        self._commands: set[str] = set()
-        """Robots for which a command of `--exec` runs."""
-        self._pause = ""
-        """Why builds pause; empty while they run."""
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Remove the status; the lines above stay."""
-        if self._area:
-            self._area.write((), ())
 
     def show(self, event: events.Event) -> None:
         """Show an event."""
-        lines = list(self.take(event, now().strftime("%H:%M:%S")))
-        # on one terminal, both streams stand in order above the status; otherwise each gets its own lines
-        if self._area is None or not sys.stderr.isatty():
-            write_lines([line.text for line in lines if line.error], sys.stderr)
-            lines = [line for line in lines if not line.error]
-        if self._area is None:
-            write_lines([line.text for line in lines], sys.stdout)
-        else:
-            # the output of a command would overwrite the status
-            is_shown = not (self._commands or isinstance(event, events.Stopping))
-            rows = self.status_lines(self._area.room, marks=has_marks(sys.stdout)) if is_shown else ()
-            self._area.write([line.text.__rich__() for line in lines], [row.__rich__() for row in rows])
+        for text, error in self.take(event, now().strftime("%H:%M:%S")):
+            write_lines([text], sys.stderr if error else sys.stdout)
 
     def take(self, event: events.Event, clock: str) -> Iterator[LogLine]:
-        """Record an event at this time of day; yield the lines about it."""
+        """Note what an event shows; yield the lines about it, at this time of day."""
         match event:
             case events.Started(file, robots, again):
-                starting = RobotStatus(Activity.STARTING, Activity.STARTING)
-                self._results = {name: self._results.get(name, starting) for name in robots}
-                self._builds = {name: status for name, status in self._builds.items() if name in robots}
-                self._checks = {}
                 self._column = min(max(map(len, robots), default=0), _NAME_WIDTH)
                 if not self._console.quiet:
                     words = f"watching {counted(len(robots), 'robot')} of {shown(file)}"
@@ -178,11 +104,9 @@ class Report:
             case events.Viewing(address):
                 if not self._console.quiet:
                     yield self._line(clock, "", f"pages at {address}")
-            case events.Built(result):
-                self._finish(result, clock)
+            case events.Built():
                 yield from self._built(event, clock)
             case events.Failed(result, again):
-                self._finish(result, clock)
                 if self._console.verbose or not again:
                     yield self._line(clock, result.robot, result.summary, "bold red", error=True)
                     yield from self._findings(result.diagnostics)
@@ -194,33 +118,23 @@ class Report:
                 yield from self._step(event, clock)
 
     def _step(self, event: events.Event, clock: str) -> Iterator[LogLine]:
-        """Record an event between two results."""
-        words, activity = _STEPS[type(event)]
-        words = words.format(event).removesuffix(": ")
-        robot: str = getattr(event, "robot", "")
-        diagnostics: tuple[Diagnostic, ...] = getattr(event, "diagnostics", ())
-        match event:
-            case events.Checking():
-                self._checks[robot] = RobotStatus(Activity.CHECKING, words)
-            case events.Unchanged():
-                self._builds.pop(robot, None)
-            case events.Running():
-                self._commands.add(robot)
-            case events.Ran():
-                self._commands.discard(robot)
-            case events.Paused() | events.Resumed():
-                self._pause = words if isinstance(event, events.Paused) else ""
-            case _ if activity is not None:
-                self._builds[robot] = RobotStatus(activity, _with_error(words, diagnostics))
-        is_last = isinstance(event, events.Stopping)
-        if self._console.verbose or (is_last and not self._console.quiet):
-            yield self._line(clock, robot, words, "" if is_last else "dim")
-            yield from self._findings(diagnostics)
+        """Yield the line of an event between two results."""
+        robot, quiet, verbose = getattr(event, "robot", ""), self._console.quiet, self._console.verbose
+        is_shown = isinstance(event, events.Stopping)
+        if isinstance(event, events.Waiting):  # robots that wait for one process have one line
+            is_shown = not any({event.reason} == told for (_, topic), told in self._told.items() if topic == "waiting")
+            self._told[robot, "waiting"] = {event.reason} if is_shown else set()
+        if verbose or (is_shown and not quiet):
+            words = _STEPS[type(event)].format(event).removesuffix(": ")
+            yield self._line(clock, robot, words, "" if is_shown else "dim")
+        if verbose:
+            yield from self._findings(getattr(event, "diagnostics", ()))
 
     def _built(self, event: events.Built, clock: str) -> Iterator[LogLine]:
         """Yield the new findings of a build, a line if it wrote or found anything, and the new conflicts."""
         result, robot, verbose = event.result, event.result.robot, self._console.verbose
-        was_in_step = not (self._told.get((robot, "broken")) or self._told.get((robot, "conflicts")))
+        was_in_step = not any(self._told.get((robot, topic)) for topic in ("broken", "conflicts", "waiting"))
+        self._told.pop((robot, "waiting"), None)
         errors = [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
         new = self._new(robot, "findings", map(_key, result.diagnostics))
         new_errors = self._new(robot, "broken", map(_key, errors))
@@ -260,10 +174,6 @@ class Report:
     def _checked(self, event: events.CheckDone, clock: str) -> Iterator[LogLine]:
         """Yield the line of a check, and its findings unless they equal the last ones."""
         is_wrong = event.checked is Checked.WRONG
-        self._checks.pop(event.robot, None)
-        if is_wrong:
-            text = _with_error("checked with errors", event.diagnostics)
-            self._checks[event.robot] = RobotStatus(Activity.ERROR, text)
         new = self._new(event.robot, "check", map(_key, event.diagnostics))
         if is_wrong or not self._console.quiet:
             duration = f" ({event.seconds:.1f} s)" if event.seconds else ""
@@ -285,60 +195,6 @@ class Report:
     def _line(self, clock: str, robot: str, words: str, style: str = "", *, error: bool = False) -> LogLine:
         name = f"{robot:<{self._column}}  " if robot else ""
         return LogLine(line((f"{clock}  ", "dim"), (name, "bold"), (words, style)), error)
-
-    # The status of each robot
-
-    def _finish(self, result: Result, clock: str) -> None:
-        """Record the result of a build."""
-        self._builds.pop(result.robot, None)
-        before = self._results.get(result.robot)
-        if result.failed or result.is_broken:
-            words = Activity.ERROR if result.failed else "broken"
-            status = RobotStatus(Activity.ERROR, _with_error(words, result.diagnostics))
-        elif result.conflicts:
-            files = [each.action.present.rpartition("/")[2] for each in result.conflicts]
-            where = files[0] if len(files) == 1 else f"{len(files)} files"
-            text = f"{Activity.CONFLICT} in {where}: run `urdfsync resolve`"
-            status = RobotStatus(Activity.CONFLICT, text)
-        elif not result.writes and before is not None and before.activity is Activity.IN_STEP:
-            status = before  # keep the time of the last build that wrote a file
-        else:
-            status = RobotStatus(Activity.IN_STEP, f"in step, built at {clock}" if result.writes else "in step")
-        self._results[result.robot] = status
-
-    @property
-    def rows(self) -> Mapping[str, RobotStatus]:
-        """The status of each robot, in order: that of build or check, whichever is more urgent."""
-        rows = {}
-        for robot, result in self._results.items():
-            at_rest = min(result, self._checks.get(robot, result), key=lambda status: _RANKS.index(status.activity))
-            rows[robot] = self._builds.get(robot, at_rest)
-        return rows
-
-    def status_lines(self, room: int, *, marks: bool) -> Iterator[StyledLine]:
-        """Yield lines for as many robots as the terminal has room for, and one line for all others.
-
-        If there are too many robots, the most urgent ones are shown.
-        """
-        rows = self.rows
-        if rows and room >= _SPACED:
-            yield line(("", ""))
-            room -= 1
-        if self._pause:
-            yield line((self._pause, "yellow"))
-            room -= 1
-        by_rank = sorted(rows, key=lambda robot: _RANKS.index(rows[robot].activity))
-        number = len(rows) if len(rows) <= room else max(room - 1, 0)  # a line that counts the other robots needs room
-        width = min(max(map(len, by_rank[:number]), default=0), _NAME_WIDTH)
-        for robot in (robot for robot in rows if robot in by_rank[:number]):
-            activity, text = rows[robot]
-            mark, style = _SIGNS[activity]
-            name = f"{robot:<{width}}" if len(robot) <= width else f"{robot[: width - 1]}…"
-            words = f"  {text}", "" if activity is Activity.IN_STEP else style
-            yield line((f"{mark} " if marks else "", style), (name, "bold"), words)
-        if counts := Counter(rows[robot].activity for robot in by_rank[number:]):
-            rest = ", ".join(f"{counts[activity]} {activity}" for activity in Activity if counts[activity])
-            yield line((f"… and {counts.total()} more: {rest}", "dim"))
 
 
 def _key(finding: Diagnostic) -> Hashable:

@@ -29,8 +29,8 @@ class WatchedRobot(msgspec.Struct):
     """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
     is_told: bool = False
     """Whether `Settling` was reported; the daemon's own writes cause no report."""
-    sample: Mapping[Entry, Facts] | None = None
-    """The facts at the look before the last; None if an event came since. Two equal looks: the robot has settled."""
+    settling: Mapping[Entry, Facts] = {}
+    """The facts when the robot began to settle. It has settled if the look at `due` finds the same."""
     invalid_until: float = 0.0
     """The time until an invalid source becomes an error; 0 for a valid source, and once it is an error."""
     is_confirmed: bool = False
@@ -48,8 +48,8 @@ class WatchedRobot(msgspec.Struct):
         return self.robot.name
 
     def settle(self, due: float, *, is_told: bool) -> None:
-        """Look at the files at this time, and forget earlier looks."""
-        self.due, self.is_told, self.sample, self.invalid_until = due, is_told, None, 0.0
+        """Look at the files again at this time; until then nothing may change."""
+        self.due, self.is_told, self.settling, self.invalid_until = due, is_told, self.seen, 0.0
 
     def take(self, reads: Dependencies, config: Dependencies) -> bool:
         """Take what a build has read; return whether the last build had other entries. Call `look` afterwards."""

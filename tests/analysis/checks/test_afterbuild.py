@@ -12,9 +12,8 @@ import msgspec
 import pytest
 from support.checks import Compiling, thread_workers
 
-from urdfsync.analysis.checks import afterbuild
 from urdfsync.analysis.checks import run as check_run
-from urdfsync.analysis.checks.results import CheckOptions, CheckResult, CompiledModel, ToolResult
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult, CompiledModel
 from urdfsync.commands import cli
 from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.build import build
@@ -23,7 +22,7 @@ from urdfsync.engine.result import Checked, Exit, Result, exit_code
 from urdfsync.project import config
 from urdfsync.project.config import Config, RobotConfig
 
-RIGHT = CheckResult("ladder", "Ladder", tools=(ToolResult(compiled=(CompiledModel("Ladder", 12),)),), seconds=2.5)
+RIGHT = CheckResult("ladder", "Ladder", compiled=(CompiledModel("Ladder", 12),), seconds=2.5)
 BROKEN = Diagnostic(Severity.ERROR, "compile", "there is no class `Foo`", "modelica/Ladder/Elements/R2.mo", 3)
 WRONG = CheckResult("ladder", "Ladder", diagnostics=(BROKEN,))
 OTHER = '[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\non_build = "check"\n'
@@ -66,8 +65,8 @@ def run(examiner: Examiner, **wishes: Any) -> list[Result]:
     """Build and check all robots."""
     loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1, **wishes)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(check_run, "check_in_workers", examiner)
-        return list(afterbuild.with_checks(loaded, request, build(loaded, loaded.robots, request)))
+        patch.setattr(check_run, "_check_in_workers", examiner)
+        return list(check_run.check_builds(loaded, request, build(loaded, loaded.robots, request)))
 
 
 @pytest.fixture
@@ -75,14 +74,14 @@ def compiling(project: Path, monkeypatch: pytest.MonkeyPatch) -> Compiling:
     """Checks in this process, with a stand-in for the compiler."""
     found = Compiling()
     monkeypatch.setattr("urdfsync.analysis.checks.compilers.run_job", found)
-    monkeypatch.setattr(check_run, "workers", thread_workers)
+    monkeypatch.setattr("urdfsync.common.processes.workers.workers", thread_workers)
     return found
 
 
 def build_all(**wishes: Any) -> list[Result]:
     """Build all robots, and check them as it is really done."""
     loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1, **wishes)
-    return list(afterbuild.with_checks(loaded, request, build(loaded, loaded.robots, request)))
+    return list(check_run.check_builds(loaded, request, build(loaded, loaded.robots, request)))
 
 
 def write(file: Path, text: str) -> None:
@@ -133,6 +132,16 @@ def test_what_could_not_be_checked_is_said_once_for_all_robots_and_at_each_build
         assert exit_code([ladder, other]) is Exit.IN_STEP
 
 
+@pytest.mark.parametrize(("facts", "checked"), [
+    ({"gaps": ("no library",)}, Checked.INCOMPLETE),
+    ({"gaps": ("your models were not compiled",), "compiled": RIGHT.compiled}, Checked.INCOMPLETE),
+    ({"compiled": RIGHT.compiled, "unchecked": ("poses",)}, Checked.RIGHT),
+])  # fmt: skip
+def test_a_gap_keeps_a_package_from_being_right(facts: dict[str, Any], checked: Checked) -> None:
+    found, diagnostics = check_run.verdict(CheckResult("ladder", "Ladder", **facts))
+    assert (found, [one.message for one in diagnostics]) == (checked, [*facts.get("gaps", ())])
+
+
 def test_what_keeps_one_package_from_being_checked_keeps_all(project: Path) -> None:
     add(project, OTHER + OTHER.replace("other", "third").replace("Other", "Third"))
     ladder, *others = run(Examiner(RIGHT, OutputError(BROKEN)))
@@ -159,7 +168,7 @@ def test_a_package_with_a_conflict_is_checked_as_it_is_on_disk_and_again_once_it
     assert result.checked is Checked.RIGHT
     assert exit_code([result]) is Exit.CONFLICT
     assert exit_code([msgspec.structs.replace(result, checked=Checked.WRONG)]) is Exit.ERROR
-    monkeypatch.setattr(check_run, "check_in_workers", Examiner(WRONG))
+    monkeypatch.setattr(check_run, "_check_in_workers", Examiner(WRONG))
     capsys.readouterr()
     assert cli.main(["resolve", "--all", "--take", "--dry-run"]) == 0
     assert "checked" not in capsys.readouterr().out
@@ -193,9 +202,9 @@ def test_who_interrupts_a_check_is_told_what_was_built(project: Path, monkeypatc
     loaded, request = config.load(Path("urdfsync.toml")), BuildOptions(wait=1)
     told: list[Result] = []
     results = build(loaded, loaded.robots, request)
-    monkeypatch.setattr(check_run, "check_in_workers", Examiner(KeyboardInterrupt()))
+    monkeypatch.setattr(check_run, "_check_in_workers", Examiner(KeyboardInterrupt()))
     with pytest.raises(KeyboardInterrupt):
-        told.extend(afterbuild.with_checks(loaded, request, results))
+        told.extend(check_run.check_builds(loaded, request, results))
     assert names(told) == ["ladder"]
     assert told[0].checked is None
 
@@ -203,7 +212,7 @@ def test_who_interrupts_a_check_is_told_what_was_built(project: Path, monkeypatc
 def test_people_see_what_a_check_said(
     project: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(check_run, "check_in_workers", Examiner(WRONG, RIGHT))
+    monkeypatch.setattr(check_run, "_check_in_workers", Examiner(WRONG, RIGHT))
     assert cli.main(["build"]) == 2
     streams = capsys.readouterr()
     assert streams.err.splitlines() == [f"{MODEL}:3: error: there is no class `Foo` [compile]"]

@@ -47,9 +47,8 @@ def test_a_check_takes_little_memory_itself(arm: Path) -> None:
     assert process.returncode == 1
     (found,) = document["results"]
     assert (found["status"], found["built"], found["diagnostics"]) == ("not built", False, [])
-    assert len(found["tools"][0]["compiled"]) == 3
+    assert len(found["compiled"]) == 3
     assert 0 < highest < 200 * MEGABYTE
-    assert found["megabytes"] > highest / MEGABYTE
 
 
 def _is_compiler(process: psutil.Process) -> bool:

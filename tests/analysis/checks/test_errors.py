@@ -101,6 +101,11 @@ def test_a_shadow_alone_is_passed_on() -> None:
     assert (found.file, found.line) == ("/opt/Modelica 4.1.0/Mechanics/MultiBody/Parts/Body.mo", 75)
 
 
+def test_a_shadow_beside_a_fault_of_a_library_is_left_out() -> None:
+    (found,) = explain(f"typecheck failed: Probe_ failed in Typecheck: {SHADOW}; `x` is unknown [/opt/Pumps.mo:3:1]")
+    assert (found.file, found.line) == ("/opt/Pumps.mo", 3)
+
+
 FRAMED = f"""\
 EP001
 

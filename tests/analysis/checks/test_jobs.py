@@ -94,33 +94,26 @@ def test_files_may_have_another_content_in_a_copy(jobs: Jobs, reading: Reading) 
     assert (library / "Small.mo").read_bytes() == b"as it was"
 
 
-def test_a_place_in_a_packed_library_is_one_in_its_folder(jobs: Jobs, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_place_in_a_copied_library_is_one_in_its_own_files(
+    jobs: Jobs, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    library, services, numbers = (tmp_path / f"{name} 4.1.0" for name in ("Modelica", "ModelicaServices", "Complex"))
+    for file in (library / "package.mo", services / "package.mo", numbers := numbers.with_suffix(".0.mo")):
+        file.parent.mkdir(exist_ok=True)
+        file.write_text("package It end It;\n")
+    originals = {
+        "UrdfSync/Robots/PartialBench.mo": library_folder() / "UrdfSync/Robots/PartialBench.mo",
+        "ModelicaServices/package.mo": services / "package.mo",
+        "Complex.mo": numbers,
+    }
+
     def complain(_tool: Tool, job: CompileJob, *_: object) -> list[CompileResult]:
-        packed = Path(job.roots[0], "UrdfSync.mo")
-        text = packed.read_text()
-        (line,) = [number for number, each in enumerate(text.split("\n"), 1) if "model PartialBench" in each]
-        return [CompileResult(f"too few equations [{packed}:{line}:7]")]
+        assert all(Path(job.roots[0], copy).read_bytes() == file.read_bytes() for copy, file in originals.items())
+        return [CompileResult(" ".join(f"[{job.roots[0]}/{copy}:7:1]" for copy in originals))]
 
     monkeypatch.setattr("urdfsync.analysis.checks.compilers.run_job", complain)
     task = CompileTask("P", "model P\n  extends UrdfSync.Robots.PartialBench;\nend P;\n")
-    (result,) = msgspec.structs.replace(jobs, tool=Tool("rumoca")).run("it", TEXTS, [task])
-    bench = library_folder() / "UrdfSync/Robots/PartialBench.mo"
-    line = next(number for number, each in enumerate(bench.read_text().split("\n"), 1) if "model PartialBench" in each)
-    assert result.problem == f"too few equations [{bench}:{line}:7]"
-
-
-def test_a_place_in_a_library_of_one_file_is_one_in_that_file(
-    jobs: Jobs, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    complex_numbers = tmp_path / "Complex 4.1.0.mo"
-    complex_numbers.write_text("within;\noperator record Complex\nend Complex;\n")
-
-    def complain(_tool: Tool, job: CompileJob, *_: object) -> list[CompileResult]:
-        packed = Path(job.roots[0], "Complex.mo")
-        line = packed.read_text().split("\n").index("operator record Complex") + 1
-        return [CompileResult(f"no operator [{packed}:{line}:1]")]
-
-    monkeypatch.setattr("urdfsync.analysis.checks.compilers.run_job", complain)
-    other = msgspec.structs.replace(jobs, tool=Tool("rumoca"), needed=Libraries({"Complex": complex_numbers}, {}))
-    (result,) = other.run("it", TEXTS, [TASK])
-    assert result.problem == f"no operator [{complex_numbers}:2:1]"
+    standard = {"Modelica": library, "ModelicaServices": services, "Complex": numbers}
+    needed = Libraries(standard, {})
+    (result,) = msgspec.structs.replace(jobs, tool=Tool("rumoca"), needed=needed).run("it", TEXTS, [task])
+    assert result.problem == " ".join(f"[{file}:7:1]" for file in originals.values())

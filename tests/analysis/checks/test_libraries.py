@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -143,6 +142,9 @@ CLASSES = {
     "Icons": "package Icons partial model Part end Part; partial model Other end Other; end Icons;",
     "Fluid/package": "package Fluid end Fluid;",
     "Fluid/Tank": "model Tank end Tank;",
+    "Pair/package": "operator record Pair end Pair;",
+    "Pair/constructor": "operator constructor end constructor;",
+    "Pair/'+'": "operator '+' end '+';",
 }
 
 
@@ -164,19 +166,23 @@ def cache(tmp_path: Path) -> UserCache:
     return UserCache(tmp_path / "cache")
 
 
-@pytest.mark.parametrize(("text", "classes"), [
-    ("", "Modelica"),
-    ("Modelica.Mechanics.Body b;", "Modelica Mechanics Body Icons Part"),
-    ("Modelica . Fluid.Tank t;", "Modelica Fluid Tank"),
-    ("import Modelica.Fluid.*; Tank t; Large large;", "Modelica Fluid Tank"),
-    ('Real Fluid "Modelica.Tank"; // Tank', "Modelica Fluid"),
+@pytest.mark.parametrize(("text", "files"), [
+    ("", "package"),
+    ("Modelica.Mechanics.Body b;", "package Mechanics/package Mechanics/Body Icons"),
+    ("Modelica . Fluid.Tank t;", "package Fluid/package Fluid/Tank"),
+    ("import Modelica.Fluid.*; Tank t; Large large;", "package Fluid/package Fluid/Tank"),
+    ('Real Fluid "Modelica.Tank"; // Tank', "package Fluid/package"),
+    ('"not closed: Fluid', "package"),
+    # Modelica calls operators, and constructors, without their names
+    ("Pair p;", "package Pair/package Pair/constructor Pair/'+'"),
 ])  # fmt: skip
-def test_classes_are_copied_that_are_named_and_those_that_they_need(
-    text: str, classes: str, small: Mapping[str, Path], cache: UserCache
+def test_files_are_copied_whose_classes_are_named_and_those_that_they_need(
+    text: str, files: str, small: Mapping[str, Path], cache: UserCache
 ) -> None:
     copied = copy_named(small, [text.encode()], cache)
-    assert {path.name for path in copied.iterdir()} == {"Complex.mo", "Modelica.mo", "ModelicaServices.mo"}
-    assert {*re.findall(r"(?:package|model) (\w+)", (copied / "Modelica.mo").read_text())} == {*classes.split()}
+    assert {path.name for path in copied.iterdir()} == {"Complex.mo", "Modelica", "ModelicaServices"}
+    copies = {path.relative_to(copied / "Modelica"): path.read_text() for path in (copied / "Modelica").rglob("*.mo")}
+    assert copies == {Path(f"{name}.mo"): CLASSES[name] for name in files.split()}
 
 
 def test_a_copy_is_made_once_for_each_state(small: Mapping[str, Path], cache: UserCache) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
 
 import msgspec
 import pytest
@@ -12,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.analysis.checks.report import closing_lines
-from urdfsync.analysis.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
+from urdfsync.analysis.checks.results import CheckResult, CompiledModel, EditEffect
 from urdfsync.commands.check import show_result
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.domain.experiment import Aspect, Deviation, Mismatch, Numbers, Quantity
@@ -39,20 +38,14 @@ LIMIT = Mismatch("joint elbow", "limits.effort", "130", "150", "Joints/ElbowPara
 BROKEN = Diagnostic(
     Severity.ERROR, "syntax", "the file does not end with `end Wheel;`", "modelica/Cart/Joints/Wheel.mo", 14
 )
-TOOL = ToolResult("rumoca 0.10.2", COMPILED, deviations=AGREEING)
-
-
-def tools(**facts: Any) -> tuple[ToolResult, ...]:
-    """One compiler that says something else."""
-    return (msgspec.structs.replace(TOOL, **facts),)
-
-
 RIGHT = CheckResult(
     "arm",
     "Arm",
     numbers=Numbers(412, 412),
     freedoms=6,
-    tools=(TOOL,),
+    tool="rumoca 0.10.2",
+    compiled=COMPILED,
+    deviations=AGREEING,
     notes=("inertias were made up for 3 links",),
     unchecked=("shapes",),
     seconds=12.41,
@@ -64,11 +57,9 @@ EDITED = msgspec.structs.replace(
     notes=(),
     numbers=Numbers(411, 412, edits=(LIMIT,)),
     edited=(LIMIT.file, "Joints/Elbow.mo", "Links/Hand.mo"),
-    tools=tools(
-        effects=(
-            EditEffect(("Joints/Elbow.mo",), (load("joint elbow", 0.672, 21.0),), ("joint elbow",)),
-            EditEffect(("Links/Hand.mo",), (), ("link hand",)),
-        )
+    effects=(
+        EditEffect(("Joints/Elbow.mo",), (load("joint elbow", 0.672, 21.0),), ("joint elbow",)),
+        EditEffect(("Links/Hand.mo",), (), ("link hand",)),
     ),
 )
 INCOMPLETE = msgspec.structs.replace(
@@ -77,9 +68,7 @@ INCOMPLETE = msgspec.structs.replace(
     notes=(),
     gaps=("the effect of your edits was not measured: `robot.hand.body.m` is not declared",),
 )
-WRONG = msgspec.structs.replace(
-    RIGHT, robot="picker", notes=(), tools=tools(deviations=(*AGREEING, load("joint mimic", 0.4, 12.5)))
-)
+WRONG = msgspec.structs.replace(RIGHT, robot="picker", notes=(), deviations=(*AGREEING, load("joint mimic", 0.4, 12.5)))
 FAILED = CheckResult(
     "cart", "Cart", gaps=("nothing was compiled, since files have errors",), diagnostics=(BROKEN,), seconds=0.9
 )
@@ -207,7 +196,7 @@ AT_SHOULDER = "the torque of joint shoulder by 0.3 N·m"
 
 def edited(capsys: Capture, effect: EditEffect) -> str:
     """What is said of edits."""
-    _, sentence = shown(capsys, CheckResult("arm", "Arm", tools=(ToolResult(effects=(effect,)),)))
+    _, sentence = shown(capsys, CheckResult("arm", "Arm", effects=(effect,)))
     return sentence.strip()
 
 
@@ -258,7 +247,5 @@ def test_the_element_nearest_to_the_cause_comes_first(
 
 @given(st.floats(min_value=1e-6), st.floats(min_value=0, allow_infinity=False), st.sampled_from(Quantity))
 def test_any_number_can_be_told(difference: float, value: float, quantity: Quantity) -> None:
-    result = CheckResult(
-        "arm", "Arm", tools=(ToolResult(deviations=(Deviation(quantity, "it", difference, value, value, "N"),)),)
-    )
+    result = CheckResult("arm", "Arm", deviations=(Deviation(quantity, "it", difference, value, value, "N"),))
     show_result(Console(verbose=True), result)

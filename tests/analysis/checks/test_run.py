@@ -65,7 +65,7 @@ def test_a_remembered_check_needs_no_worker(robots: Config, monkeypatch: pytest.
     late, early = check(robots, ["late", "early"], CheckOptions(jobs=1))
     assert late is remembered
     assert early.robot == "early"
-    monkeypatch.setattr(run, "workers", None)
+    monkeypatch.setattr("urdfsync.common.processes.workers.workers", None)
     assert list(check(robots, ["late"])) == [remembered]
 
 

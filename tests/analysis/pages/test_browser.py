@@ -13,7 +13,7 @@ import pytest
 from support.browser import NEEDS_CHROMIUM, Page
 from support.corpus import REPOSITORY
 
-from urdfsync.analysis.checks.results import CheckResult, Curve, ToolResult
+from urdfsync.analysis.checks.results import CheckResult, Curve
 from urdfsync.analysis.pages.content import gather
 from urdfsync.analysis.pages.page import page as page_of
 from urdfsync.analysis.simulation.results import JointResult, PassedLimit, Range, SimulateResult
@@ -423,7 +423,7 @@ def test_a_check_is_drawn_beside_its_reference_with_the_error_on_a_log_scale(
     values = ((1.0, 2.0 + 1e-12, 3.0, 4.01),)  # in one line, which has the errors 1e-17, 1e-12, 1e-17 and 1e-2
     curve = Curve(Quantity.EFFORT, "joint elbow", "N·m", times, values, (expected,))
     file = tmp_path / "check.html"
-    check = CheckResult("arm", "Arm", tools=(ToolResult("rumoca", curves=(curve,)),), reference="Pinocchio 3")
+    check = CheckResult("arm", "Arm", curves=(curve,), reference="Pinocchio 3")
     file.write_bytes(page_of(content, check=check))
     page = opened(chromium, file)
     drawn = "[...document.querySelectorAll('#curves .{}')].map((path) => path.getAttribute('d'))"

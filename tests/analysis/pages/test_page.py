@@ -16,7 +16,7 @@ import pytest
 from support.pages import Elements, data_of, read
 
 from urdfsync.analysis.checks.cache import UserCache
-from urdfsync.analysis.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
+from urdfsync.analysis.checks.results import CheckResult, CompiledModel, EditEffect
 from urdfsync.analysis.pages import page as page_module
 from urdfsync.analysis.pages.content import gather
 from urdfsync.analysis.pages.page import FOLLOWER, SCRIPTS
@@ -92,8 +92,8 @@ def test_a_check_has_its_verdict_and_a_scale_for_each_difference(arm: Path, tmp_
     right = Deviation(Quantity.EFFORT, "joint elbow", 1e-13, 20.0, 100.0, "N·m")
     wrong = Deviation(Quantity.POSITION, "link <b>hand</b>", math.nan, 1.0, 1.0, "m")
     effect = EditEffect(("Joints/Elbow.mo",), (Deviation(Quantity.EFFORT, "joint elbow", 0.67, 20.0, 100.0, "N·m"),))
-    tool = ToolResult("rumoca", deviations=(right, wrong), effects=(effect,))
-    page = Elements(page_of(content, check=CheckResult("arm", "Arm", tools=(tool,), reference="Pinocchio 3")).decode())
+    check = CheckResult("arm", "Arm", deviations=(right, wrong), effects=(effect,), reference="Pinocchio 3")
+    page = Elements(page_of(content, check=check).decode())
     meters = [each for tag, each in page.tags if tag == "meter"]
     assert [each["value"] for each in meters] == ["0.0", "-15.0"]  # the worst first
     assert meters[0]["high"] == "-10.0"
@@ -104,7 +104,7 @@ def test_a_check_has_its_verdict_and_a_scale_for_each_difference(arm: Path, tmp_
 
 @pytest.mark.slow
 def test_what_a_check_found_of_this_package_is_told(arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
-    kept = CheckResult("arm", "Arm", tools=(ToolResult("rumoca", (CompiledModel("Arm", 7),)),))
+    kept = CheckResult("arm", "Arm", compiled=(CompiledModel("Arm", 7),))
     asked = list[str]()
 
     def load(_: UserCache, key: str, kind: type) -> CheckResult | None:
@@ -113,6 +113,7 @@ def test_what_a_check_found_of_this_package_is_told(arm: Path, report: Report, m
         return kept if kind is CheckResult and len(asked) == 2 else None
 
     monkeypatch.setattr(UserCache, "load", load)
+    assert cli.main(["build", "--quiet"]) == 0
     page = read(report())
     assert len(set(asked)) == 2  # with physics, and without
     assert "Check" in page.words

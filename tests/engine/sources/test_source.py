@@ -568,7 +568,7 @@ def test_init_and_add_and_record(project: Path, execute: Execute) -> None:
 def test_the_daemon_sees_each_input(built: Path) -> None:
     from support.daemon import Watch  # watchdog takes 45 ms
 
-    with Watch(built, "--settle", "20", "--sample", "10", "--rescan", "100000") as watch:
+    with Watch(built, "--settle", "20", "--rescan", "100000") as watch:
         watch.rest()
         for name, text, mass in [
             ("masses.yaml", "upper: 2.5\n", 2.5),
@@ -593,7 +593,7 @@ def test_the_daemon_sees_a_file_that_was_wrong_from_the_beginning(project: Path)
     from support.daemon import Watch
 
     xacros.write(project, {"masses.yaml": "upper: [1\n"})
-    with Watch(project, "--settle", "20", "--sample", "10", "--rescan", "100000") as watch:
+    with Watch(project, "--settle", "20", "--rescan", "100000") as watch:
         watch.wait("waiting")
         (project / "urdf/masses.yaml").write_text("upper: 2.5\n")
         watch.wait("built")
@@ -610,7 +610,7 @@ def test_the_daemon_waits_for_files_that_are_not_there(project: Path) -> None:
     beam = xacros.BEAM.replace('mass value="${mass}"', 'mass value="{0}"')
     source = project / "urdf/arm.urdf.xacro"
     source.write_text(include("later/deep/beam.xacro"))
-    with Watch(project, "--settle", "20", "--sample", "10", "--rescan", "100000") as watch:
+    with Watch(project, "--settle", "20", "--rescan", "100000") as watch:
         watch.wait("waiting")
         for place, name in [
             ("urdf/later/deep/beam.xacro", "later/deep/beam.xacro"),

@@ -191,7 +191,7 @@ def test_an_edited_number_goes_back_as_a_hint(project: Path, execute: Execute) -
 
 @pytest.mark.slow
 def test_a_check_compares_the_urdf_with_mujoco(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(checks, "run_compilations", lambda *_: None)  # other tests compile
+    monkeypatch.setattr("urdfsync.analysis.checks.compilation.Compilation.run", lambda *_: None)  # other tests compile
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: project / "cache")
     result = check()
     assert result.numbers is not None

@@ -166,7 +166,7 @@ def test_a_urdf_may_have_any_suffix_and_an_sdf_too(folder: Path, execute: Execut
 
 @pytest.mark.slow
 def test_a_check_reads_masses_and_shapes_again(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(checks, "run_compilations", lambda *_: None)  # other tests compile
+    monkeypatch.setattr("urdfsync.analysis.checks.compilation.Compilation.run", lambda *_: None)  # other tests compile
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: project / "cache")
     (robot,) = (loaded := config.load(Path("urdfsync.toml"))).robots
     result = checks.check_robot(loaded, robot, CheckOptions())

@@ -27,8 +27,6 @@ _FULL, _AFTER = 0.75, 0.5  # parts of the limit: a cache above 75 % is emptied t
 _IN_USE = 3600.0
 """Seconds for which a used copy of a library is kept: a check may still read it."""
 
-_ACCESS = ".rumoca-access"  # suffix of the file in which the compiler notes the last use of another file
-
 
 class CacheError(UrdfsyncError):
     """The cache can't be used; the code of the diagnostic is `cache-not-writable`."""
@@ -74,8 +72,8 @@ class UserCache:
             self.results.mkdir(mode=0o700, parents=True, exist_ok=True)
             put(self.results / key, msgspec.msgpack.encode(value))  # JSON has no infinite numbers
 
-    def trim(self, limit: int = LIMIT) -> int:
-        """Delete the least recently used entries, if the cache comes near the limit. Returns the freed bytes.
+    def trim(self, limit: int = LIMIT) -> None:
+        """Delete the least recently used entries, if the cache comes near the limit.
 
         Keeps copies of libraries that a check may use, and entries that can't be deleted now.
         """
@@ -94,12 +92,12 @@ class UserCache:
                     path.rename(aside)
                     shutil.rmtree(aside, ignore_errors=True)
                 freed += size
-        return freed
 
     def _entries(self) -> Iterator[tuple[float, str, int]]:
         """Yield the last use, the path and the bytes on disk of each entry, which can only be deleted as a whole.
 
-        Entries are the files and folders in urdfsync's folders, and each file of the compiler except its locks.
+        Entries are the files and folders in urdfsync's folders, and each file of the compiler except its locks. The
+        compiler's files have no last use: they count as used when they were written.
         """
         for folder in (self.libraries, self.results, self.compiler):
             if folder.is_symlink():
@@ -109,15 +107,10 @@ class UserCache:
                     names = [name for name in files if not name.startswith(".")]
                 else:
                     names, folders[:] = [*files, *folders], []
-                found = dict[str, os.stat_result]()  # one stat a file: the compiler leaves tens of thousands of files
-                for name in names:
+                for path in (f"{current}/{name}" for name in names):
                     with contextlib.suppress(OSError):  # it was deleted
-                        found[name] = os.lstat(f"{current}/{name}")
-                for name, status in found.items():
-                    note = found.get(name.removesuffix(_ACCESS) + _ACCESS, status)
-                    path = f"{current}/{name}"
-                    with contextlib.suppress(OSError):
-                        yield max(status.st_mtime, note.st_mtime), path, _bytes_on_disk(path, status)
+                        status = os.lstat(path)
+                        yield status.st_mtime, path, _bytes_on_disk(path, status)
 
 
 @contextlib.contextmanager

@@ -31,11 +31,10 @@ from urdfsync.analysis.checks.package import PackageTexts, RobotPackage, UsersMo
 from urdfsync.analysis.checks.process import Limits
 from urdfsync.analysis.checks.results import (
     MOST_SINGLE_EDITS,
+    CheckResult,
     CompiledModel,
     Curve,
     EditEffect,
-    ToolResult,
-    TrialTime,
     listed,
 )
 from urdfsync.common.diagnostics import Diagnostic, Severity, findings_of
@@ -58,7 +57,7 @@ _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
 
 
 class Compilation:
-    """The compiling of one package by one compiler: `run` fills `result`, `diagnostics` and `gaps`."""
+    """The compiling of one package: `run` adds its answers to a result."""
 
     def __init__(
         self,
@@ -69,7 +68,8 @@ class Compilation:
         needed_by_users: Libraries,
         limits: Limits,
         folder: Path,
-        processes: int = 1,
+        processes: int,
+        result: CheckResult,
     ) -> None:
         """At most `processes` compile at the same time; copies of the package go below `folder`.
 
@@ -80,13 +80,7 @@ class Compilation:
         # separate jobs: an unreadable file of the user's would keep the package from being compiled
         self._users_jobs = msgspec.structs.replace(self._jobs, needed=needed_by_users)
         self._compiler = compilers.COMPILERS[tool.name]
-        self.result = ToolResult(self._compiler.TITLE)
-        self.diagnostics: list[Diagnostic] = []
-        self.gaps: list[str] = []
-        self.generated: Mapping[str, Series] = {}
-        """The simulations of the generated package with completed data, by the names of trials."""
-        self.edited: Mapping[str, Series] = {}
-        """The simulations of the package on disk, if files in it are edited."""
+        self._result = result
 
     def run(self, experiment: Experiment | None) -> None:
         """Compile the package, and run the experiment: this takes 20 s for a six-axis arm, minutes for a humanoid."""
@@ -121,66 +115,49 @@ class Compilation:
     def _compare(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Compare the generated package with the reference, and the edited one with the generated one."""
         package, trials = self._package, experiment.trials
-        self.generated, faults = self._motions(done["completed"], trials)
-        times = zip(trials, done["completed"], strict=False)
-        self.result.times = tuple(TrialTime(trial.name, answer.seconds) for trial, answer in times if answer.seconds)
-        self.diagnostics += faults
-        if self.generated:
-            self.result.deviations = compare_all(trials, self.generated)
-            self.result.curves = tuple(curves(trials[0], self.generated[trials[0].name]))
+        generated, faults = self._motions(done["completed"], trials)
+        self._result.add(faults)
+        if generated:
+            self._result.deviations = compare_all(trials, generated)
+            self._result.curves = tuple(curves(trials[0], generated[trials[0].name]))
         if "edited" not in done:
             return
-        without_edits = self.generated
+        without_edits = generated
         if "generated" in done:
             without_edits, faults = self._motions(done["generated"], trials)
-            self.diagnostics += faults
-        self.edited, faults = self._motions(done["edited"], trials)
+            self._result.add(faults)
+        edited, faults = self._motions(done["edited"], trials)
         if faults:  # the package is not at fault
-            self.gaps.append(f"the effect of your edits was not measured: {faults[0].message}")
-        if self.edited and without_edits:
-            whole = find_changes(trials, self.edited, without_edits)
-            single = self._single_edits(trials, whole, without_edits)
-            self.result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
+            self._add_gap(f"the effect of your edits was not measured: {faults[0].message}")
+        if edited and without_edits:
+            whole = find_changes(trials, edited, without_edits)
+            single = self._single_edits(trials, whole, edited, without_edits)
+            self._result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
     def _single_edits(
-        self, trials: Sequence[Trial], whole: Sequence[Deviation], without_edits: Mapping[str, Series]
+        self,
+        trials: Sequence[Trial],
+        whole: Sequence[Deviation],
+        with_edits: Mapping[str, Series],
+        without_edits: Mapping[str, Series],
     ) -> dict[str, list[Deviation]]:
         """Return, for each edited file, the changes that go away if this file alone is taken back.
 
-        Two files may change the same: then nothing goes away, and both have the change that each makes alone. So has a
-        file that others need: without it the package does not work. A file that can't be measured either way is left
-        out. If there are too many files, all are left out.
+        A file that other edits need is left out: without it the package does not work. If there are too many files,
+        all are left out.
         """
-        edits, edited, generated = self._package.edits, self._package.files.texts, self._package.generated
+        edits, texts, generated = self._package.edits, self._package.files.texts, self._package.generated
         if len(edits) == 1:
             return {edits[0]: list(whole)}
-        trials = [trial for trial in trials if find_changes([trial], self.edited, without_edits)]
+        trials = [trial for trial in trials if find_changes([trial], with_edits, without_edits)]
         if not trials or len(edits) > MOST_SINGLE_EDITS:
             return {}
-        without = {file: {**edited, file: generated[file]} for file in edits}
-        changes = self._changes_from(self.edited, "without", without, trials)
-        rest = {each.key for each in whole}.difference(each.key for of_file in changes.values() for each in of_file)
-        only = {file: {**edited, **generated, file: edited[file]} for file in edits if rest or file not in changes}
-        for file, alone in self._changes_from(without_edits, "only", only, trials).items():
-            changes[file] = (
-                [*changes[file], *(each for each in alone if each.key in rest)] if file in changes else alone
-            )
-        return changes
-
-    def _changes_from(
-        self,
-        motions: Mapping[str, Series],
-        label: str,
-        versions: Mapping[str, Mapping[str, bytes]],
-        trials: Sequence[Trial],
-    ) -> dict[str, list[Deviation]]:
-        """Return the changes of each version of the package that all trials can simulate, by the version's file."""
         tasks, changes = [_task(trial) for trial in trials], dict[str, list[Deviation]]()
-        done = self._run_all({f"{label} {file}": (texts, tasks) for file, texts in versions.items()})
-        for file, answers in zip(versions, done.values(), strict=True):
+        done = self._run_all({f"without {file}": ({**texts, file: generated[file]}, tasks) for file in edits})
+        for file, answers in zip(edits, done.values(), strict=True):
             if len(answers) == len(trials) and not any(each.problem or each.runs[0].problem for each in answers):
                 series = {trial.name: each.runs[0].values for trial, each in zip(trials, answers, strict=True)}
-                changes[file] = find_changes(trials, series, motions)
+                changes[file] = find_changes(trials, series, with_edits)
         return changes
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
@@ -226,19 +203,17 @@ class Compilation:
                     failing[task.title] = explain(answer.problem, self._compiler, files, users.files[task.title])
                     continue
                 if answer.problem:
-                    self.diagnostics += explain(answer.problem, self._compiler, files)
+                    self._result.add(explain(answer.problem, self._compiler, files))
                     continue
                 # another model may have the same finding under another name
-                told = {(finding.file, finding.line, finding.code) for finding in self.diagnostics}
+                told = {(finding.file, finding.line, finding.code) for finding in self._result.diagnostics}
                 warnings = explain_warnings(answer.warnings, self._compiler, files)
-                self.diagnostics += [
-                    finding for finding in warnings if (finding.file, finding.line, finding.code) not in told
-                ]
+                self._result.add(each for each in warnings if (each.file, each.line, each.code) not in told)
                 compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
                 inside = (part for part, whole in self._parts.items() if whole == task.title and not is_users)
                 compiled += (CompiledModel(part, 0) for part in inside)
         order = [*self._package.models, *users.files]
-        self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
+        self._result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
         waiting, parts = [users.files[model.model] for model in compiled if model.is_users], set[Path]()
         if {model.model for model in compiled} >= {*self._package.models}:
             waiting += (files.folder / path for path in self._package.generated)
@@ -247,12 +222,15 @@ class Compilation:
             waiting += more
         for model, faults in failing.items():
             if users.files[model] not in parts:  # else it has compiled as a component of another model
-                self.diagnostics += map(_as_part, faults)
-                self.result.failing += (model,)
+                self._result.add(map(_as_part, faults))
+                self._result.failing += (model,)
+
+    def _add_gap(self, gap: str) -> None:
+        self._result.gaps = tuple(dict.fromkeys((*self._result.gaps, gap)))
 
     def _note_version(self, answer: CompileResult) -> None:
         if answer.version:
-            self.result.tool = f"{self._compiler.TITLE} {answer.version}"
+            self._result.tool = f"{self._compiler.TITLE} {answer.version}"
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
         """Run jobs, some of them at the same time. A job in which the compiler breaks down has no results."""
@@ -265,9 +243,9 @@ class Compilation:
                 except Exception as error:  # noqa: BLE001 - only this job fails
                     done[label], faults = [], findings_of(error)
                     if label == _USERS:  # the package itself may be sound
-                        self.gaps.append(f"your models were not compiled: {faults[0].sentence}")
+                        self._add_gap(f"your models were not compiled: {faults[0].sentence}")
                     else:
-                        self.diagnostics += faults
+                        self._result.add(faults)
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
@@ -294,8 +272,7 @@ class Compilation:
             if not problem:
                 motions[trial.name] = result.runs[0].values
             elif trial is not trials[0]:
-                gap = f"{trial.name} was not compared: {one_line(problem)[:_LONGEST_MESSAGE]}"
-                self.gaps += [gap] * (gap not in self.gaps)
+                self._add_gap(f"{trial.name} was not compared: {one_line(problem)[:_LONGEST_MESSAGE]}")
             elif result.problem:
                 return {}, explain(problem, self._compiler, self._package.files)
             else:

@@ -52,22 +52,6 @@ def content_hash(root: Path, without: Collection[str] = ()) -> str:
     return hashed.hexdigest()
 
 
-class Hashes:
-    """Content hashes of libraries and programs, each computed once: for one look at many robots.
-
-    Hashing the Modelica Standard Library takes 0.25 s.
-    """
-
-    def __init__(self) -> None:
-        self._known: dict[tuple[Path, tuple[str, ...]], str] = {}
-
-    def of(self, root: Path, *without: str) -> str:
-        """Return the `content_hash`. Raises UrdfsyncError."""
-        if (root, without) not in self._known:
-            self._known[root, without] = content_hash(root, without)
-        return self._known[root, without]
-
-
 def _refuse_bad_link(top: str, link: str) -> None:
     """Raise UrdfsyncError for a link that does not lead to a file of its library."""
     target, problem = os.path.realpath(link), ""

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable
 
 import msgspec
 
 from urdfsync.analysis.checks import compilers, libraries, package
 from urdfsync.analysis.checks.cache import digest
 from urdfsync.analysis.checks.compilers.compiler import Tool
-from urdfsync.analysis.checks.contents import RESOURCES, Hashes, package_texts
+from urdfsync.analysis.checks.contents import RESOURCES, content_hash, package_texts
 from urdfsync.analysis.checks.results import CheckOptions
 from urdfsync.common.dependencies import program
 from urdfsync.common.diagnostics import UrdfsyncError
@@ -22,38 +22,34 @@ from urdfsync.modelica.names import LIBRARY
 from urdfsync.project.config import Config, RobotConfig, find_own_library
 from urdfsync.project.state.store import Store
 
-PHYSICS = "-physics"
-"""The ending of the key of a check with physics."""
-
 
 def result_key(
     robot: RobotConfig,
-    tools: Sequence[Tool],
+    tool: Tool,
     needed: libraries.Libraries,
     *facts: object,
-    hashes: Hashes | None = None,
+    hashed: Callable[..., str] = content_hash,
 ) -> str | None:
     """Return the key of a result: a hash of `facts` and of all other inputs.
 
-    `hashes` has those of inputs that several robots share, as they were a moment ago; None to look now.
+    `hashed` may be a `content_hash` that remembers its results, for one look at many robots: they share libraries.
 
-    The other inputs are urdfsync with its library, the domain's code, Python with its packages, the compilers and the
+    The other inputs are urdfsync with its library, the domain's code, Python with its packages, the compiler and the
     Modelica libraries.
 
     None if an input can't be read: then the result must not be remembered.
     """
-    hashes = hashes or Hashes()
     own = find_own_library(LIBRARY, robot.target.package)
     places = {**needed.others, **({LIBRARY: own} if own else {})}
-    if any(compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in tools):
+    if compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY:
         places |= {str(path): path for path in libraries.standard_libraries()}
     try:
         return digest(
             *(sys.platform, program.contents_hash(*registry.code(robot.domain))),
-            *(compilers.state(tool, hashes) for tool in tools),
-            [(name, str(path), hashes.of(path)) for name, path in sorted(places.items())],
+            compilers.state(tool, hashed),
+            [(name, str(path), hashed(path)) for name, path in sorted(places.items())],
             # the compiler gets copies of these libraries without resources
-            [(str(path), hashes.of(path, RESOURCES)) for path in needed.standard.values()],
+            [(str(path), hashed(path, (RESOURCES,))) for path in needed.standard.values()],
             *(str(needed.problem), robot.target, robot.domain),
             *facts,
         )
@@ -61,8 +57,10 @@ def result_key(
         return None
 
 
-def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes | None = None) -> str | None:
-    """Return the key of the check of a package in step; None if an input can't be read. `hashes` as in `result_key`.
+def fingerprint(
+    config: Config, robot: RobotConfig, options: CheckOptions, hashed: Callable[..., str] = content_hash
+) -> str | None:
+    """Return the key of the check of a package in step; None if an input can't be read. `hashed` as in `result_key`.
 
     This reads all inputs, and may run xacro or a translator. It writes nothing.
     """
@@ -79,13 +77,12 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions, hashe
         templates = source.templates(config, robot, domain).digest
     except Exception:  # noqa: BLE001 - the check meets this error, too, and reports it
         return None
-    key = result_key(
+    return result_key(
         robot,
-        options.tools,
+        options.tool,
         msgspec.structs.replace(needed, others=others),
-        *(robot.options, text.content, text.companions, templates),
+        *(options.physics, robot.options, text.content, text.companions, templates),
         shown(robot.folder),  # findings name files relative to the working folder
         *(sorted(files.items()) for files in (texts, around, users)),
-        hashes=hashes,
+        hashed=hashed,
     )
-    return f"{key}{PHYSICS}" if key and options.physics else key

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 
 import msgspec
@@ -15,7 +13,6 @@ from urdfsync.analysis.checks.cache import UserCache
 from urdfsync.analysis.checks.compilers.compiler import CompileJob, CompileResult, CompileTask, Tool
 from urdfsync.analysis.checks.contents import copy_library
 from urdfsync.analysis.checks.package import write_package
-from urdfsync.analysis.checks.packed import original_place
 from urdfsync.analysis.checks.process import Limits
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.project.config import RobotConfig, find_own_library
@@ -54,7 +51,7 @@ class Jobs(msgspec.Struct, frozen=True):
         own = find_own_library(LIBRARY, self.robot.target.package)
         needed = {**({LIBRARY: own} if own else {}), **self.needed.others}
         top, copied = write_package(folder, self.robot, texts, around), dict[str, Path]()
-        originals = dict[str, Path]()
+        originals = dict[str, str]()
         """For each copied folder or file, the user's original."""
         roots = list[str]()
         if not compilers.COMPILERS[self.tool.name].HAS_STANDARD_LIBRARY:
@@ -66,13 +63,15 @@ class Jobs(msgspec.Struct, frozen=True):
             changes, sources = changed.values(), (task.source.encode() for task in tasks)
             every = (*texts.values(), *around.values(), *others, *changes, *sources)
             roots.append(str(libraries.copy_named(copied, every, cache)))
-            originals |= {f"{roots[0]}{os.sep}{name}.mo": path for name, path in copied.items()}
+            for name, path in copied.items():
+                end = ".mo" if path.suffix == ".mo" else os.sep  # `Modelica` begins `ModelicaServices`, too
+                originals[f"{roots[0]}{os.sep}{name}{end}"] = str(path).removesuffix(end) + end
         for name, path in needed.items():
             if name not in copied:
                 roots.append(_readable(path, folder / ".libraries", changed))
-                originals[roots[-1]] = path
+                originals[roots[-1]] = str(path)
         roots.append(str(top))
-        originals[roots[-1]] = self.robot.output / top.name
+        originals[roots[-1]] = str(self.robot.output / top.name)
         tasks = [_with_imports(task, needed) for task in tasks]
         job = CompileJob(tuple(roots), tuple(tasks))
         results = compilers.run_job(self.tool, job, cache, self.limits, self.progress, self.on_result)
@@ -86,28 +85,16 @@ def _with_imports(task: CompileTask, names: Iterable[str]) -> CompileTask:
     return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
 
 
-def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> CompileResult:
+def _with_originals(result: CompileResult, originals: Mapping[str, str]) -> CompileResult:
     """Replace the paths of copies in a compiler's text by the paths of the originals."""
 
     def named(text: str) -> str:
         for copy, original in originals.items():
-            if copy in text and copy.endswith(".mo") and Path(copy).is_file():
-                library = Path(copy).read_text("utf-8", "surrogateescape")
-                place = re.compile(rf"{re.escape(copy)}(?::(\d+))?")
-                text = place.sub(partial(_in_original, library, original), text)
-            text = text.replace(copy, str(original))
+            text = text.replace(copy, original)
         return text
 
     runs = tuple(msgspec.structs.replace(run, problem=named(run.problem)) for run in result.runs)
     return msgspec.structs.replace(result, problem=named(result.problem), warnings=named(result.warnings), runs=runs)
-
-
-def _in_original(library: str, original: Path, place: re.Match[str]) -> str:
-    """Return the file and line in a library for a place in the library's packed text."""
-    if not place[1]:
-        return str(original)
-    file, line = original_place(library, int(place[1]))
-    return f"{original / file if original.is_dir() else original}:{line}"
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:

@@ -46,8 +46,6 @@ class Limits(msgspec.Struct):
     """Bytes."""
     times: dict[float, float] = {}
     """Processor time so far of each process, by the start time of the process."""
-    peak: float = 0.0
-    """The peak memory so far, in bytes."""
 
     @property
     def used(self) -> float:
@@ -162,7 +160,6 @@ def _wait(
                     started.add(child)
                 if is_started or child.pid == process.pid:
                     seconds += sum(child.cpu_times()[:4])  # includes ended children of the child
-        limits.peak = max(limits.peak, used)
         if seconds > limits.times.get(begin, 0.0) + _WORK:
             limits.times[begin], worked = seconds, time.monotonic()
         if limits.used >= limits.seconds:

@@ -16,7 +16,6 @@ from urdfsync.analysis.checks.results import (
     Judgement,
     listed,
     part_word,
-    worst,
 )
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.common.spelling import counted
@@ -34,10 +33,7 @@ _FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction "}
 
 def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     """Return the sentences below the first line, with their styles."""
-    sentences = [*_numbers(result), *(_two_tools(result) if len(result.tools) > 1 else ())]
-    sentences += _measured(result.log) if result.log else ()
-    if result.between is None:
-        sentences += _differences(result)
+    sentences = [*_numbers(result), *(_measured(result.log) if result.log else ()), *_differences(result)]
     if result.strict and result.is_doubtful:
         sentences.append(("the source has parts that can hardly be meant: see the warnings", "bold red"))
     for effect in result.effects:
@@ -92,11 +88,10 @@ def _by_file(differences: Iterable[Mismatch]) -> Iterator[tuple[Mismatch, str]]:
 
 
 def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
-    """Yield how the package differs from the reference, by the first compiler that could simulate the package."""
+    """Yield how the package differs from the reference."""
     advice = "" if result.numbers and result.numbers.differences else _ADVICE
     reference = result.reference or "the reference"
-    deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
-    for deviation, others in _by_kind([deviation for deviation in deviations if not deviation.agrees]):
+    for deviation, others in _by_kind([each for each in result.deviations or () if not each.agrees]):
         what, amount = _amount(deviation)
         yield f"{deviation.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"
         if deviation.unit in ("N·m", "N", "kg"):
@@ -106,68 +101,16 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
 
 def _details(result: CheckResult) -> Iterator[str]:
     """Yield each model, and each number that was compared."""
-    for tool in result.tools:
-        by = f" by {tool.tool}" if len(result.tools) > 1 else ""
-        for model in tool.compiled:
-            yield f"{model.model}: compiles{by}"
-        for part, deviation in worst(tool.deviations or ()).items():
-            place = f"{deviation.element}, {deviation.quantity}"
-            most = f"relative differences of up to {deviation.relative:.1e} ({place})"
-            yield f"{part}: {most if deviation.relative else 'no difference'}{by}"
-        for trial in tool.times:
-            yield f"{trial.name}: {trial.seconds:.1f} s{by}"
-        for deviation in tool.deviations or ():
-            what, amount = _amount(deviation)
-            yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e}){by}"
-    for deviation in result.between or ():
+    for model in result.compiled:
+        yield f"{model.model}: compiles"
+    for part, deviation in result.worst.items():
+        most = f"relative differences of up to {deviation.relative:.1e} ({deviation.element}, {deviation.quantity})"
+        yield f"{part}: {most if deviation.relative else 'no difference'}"
+    for deviation in result.deviations or ():
         what, amount = _amount(deviation)
-        yield f"{deviation.element}: {what} differs by {amount} between the compilers"
+        yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e})"
     for effect in result.effects:
         yield from (f"{_edited(effect)} {_change(deviation)}" for deviation in effect.deviations)
-
-
-def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
-    """Yield how far two compilers agree, which of three results stands alone, and the compilers' time and memory."""
-    first, second = result.tools
-    if result.between is not None:
-        outliers: dict[str, list[Deviation]] = {}
-        reference = result.reference or "the reference"
-        by_second = {deviation.key: deviation for deviation in second.deviations or ()}
-        between = {deviation.key: deviation for deviation in result.between}
-        for deviation in first.deviations or ():
-            if deviation.key not in by_second or deviation.key not in between:
-                continue  # a compiler has not simulated it
-            three = deviation, by_second[deviation.key], between[deviation.key]
-            if not all(each.agrees for each in three):
-                outlier = _outlier(first.tool, second.tool, reference, *three)
-                outliers.setdefault(outlier, []).append(max(three, key=lambda each: each.relative))
-        for name, deviations in outliers.items():
-            for deviation, others in _by_kind(deviations):
-                what, amount = _amount(deviation)
-                who = f"{name} stands alone, by {amount}" if name else f"all three differ, by up to {amount}"
-                yield f"{deviation.element}: {what}: {who}{others}", "bold red"
-        for deviation, others in _by_kind([deviation for deviation in result.between_edited if not deviation.agrees]):
-            what, amount = _amount(deviation)
-            sentence = (
-                f"{deviation.element}: with your edits, the {what} by {second.tool} differs from that by {first.tool}"
-            )
-            yield f"{sentence} by {amount}{others}", "bold red"
-        largest_difference = max((each.relative for each in result.between), default=0.0)
-        if all(each.agrees for each in result.between):
-            agreement = f"to {largest_difference:.1e}" if largest_difference else "exactly"
-            yield f"{first.tool} and {second.tool} agree {agreement}", ""
-    yield "; ".join(f"{tool.tool}: {tool.seconds:.1f} s, {tool.megabytes:.0f} MB" for tool in result.tools), "dim"
-
-
-def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
-    """Return which of two compilers and the reference differs from the other two; empty if no two agree.
-
-    The deviations are: the first from the reference, the second from the reference, the second from the first.
-    """
-    for name, agreeing in ((second, deviations[0]), (first, deviations[1]), (reference, deviations[2])):
-        if agreeing.agrees:
-            return name
-    return ""
 
 
 def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
@@ -196,7 +139,7 @@ def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
     status, sentences = result.status, _sentences(result)
     rows = [
         (part, f"{part_word(each)}, to {each.relative:.1e}", f"{each.element}, {each.quantity}")
-        for part, each in worst(result.deviations).items()
+        for part, each in result.worst.items()
     ]
     finding = None
     if status not in (CheckStatus.RIGHT, CheckStatus.FAILED):

@@ -49,8 +49,7 @@ class CheckOptions(RunOptions, frozen=True):
     """Compare poses, efforts and masses with the domain's reference."""
     strict: bool = False
     """Treat the effects of edits as differences."""
-    tools: tuple[Tool, ...] = (Tool(),)
-    """One compiler, or two."""
+    tool: Tool = Tool()
     jobs: int | None = None
     """The greatest number of robots that are checked at the same time; None allows as many as cores and memory do."""
     compilers: int = 1
@@ -107,36 +106,6 @@ class Curve(msgspec.Struct, frozen=True):
     expected: tuple[tuple[float, ...], ...]
 
 
-class TrialTime(msgspec.Struct, frozen=True):
-    """The CPU time of one simulation with its compiling."""
-
-    name: str
-    seconds: float
-
-
-class ToolResult(msgspec.Struct):
-    """The answers of one compiler about a package."""
-
-    KEYS = ("tool", "compiled", "failing", "deviations", "effects", "seconds", "megabytes", "times")
-
-    tool: str = ""
-    """The compiler with its version."""
-    compiled: tuple[CompiledModel, ...] = ()
-    failing: tuple[str, ...] = ()
-    """Full names of the user's models that do not compile by themselves."""
-    deviations: tuple[Deviation, ...] | None = None
-    """Deviations of the generated package from the reference; None without a comparison."""
-    effects: tuple[EditEffect, ...] = ()
-    """The effects of the user's edits, each apart if possible."""
-    seconds: float = 0.0
-    megabytes: float = 0.0
-    """The greatest amount of memory that all processes took together, measured four times a second."""
-    times: tuple[TrialTime, ...] = ()
-    """Times of the comparison, if the compiler tells times."""
-    curves: tuple[Curve, ...] = ()
-    """Poses and efforts of the generated package in the first simulation, for a page."""
-
-
 class JointFit(msgspec.Struct, frozen=True):
     """The efforts of one joint in a log: root mean squares of all, and of the unexplained parts."""
 
@@ -181,8 +150,8 @@ class CheckResult(msgspec.Struct):
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
-        *("numbers", "edited", "uncompared_edits", "freedoms", "reference", "agrees", "worst", "tools"),
-        *("between", "between_edited", "log", "notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
+        *("numbers", "edited", "uncompared_edits", "freedoms", "tool", "compiled", "failing", "reference", "agrees"),
+        *("worst", "deviations", "effects", "log", "notes", "unchecked", "gaps", "diagnostics", "seconds"),
     )
 
     robot: str
@@ -199,12 +168,18 @@ class CheckResult(msgspec.Struct):
     """The comparison with a second reading of the source; None if there was none."""
     edited: tuple[str, ...] = ()
     """The edited files below the package's folder, without those that differ in comments and blanks only."""
-    tools: tuple[ToolResult, ...] = ()
-    """A result for each compiler, in the order of their runs; none if nothing was compiled."""
-    between: tuple[Deviation, ...] | None = None
-    """Deviations of the second compiler from the first, for the generated package; None without two simulations."""
-    between_edited: tuple[Deviation, ...] = ()
-    """Deviations of the second compiler from the first, for the package with the user's edits; none without edits."""
+    tool: str = ""
+    """The compiler with its version; empty if nothing was compiled."""
+    compiled: tuple[CompiledModel, ...] = ()
+    """The models that compile and are balanced."""
+    failing: tuple[str, ...] = ()
+    """Full names of the user's models that do not compile by themselves."""
+    deviations: tuple[Deviation, ...] | None = None
+    """Deviations of the generated package from the reference; None without a comparison."""
+    effects: tuple[EditEffect, ...] = ()
+    """The effects of the user's edits, each apart if possible."""
+    curves: tuple[Curve, ...] = ()
+    """Poses and efforts of the generated package in the first simulation, for a page."""
     log: Judgement | None = None
     """How far the model is from a log; None without `--log`."""
     notes: tuple[str, ...] = ()
@@ -216,8 +191,6 @@ class CheckResult(msgspec.Struct):
     diagnostics: tuple[Diagnostic, ...] = ()
     seconds: float = 0.0
     """Time from beginning to end."""
-    megabytes: float = 0.0
-    """The greatest amount of memory that all processes took together, measured four times a second."""
     folder: str = ""
     """The package's folder for messages; empty if the check broke off."""
     reference: str = ""
@@ -231,21 +204,6 @@ class CheckResult(msgspec.Struct):
         return any(finding.severity is Severity.ERROR for finding in self.diagnostics)
 
     @property
-    def compiled(self) -> tuple[CompiledModel, ...]:
-        """The models that compile and are balanced, by the first compiler."""
-        return self.tools[0].compiled if self.tools else ()
-
-    @property
-    def deviations(self) -> list[Deviation]:
-        """The deviations from the reference, by all compilers."""
-        return [deviation for tool in self.tools for deviation in tool.deviations or ()]
-
-    @property
-    def effects(self) -> tuple[EditEffect, ...]:
-        """The effects of the user's edits, by the first compiler that measured them."""
-        return next((tool.effects for tool in self.tools if tool.effects), ())
-
-    @property
     def uncompared_edits(self) -> tuple[str, ...]:
         """The edited files whose effect nothing compared."""
         compared = {file for effect in self.effects for file in effect.files}
@@ -254,10 +212,10 @@ class CheckResult(msgspec.Struct):
 
     @property
     def differs(self) -> bool:
-        """Whether the generated package differs from its source or from the reference, or two compilers disagree."""
+        """Whether the generated package differs from its source or from the reference."""
         if self.numbers and self.numbers.differences:
             return True
-        return not all(each.agrees for each in (*self.deviations, *(self.between or ()), *self.between_edited))
+        return not all(each.agrees for each in self.deviations or ())
 
     @property
     def is_changed_by_edits(self) -> bool:
@@ -291,7 +249,7 @@ class CheckResult(msgspec.Struct):
             own = [model for model in self.compiled if not model.is_users]
             count, users = len(own), len(self.compiled) - len(own)
             yours = f", and {users} of yours" if users else ""
-            if failing := len({name for tool in self.tools for name in tool.failing}):
+            if failing := len(self.failing):
                 yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
             facts.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
             if self.freedoms is not None:
@@ -304,12 +262,12 @@ class CheckResult(msgspec.Struct):
     @property
     def worst(self) -> Mapping[Aspect, Deviation]:
         """The greatest deviation of each part from the reference, relative to its tolerance."""
-        return worst(self.deviations)
+        return worst(self.deviations or ())
 
     @property
     def agrees(self) -> bool | None:
         """Whether the package without edits agrees with the reference; None without a comparison."""
-        return None if all(tool.deviations is None for tool in self.tools) else not self.differs
+        return None if self.deviations is None else not self.differs
 
     def add(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add findings, each once."""

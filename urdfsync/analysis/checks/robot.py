@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+import functools
 import tempfile
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 import msgspec
 
 from urdfsync.analysis.checks import compilers, process, texts
 from urdfsync.analysis.checks.cache import UserCache
-from urdfsync.analysis.checks.compilation import Compilation, compare_all
-from urdfsync.analysis.checks.contents import Hashes
-from urdfsync.analysis.checks.fingerprint import PHYSICS, fingerprint
+from urdfsync.analysis.checks.compilation import Compilation
+from urdfsync.analysis.checks.contents import content_hash
+from urdfsync.analysis.checks.fingerprint import fingerprint
 from urdfsync.analysis.checks.libraries import Libraries, find_libraries
 from urdfsync.analysis.checks.names import check_names
 from urdfsync.analysis.checks.package import RobotPackage, read_package, users_models
@@ -41,49 +41,55 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
 
     Only results of the embedded compiler without faults are remembered.
     """
-    if config.check.tool != "rumoca":  # the key has OpenModelica's version, which only a start tells
-        return None
-    if key := fingerprint(config, robot, CheckOptions()):  # only once: hashing reads all libraries
-        cache = UserCache.default()
-        return cache.load(f"{key}{PHYSICS}", CheckResult) or cache.load(key, CheckResult)
-    return None
+    hashed = functools.cache(content_hash)
+    found = (recall_check(config, robot, CheckOptions(physics=physics), hashed) for physics in (True, False))
+    return next(filter(None, found), None)
 
 
-class _Lookup(NamedTuple):
-    """A robot's package, and its earlier check."""
-
-    key: str | None
-    """The fingerprint; None if the result must not be remembered."""
-    package: RobotPackage
-    earlier: CheckResult | None
-    """The remembered check of the same package, perhaps without curves; None if there is none."""
-
-
-def _look_up(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes | None = None) -> _Lookup:
-    """Read a robot's package, and look for its earlier check. Raises UrdfsyncError and OSError."""
-    key = fingerprint(config, robot, options, hashes)
-    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
-    package, earlier = read_package(config, robot, request), None
-    if key and package.in_step and not options.fresh:
-        earlier = UserCache.default().load(key, CheckResult)
-    return _Lookup(key, package, earlier)
-
-
-def _has_curves(result: CheckResult, options: CheckOptions) -> bool:
-    """Return whether a remembered result has the curves that the options ask for."""
-    return not (options.curves and result.reference and not any(tool.curves for tool in result.tools))
-
-
-def recall_check(config: Config, robot: RobotConfig, options: CheckOptions, hashes: Hashes) -> CheckResult | None:
-    """Return the remembered check of a robot; None if the robot has to be checked. `hashes` as in `result_key`."""
-    if options.fresh:
-        return None
+def recall_check(
+    config: Config, robot: RobotConfig, options: CheckOptions, hashed: Callable[..., str] = content_hash
+) -> CheckResult | None:
+    """Return the remembered check of a robot; None if the robot has to be checked. `hashed` as in `result_key`."""
     begin = time.monotonic()
+    if options.fresh or not (key := fingerprint(config, robot, options, hashed)):
+        return None
+    result = UserCache.default().load(key, CheckResult)
+    if result is None or (options.curves and result.reference and not result.curves):
+        return None
     try:
-        _, package, earlier = _look_up(config, robot, options, hashes)
-        return _complete(earlier, package, options, begin) if earlier and _has_curves(earlier, options) else None
+        package = _read(config, robot, options)
+        return _complete(result, package, options, begin) if package.in_step else None
     except Exception:  # noqa: BLE001 - the check meets this error, too, and reports it
         return None
+
+
+def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None = None) -> CheckResult:
+    """Check one robot; copies of its package go to `folder`, or to a temporary folder for None.
+
+    A check of a package in step and without faults is remembered.
+    """
+    begin, key = time.monotonic(), fingerprint(config, robot, options)
+    result = CheckResult(robot.name, robot.target.package, strict=options.strict)
+    limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
+    try:
+        tell(f"{robot.name}: reading the source and the package")
+        package = _read(config, robot, options)
+        with tempfile.TemporaryDirectory(prefix="urdfsync-", dir=folder, ignore_cleanup_errors=True) as place:
+            _check(config, package, options, result, limits, Path(place))
+        is_same = key == fingerprint(config, robot, options)  # if not, a file was saved meanwhile
+        if key and package.in_step and is_same:
+            UserCache.default().save(key, None if result.failed or result.differs else result)
+        return _complete(result, package, options, begin)
+    except Exception as error:  # noqa: BLE001 - only this robot fails
+        result.add(findings_of(error))
+    result.diagnostics = robot.without_ignored(result.diagnostics)
+    result.seconds = time.monotonic() - begin
+    return result
+
+
+def _read(config: Config, robot: RobotConfig, options: CheckOptions) -> RobotPackage:
+    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
+    return read_package(config, robot, request)
 
 
 def _complete(result: CheckResult, package: RobotPackage, options: CheckOptions, begin: float) -> CheckResult:
@@ -96,34 +102,6 @@ def _complete(result: CheckResult, package: RobotPackage, options: CheckOptions,
         made, file = package.generation, shown(robot.source)
         judged = judge(package.inputs.domain, made.now, made.reading, file)
         result.add(robot.without_ignored(map(package.inputs.source.locate, judged)))
-    result.diagnostics = robot.without_ignored(result.diagnostics)
-    result.seconds = time.monotonic() - begin
-    return result
-
-
-def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None = None) -> CheckResult:
-    """Check one robot; copies of its package go to `folder`, or to a temporary folder for None.
-
-    A package in step and without faults is not checked again until its fingerprint changes.
-    """
-    begin, cache = time.monotonic(), UserCache.default()
-    result = CheckResult(robot.name, robot.target.package, strict=options.strict)
-    limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
-    try:
-        tell(f"{robot.name}: reading the source and the package")
-        key, package, earlier = _look_up(config, robot, options)
-        if earlier and not _has_curves(earlier, options):
-            earlier = None
-        if earlier is None:
-            with tempfile.TemporaryDirectory(prefix="urdfsync-", dir=folder, ignore_cleanup_errors=True) as place:
-                _check(config, package, options, result, limits, Path(place))
-            result.megabytes = limits.peak / 1e6
-            is_same = key == fingerprint(config, robot, options)  # if not, a file was saved meanwhile
-            if key and package.in_step and is_same:
-                cache.save(key, None if result.failed or result.differs else result)
-        result = _complete(earlier or result, package, options, begin)
-    except Exception as error:  # noqa: BLE001 - only this robot fails
-        result.add(findings_of(error))
     result.diagnostics = robot.without_ignored(result.diagnostics)
     result.seconds = time.monotonic() - begin
     return result
@@ -166,11 +144,8 @@ def _check(
     every = find_libraries(config, robot, [*contents, *names.users_files.values()], uses)
     every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
     experiment = _experiment(package, options, result, limits)
-    compilations = [
-        Compilation(package, tool, needed, users, every, limits, folder / tool.name, options.compilers)
-        for tool in options.tools
-    ]
-    run_compilations(compilations, experiment, result, limits)
+    result.tool = compilers.COMPILERS[options.tool.name].TITLE
+    Compilation(package, options.tool, needed, users, every, limits, folder, options.compilers, result).run(experiment)
 
 
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
@@ -235,10 +210,10 @@ def _sample(package: RobotPackage) -> Sample:
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
     """Return why nothing can be compiled: an error with `--physics`, or if the user named the missing part."""
-    missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
-    lacks_library = any(not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
-    problem = missing or (needed.problem if lacks_library else None)
-    is_wanted = options.tools != CheckOptions().tools if missing else config.check.library
+    missing = compilers.find_missing(options.tool)
+    has_library = compilers.COMPILERS[options.tool.name].HAS_STANDARD_LIBRARY
+    problem = missing or (None if has_library else needed.problem)
+    is_wanted = options.tool != CheckOptions().tool if missing else config.check.library
     if problem and (options.physics or is_wanted):
         result.add([problem])
     return problem
@@ -280,45 +255,3 @@ def _experiments(domain: str, sample: Sample, step: float | None) -> Iterator[Ex
     """Yield the experiment of a domain, in a process of its own."""
     checks = registry.domain(domain).checks
     yield checks.experiment(sample, step) if checks else "there is no reference for packages of this domain"
-
-
-def run_compilations(
-    compilations: Sequence[Compilation], experiment: Experiment | None, result: CheckResult, limits: Limits
-) -> None:
-    """Compile a package with one compiler after the other; add the answers to the result."""
-    for compilation in compilations:
-        begin, peak, limits.peak = time.monotonic(), limits.peak, 0.0
-        compilation.run(experiment)
-        compilation.result.seconds, compilation.result.megabytes = time.monotonic() - begin, limits.peak / 1e6
-        limits.peak = max(peak, limits.peak)
-        result.gaps += tuple(
-            f"{compilation.result.tool}: {gap}" if result.tools else gap
-            for gap in compilation.gaps
-            if gap not in result.gaps
-        )
-        result.tools += (compilation.result,)
-    result.add(_findings(compilations))
-    if experiment and len(compilations) > 1:
-        first, second = compilations
-        if first.generated and second.generated:
-            result.between = compare_all(experiment.trials, second.generated, first.generated)
-        if first.edited and second.edited:
-            result.between_edited = compare_all(experiment.trials, second.edited, first.edited)
-
-
-def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
-    """Return the findings: those of all compilers once, those of a single compiler with its name."""
-
-    def place(finding: Diagnostic) -> tuple[object, ...]:
-        return finding.severity, finding.file, finding.line, finding.code, "" if finding.line else finding.message
-
-    places = [set(map(place, compilation.diagnostics)) for compilation in compilations]
-    findings, shared = list[Diagnostic](), set.intersection(*places)
-    for compilation in compilations:
-        for finding in compilation.diagnostics:
-            if place(finding) not in shared:
-                message = f"only {compilation.result.tool} reports: {finding.message}"
-                findings.append(msgspec.structs.replace(finding, message=message))
-            elif compilation is compilations[0]:
-                findings.append(finding)
-    return findings

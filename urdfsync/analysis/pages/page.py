@@ -70,7 +70,7 @@ def page(
     environment = html_environment(_FOLDER)
     environment.filters |= {"words": words, "findings": findings_table}
     environment.globals |= {"difference_lines": difference_lines, "reason": reason, "settle_hint": settle_hint}
-    curves = check.tools[0].curves if check and check.tools else ()
+    curves = check.curves if check else ()
     picture = content.picture
     data = {name: getattr(content, name) for name in _DATA} | {
         "robot": content.robot.name,
@@ -163,7 +163,7 @@ def _motion(result: SimulateResult) -> dict[str, Any]:
 
 def _compared(result: CheckResult) -> list[tuple[Deviation, float, float]]:
     """Return all compared quantities, the worst first, with the logarithms of errors and tolerances."""
-    deviations = sorted(result.deviations, key=lambda each: each.relative / each.tolerance, reverse=True)
+    deviations = sorted(result.deviations or (), key=lambda each: each.relative / each.tolerance, reverse=True)
     sizes = ((each.relative, each.tolerance) for each in deviations)
     logs = [[math.log10(min(max(size, _LEAST), 1.0)) for size in pair] for pair in sizes]
     return [(each, round(log, 2), round(most, 2)) for each, (log, most) in zip(deviations, logs, strict=True)]

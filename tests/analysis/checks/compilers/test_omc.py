@@ -29,7 +29,7 @@ from urdfsync.analysis.checks.compilers.compiler import (
     Tool,
     compile_task,
 )
-from urdfsync.analysis.checks.contents import Hashes
+from urdfsync.analysis.checks.contents import content_hash
 from urdfsync.analysis.checks.process import Limits
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for omc is a script")
@@ -282,15 +282,15 @@ def test_another_omc_is_another_state(tmp_path: Path, monkeypatch: pytest.Monkey
     It may say another version though the program is the same, or be built anew with the version that it had.
     """
     monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
-    found = [state(Tool("omc"), Hashes())]
+    found = [state(Tool("omc"), content_hash)]
     for version in ("1.26", "1.27"):
         fake_omc.install(tmp_path / "bin", {"getVersion": f'"{version}"\n""\n'})
-        found.append(state(Tool("omc"), Hashes()))
+        found.append(state(Tool("omc"), content_hash))
     for file in ("lib/omc/libOpenModelicaCompiler.so", "lib/omlibrary/Modelica 4.1.0/Math.mo", "bin/omc"):
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         with (tmp_path / file).open("a") as stream:
             stream.write("\n")
-        found.append(state(Tool("omc"), Hashes()))
+        found.append(state(Tool("omc"), content_hash))
     assert len({tuple(one) for one in found}) == 6
 
 
@@ -298,7 +298,7 @@ def test_an_omc_that_does_not_say_its_version_has_no_state(tmp_path: Path, monke
     monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
     fake_omc.install(tmp_path / "bin", {"getVersion": ""})
     with pytest.raises(OSError, match="exit code 3"):
-        state(Tool("omc"), Hashes())
+        state(Tool("omc"), content_hash)
 
 
 @settings(max_examples=30)

@@ -12,7 +12,7 @@ from urdfsync.analysis.checks.cache import UserCache
 from urdfsync.analysis.checks.compilers import find_missing, run_job, state
 from urdfsync.analysis.checks.compilers.compiler import CompileJob, CompileResult, CompileTask, Simulation, Tool
 from urdfsync.analysis.checks.compilers.rumoca import METHODS
-from urdfsync.analysis.checks.contents import Hashes
+from urdfsync.analysis.checks.contents import content_hash
 from urdfsync.analysis.checks.process import Limits
 
 DECAY = """
@@ -48,9 +48,9 @@ def test_another_rumoca_is_another_state(tmp_path: Path, monkeypatch: pytest.Mon
     module.write_text("")
     monkeypatch.delitem(sys.modules, "rumoca", raising=False)
     monkeypatch.syspath_prepend(tmp_path)
-    before = state(Tool("rumoca"), Hashes())
+    before = state(Tool("rumoca"), content_hash)
     module.write_text("# built anew\n")
-    assert state(Tool("rumoca"), Hashes()) != before
+    assert state(Tool("rumoca"), content_hash) != before
 
 
 def test_models_are_compiled_counted_and_simulated(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import importlib.util
 import tempfile
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from pathlib import Path
 from typing import cast, get_args
 
 import msgspec
@@ -13,7 +14,6 @@ import msgspec
 from urdfsync.analysis.checks import process
 from urdfsync.analysis.checks.cache import UserCache
 from urdfsync.analysis.checks.compilers.compiler import CompileJob, Compiler, CompilerError, CompileResult, Tool
-from urdfsync.analysis.checks.contents import Hashes
 from urdfsync.analysis.checks.process import BrokenProcessError, Limits
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.project.config import Config, settings
@@ -23,35 +23,26 @@ COMPILERS: Mapping[str, Compiler] = {
     name: cast(Compiler, import_module(f"{__name__}.{name}")) for name in get_args(settings.CompilerName)
 }
 """The compilers by the value of `--tool`, the default first."""
-BOTH = "both"
-"""The value of `--tool` that compares two compilers."""
-_BOTH = ("rumoca", "omc")
 
 
-def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
-    """Return the one or two compilers that `--tool` chooses; if `name` is None, the configuration chooses them.
+def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> Tool:
+    """Return the compiler that `--tool` chooses; if `name` is None, the configuration chooses it.
 
     `trusted` says whether the user trusts the configuration: it may choose a program, or a compiler that lets models
     start programs. `--tool omc` needs no trust: the user chose it.
     """
     chosen = name or config.check.tool
-    if chosen not in {*COMPILERS, BOTH}:
-        hint = f"use one of {', '.join([*COMPILERS, BOTH])}"
+    if chosen not in COMPILERS:
+        hint = f"use one of {', '.join(COMPILERS)}"
         raise ConfigError.of("unknown-compiler", f"there is no compiler {chosen!r} to check with", hint=hint)
-    return tuple(
-        _tool(config, compiler, is_trusted=trusted or (bool(name) and not config.check.program(compiler)))
-        for compiler in (_BOTH if chosen == BOTH else [chosen])
-    )
-
-
-def _tool(config: Config, name: str, *, is_trusted: bool) -> Tool:
-    compiler, problem = COMPILERS[name], None
+    compiler, problem = COMPILERS[chosen], None
+    is_trusted = trusted or (bool(name) and not config.check.program(chosen))
     if compiler.STARTS_PROGRAMS and not is_trusted:
         try:
-            problem = find_untrusted_compiler(config, name, compiler.TITLE)
+            problem = find_untrusted_compiler(config, chosen, compiler.TITLE)
         except ConfigError as error:  # the user's file of trusted folders is unreadable
             problem = error.diagnostics[0]
-    return Tool(name, config.check.program(name), problem)
+    return Tool(chosen, config.check.program(chosen), problem)
 
 
 def find_missing(tool: Tool) -> Diagnostic | None:
@@ -66,15 +57,15 @@ def find_missing(tool: Tool) -> Diagnostic | None:
     return tool.problem
 
 
-def state(tool: Tool, hashes: Hashes) -> list[str]:
-    """Return a compiler's state: hashes of its files, and its stated version; or a problem.
+def state(tool: Tool, hashed: Callable[[Path], str]) -> list[str]:
+    """Return a compiler's state: hashes of its files by `hashed`, and its stated version; or a problem.
 
     Raises OSError for unreadable files.
     """
     if missing := find_missing(tool):
         return [tool.name, str(missing)]
     version, places = COMPILERS[tool.name].state(tool.program)
-    return [tool.name, version, *(f"{place} {hashes.of(place)}" for place in places)]
+    return [tool.name, version, *(f"{place} {hashed(place)}" for place in places)]
 
 
 def run_job(

@@ -102,8 +102,6 @@ class CompileResult(msgspec.Struct, frozen=True):
     """Parameters among `CompileTask.varied` that a compiled model can't change."""
     version: str = ""
     """The version that the compiler states."""
-    seconds: float = 0.0
-    """CPU time that the task took; 0 if the compiler does not tell the time of a single task."""
     fmu: bytes = b""
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import importlib.util
 import math
 import re
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -108,13 +107,11 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     session = rumoca.Session(roots=list(job.roots))
     last, model, answer = None, None, CompileResult()
     for task in job.tasks:
-        begin = time.process_time()
         text = msgspec.structs.replace(task, runs=())
         if text != last:
             last, (model, answer) = text, _compile(session, task)
         runs = tuple(_simulate(model, run, task) for run in task.runs) if model else ()
-        seconds = time.process_time() - begin
-        yield msgspec.structs.replace(answer, runs=runs, version=rumoca.version(), seconds=seconds)
+        yield msgspec.structs.replace(answer, runs=runs, version=rumoca.version())
 
 
 def _compile(session: rumoca.Session, task: CompileTask) -> tuple[rumoca.Model | None, CompileResult]:
