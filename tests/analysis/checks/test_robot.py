@@ -265,12 +265,9 @@ def test_without_a_compiler_all_else_is_checked(
     """Also the numbers, which need no extra. Whoever asks for more is told what to install."""
     find = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "rumoca" else find(name))
-    Path("arm.urdf").write_text(ARM.replace(' name="own"', ""))
-    rebuild()
     result = check()
     assert result.numbers is not None
     assert result.numbers.summary == f"numbers right ({result.numbers.total} of {result.numbers.total})"
-    assert result.unchecked[0] == "the reading by yourdfpy, which can't read arm.urdf (KeyError: 'name')"
     (gap,) = result.gaps
     assert gap.startswith("nothing was compiled: there is no compiler: rumoca is not installed; pip install")
     assert status(result, strict=False) is CheckStatus.INCOMPLETE

@@ -54,7 +54,7 @@ class _Part(NamedTuple):
 def compare(files: Files, packages: Packages, source: str, text: str) -> tuple[int, tuple[str, ...]]:
     """Return how many numbers were compared, and a clause for each part of a link that differs."""
     urdf, sdf = read_again(text.encode(), Options()), _Reading(files, packages, source)
-    placed, total, differences = poses(urdf, {}), 0, list[str]()
+    placed, total, differences = poses(urdf), 0, list[str]()
     robot = f"/{_root(text.encode()).get('name')}::"
     # before SDF 1.7, a link could be called `world`; the translation gives it another name
     full = {name: robot + (name if robot + name in sdf.parts else _WORLD) for name in placed}

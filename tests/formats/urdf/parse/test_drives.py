@@ -1,9 +1,10 @@
-"""What a source says of the drives of joints, in all forms that are in use."""
+"""What a source says of the drives of joints, in all forms that are in use; the second reader reads gears alike."""
 
 from __future__ import annotations
 
 import pytest
 from support import urdfs
+from support.numbers import differences
 
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.parse.source import RobotReading, read_robot
@@ -117,12 +118,14 @@ def test_gears_and_rotors(element: str, gear: Transmission | None) -> None:
     reading = read(element)
     assert elbow(reading).transmission == gear
     assert not reading.diagnostics
+    assert differences(urdfs.robot(*BASE, element).encode()) == []
 
 
 FAULTS = {
     "no number": (transmission("", "<mechanicalReduction>1:100</mechanicalReduction>"), "bad-transmission"),
     "nothing": (transmission("<offset/>"), "bad-transmission"),
     "zero": (transmission("", "<mechanicalReduction>0</mechanicalReduction>"), "bad-transmission"),
+    "an underscore": (transmission(own="<mechanicalReduction>1_000</mechanicalReduction>"), "bad-transmission"),
 }
 
 
@@ -131,6 +134,7 @@ def test_a_faulty_number_of_a_gear_is_a_warning_and_left_out(element: str, code:
     reading = read(element)
     assert [(found.code, str(found.severity)) for found in reading.diagnostics] == [(code, "warning")]
     assert elbow(reading).transmission is None
+    assert differences(urdfs.robot(*BASE, element).encode()) == []
 
 
 def test_a_rotor_of_negative_inertia_is_an_error() -> None:
@@ -194,6 +198,7 @@ def test_motors_of_two_joints(element: str, first: Transmission, second: Transmi
     gears = {joint.name: joint.transmission for joint in reading.robot.joints}
     assert (gears["elbow"], gears["roll"]) == (first, second)
     assert (actuated(reading), reading.diagnostics, reading.unmodelled) == (["elbow", "roll"], (), ())
+    assert differences(urdfs.robot(*BASE, element).encode()) == []
 
 
 GRIPPER = """<transmission name="grip" type="pr2_mechanism_model/PR2GripperTransmission"><actuator name="m"/>
@@ -227,6 +232,7 @@ def test_joints_that_are_coupled_in_another_way_are_driven_and_told(element: str
     assert [(found.code, found.line) for found in reading.diagnostics] == [("coupled-transmission", 10)]
     assert words in str(reading.diagnostics[0])
     assert not any(joint.transmission for joint in reading.robot.joints)
+    assert differences(urdfs.robot(*BASE, element).encode()) == []
 
 
 @pytest.mark.parametrize("other", [
@@ -234,7 +240,9 @@ def test_joints_that_are_coupled_in_another_way_are_driven_and_told(element: str
     urdfs.joint("roll", "continuous", "base", "caster", inside=[urdfs.mimic("drive wheel")]),
 ])  # fmt: skip
 def test_a_motor_moves_two_joints_that_turn_by_themselves(other: str) -> None:
-    reading = read_robot(urdfs.robot(*BASE[:-1], other, WRIST).encode(), "own.urdf")
+    content = urdfs.robot(*BASE[:-1], other, WRIST).encode()
+    reading = read_robot(content, "own.urdf")
+    assert differences(content) == []
     assert [str(found) for found in reading.diagnostics] == [
         "own.urdf:12: warning: transmission wrist couples elbow and roll, but not both joints turn by themselves: "
         f"neither has a gear; {BY_HAND} [coupled-transmission]"
@@ -395,12 +403,14 @@ def followed(leader: str = "roll", numbers: str = "") -> str:
     (plugin(numbers="<multiplier>-2</multiplier><offset>0.1</offset>"), Mimic("roll", -2.0, 0.1)),
     (followed(), Mimic("roll")),
     (followed(numbers='<param name="multiplier">3</param><param name="offset">1</param>'), Mimic("roll", 3.0, 1.0)),
+    (plugin().replace("joint>roll", "jointName>roll").replace("roll</joint", "roll</jointName"), Mimic("roll")),
 ])  # fmt: skip
 def test_couplings_of_ros2_control_and_of_plugins(element: str, mimic: Mimic) -> None:
     reading = read(element, interfaces("EffortJointInterface"))
     assert (elbow(reading).mimic, elbow(reading).command) == (mimic, None)
     assert not reading.diagnostics
     assert not reading.unmodelled
+    assert differences(urdfs.robot(*BASE, element).encode()) == []
 
 
 @pytest.mark.parametrize(("element", "words"), [
@@ -418,6 +428,7 @@ def test_a_coupling_that_contradicts_the_mimic_of_the_joint_is_told(element: str
     reading = read_robot(content.encode(), "own.urdf")
     assert [str(found) for found in reading.diagnostics] == [f"own.urdf:10: {words} [drive-contradiction]"]
     assert elbow(reading).mimic == Mimic("roll")
+    assert differences(content.encode()) == []
 
 
 @pytest.mark.parametrize(("element", "code"), [

@@ -8,6 +8,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.numbers import compare, differences
 from support.robots import robot_extensions
 
 from urdfsync.common.diagnostics import Severity
@@ -506,6 +507,7 @@ def test_a_quaternion_is_an_orientation_since_urdf_1_1() -> None:
     older = read(text).robot
     assert older is not None
     assert older.joints[0].origin.rpy == (0.0, 0.0, 0.0)
+    assert differences(text.encode()) == differences(of_version("1.1", text).encode()) == []
 
 
 def test_limits_of_urdf_1_2() -> None:
@@ -515,5 +517,8 @@ def test_limits_of_urdf_1_2() -> None:
     older = read(with_joint(limit)).robot
     assert older is not None
     assert older.joints[0].limit == Limit(0.0, 1.0)
-    joint = only_joint('<limit lower="0" upper="1" effort="1" velocity="1" drake:acceleration="2"/>')
-    assert joint.limit == Limit(0.0, 1.0, 1.0, 1.0, acceleration=2.0)
+    drake = '<limit lower="0" upper="1" effort="1" velocity="1" drake:acceleration="2"/>'
+    assert only_joint(drake).limit == Limit(0.0, 1.0, 1.0, 1.0, acceleration=2.0)
+    for version, inner in (("1.0", drake), ("1.1", limit), ("1.2", limit)):
+        numbers = compare(of_version(version, with_joint(inner)).encode(), approach=("package",))
+        assert (numbers.differences, numbers.uncompared) == ((), ())

@@ -90,13 +90,15 @@ def test_made_up_inertias_are_possible_skew_and_always_the_same() -> None:
     assert (base.mass, base.origin.xyz, base.inertia.ixy) == (0.946, (0.04, -0.07, 0.06), 0.001891)
 
 
-def test_a_coupling_that_stands_elsewhere_becomes_a_mimic() -> None:
-    plugin = "<plugin><joint>a</joint><mimicJoint>b</mimicJoint><multiplier>-2</multiplier></plugin>"
+def test_a_coupling_that_stands_elsewhere_becomes_a_mimic_of_a_moving_joint_without_one() -> None:
+    plugin = '<plugin><joint>a</joint><mimicJoint>{}</mimicJoint><multiplier value="-2"/></plugin>'
     urdf = robot(
-        *links(base=1.0, arm=1.0, tip=1.0),
+        *links(base=1.0, arm=1.0, tip=1.0, cap=1.0, end=1.0),
         joint("a", "continuous", "base", "arm"),
         joint("b", "continuous", "base", "tip"),
-        f"<gazebo>{plugin}</gazebo>",
+        joint("c", "continuous", "base", "cap", inside=[mimic("a", 3)]),
+        joint("d", "fixed", "base", "end"),
+        f"<gazebo>{''.join(map(plugin.format, 'bcd'))}</gazebo>",
     ).encode()
-    content, _ = with_inertias(urdf, KinematicTree.of(robot_of(urdf)))
-    assert read(content, "robot.urdf").followers == {"b": Mimic("a", -2.0, 0.0)}
+    content, _ = completed_for_pinocchio(urdf)
+    assert read(content, "robot.urdf").followers == {"b": Mimic("a", -2.0), "c": Mimic("a", 3.0)}

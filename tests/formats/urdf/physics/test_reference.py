@@ -47,7 +47,9 @@ def test_both_readers_find_the_same_place_of_a_sensor() -> None:
 
 def test_a_ball_of_pinocchio_has_the_freedoms_and_the_damping_of_the_joint_and_others_keep_theirs() -> None:
     joints = [joint("a", "spherical", "base", "b", inside=[dynamics(3, 1), limit()]), joint("b", "revolute", "b", "c")]
-    text = robot(*links(base=1, b=2, c=3, d=4), *joints, joint("c", "prismatic", "b", "d", inside=[dynamics(5, 6)]))
+    text = robot(
+        *links(base=1, b=2, c=3, d=4), *joints, joint("c", "prismatic", "b", "d", inside=[dynamics(5, 6), limit()])
+    )
     plain, ball = (read(each.encode(), "a.urdf").model for each in (text.replace("spherical", "continuous"), text))
     kinds = {name: joint.shortname() for name, joint in zip(ball.names, ball.joints, strict=True)}
     assert kinds["a"] == "JointModelSpherical"
@@ -79,7 +81,10 @@ def turned(roll: float, pitch: float, yaw: float) -> Any:
 def test_a_sensor_at_rest_shows_the_weight_behind_it_in_its_frame(kind: str, frame: str, is_deeper: bool) -> None:
     """A moving joint stands at 0.8 rad or m, along z; the deeper sensor is in the joint behind it."""
     angles, centre = (0.5, -0.6, 0.7), (0.02, -0.05, 0.1)
-    at, joints = "wrist" if is_deeper else "elbow", [joint("elbow", kind, "base", "arm", axis="0 0 1")]
+    at, joints = (
+        "wrist" if is_deeper else "elbow",
+        [joint("elbow", kind, "base", "arm", axis="0 0 1", inside=[limit()])],
+    )
     joints += [joint("wrist", "fixed", "arm", "hand")] if is_deeper else []
     pose = "<pose>1 2 3 0.3 0.2 -0.1</pose>"
     load = f'<sensor name="load" type="force_torque">{pose}<force_torque><frame>{frame}</frame></force_torque></sensor>'
@@ -105,9 +110,3 @@ def test_a_sensor_at_rest_shows_the_weight_behind_it_in_its_frame(kind: str, fra
     gain, spin = reference.acceleration(state, sensors["imu"])
     assert gain == pytest.approx(axes["sensor"].T @ [0, 0, GRAVITY])
     assert spin == pytest.approx([0, 0, 0])
-
-
-def test_pinocchio_reads_a_sliding_joint_without_limits() -> None:
-    """Its own reader refuses the joint."""
-    content = robot(*links(a=1, b=1), joint("slide", "prismatic", "a", "b")).encode()
-    assert read(content, "arm.urdf").model.existJointName("slide")

@@ -1,4 +1,4 @@
-"""Gears of transmissions, read twice: by the positions of the motors, and by those of the joints."""
+"""Gears of transmissions that are read otherwise; tests of the first reader compare the same gears."""
 
 from __future__ import annotations
 
@@ -10,63 +10,24 @@ from support.numbers import BOT, differences, of_package
 from support.packages import generate
 from support.urdfs import joint, links, parsed, robot
 
-SIMPLE = {
-    "<actuator name='m'><mechanicalReduction>50</mechanicalReduction></actuator>": True,
-    "<mechanicalReduction>-2</mechanicalReduction>": True,
-    "<actuator><drake:gear_ratio value='9'/><drake:rotor_inertia value='1e-4'/></actuator>": True,
-    "<mechanicalReduction>0</mechanicalReduction>": False,
-    "<mechanicalReduction>1_000</mechanicalReduction>": False,
-}
-
-
-@pytest.mark.parametrize("inside", SIMPLE)
-def test_both_readers_find_the_same_gear(inside: str) -> None:
-    text = robot(
-        *links(base=1.0, arm=1.0),
-        joint("elbow", "continuous", "base", "arm"),
-        f"<transmission name='t'><joint name='elbow'><offset>0</offset></joint>{inside}</transmission>",
-    )
-    (elbow,) = parsed(text).joints
-    assert (elbow.transmission is not None) == SIMPLE[inside]
-    assert differences(text.encode()) == []
-
-
 ROLES = "<{0} name='elbow'><role>{0}1</role><mechanicalReduction>{1}</mechanicalReduction>{3}</{0}>\
 <{0} name='wrist'><role>{0}2</role><mechanical_reduction>{2}</mechanical_reduction></{0}>"
 PARTS = ROLES.format("joint", 2, -3, "<offset>0.5</offset>") + ROLES.format(
     "actuator", 10, -7, "<drake:rotor_inertia value='1e-4'/>"
 )
-WRIST = """<rightActuator name='r' mechanicalReduction='60'/><leftActuator name='l' mechanicalReduction='50'/>
-  <flexJoint name='elbow' mechanicalReduction='-1'/><rollJoint name='wrist' mechanicalReduction='2' offset='0.3'/>"""
-SHARED = {
-    "DifferentialTransmission": PARTS,
-    "FourBarLinkageTransmission": PARTS,
-    "WristTransmission": WRIST,
-    "UnknownTransmission": PARTS,
-    "three actuators: WristTransmission": f"{WRIST}<leftActuator name='l'/>",
-}
-
-
-@pytest.mark.parametrize("kind", SHARED)
-@pytest.mark.parametrize("joint_type", ["continuous", "fixed"])
-def test_both_readers_find_the_same_gears_of_two_joints(kind: str, joint_type: str) -> None:
-    text = robot(
-        *links(base=1.0, arm=1.0, hand=1.0),
-        joint("elbow", "continuous", "base", "arm"),
-        joint("wrist", joint_type, "arm", "hand"),
-        f'<transmission name="t"><type>interface/{kind.rpartition(" ")[2]}</type>{SHARED[kind]}</transmission>',
-    )
-    geared = any(each.transmission for each in parsed(text).joints)
-    assert geared == ((joint_type == "continuous" and "Unknown" not in kind and ":" not in kind) or "FourBar" in kind)
-    assert differences(text.encode()) == []
-
-
 PAIR = robot(
     *links(base=1.0, arm=1.0, hand=1.0),
     joint("elbow", "continuous", "base", "arm"),
     joint("wrist", "continuous", "arm", "hand"),
     f'<transmission name="t"><type>DifferentialTransmission</type>{PARTS}</transmission>',
 ).encode()
+
+
+def test_a_linkage_has_a_gear_at_its_first_joint_even_if_the_second_is_fixed() -> None:
+    text = PAIR.replace(b">DifferentialT", b">FourBarLinkageT").decode()
+    text = text.replace('<joint name="wrist" type="continuous"', '<joint name="wrist" type="fixed"')
+    assert [joint.transmission is not None for joint in parsed(text).joints] == [True, False]
+    assert differences(text.encode()) == []
 
 
 @pytest.mark.parametrize(("old", "new", "quantity"), [

@@ -39,7 +39,7 @@ from typing import Literal, NamedTuple, TypeAlias
 
 from urdfsync.formats.urdf.connectors import Connectors
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
-from urdfsync.formats.urdf.robot import MOTION_KINDS, Joint
+from urdfsync.formats.urdf.robot import MOTION_KINDS, Joint, Motion
 
 Point: TypeAlias = tuple[int, int]
 LinePath: TypeAlias = tuple[Point, ...]
@@ -151,7 +151,10 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
     grid = _grid(tree, names)
     placements = _placements(tree, names, grid)
     extent = placements["frame_a"].x1, grid.bottom, grid.right, grid.top
-    return Diagram(extent, placements, _lines(tree, names, grid, placements))
+    router = _Router(tree, names, grid, placements)
+    for route in (router.route_links, router.route_loops, router.route_drives, router.route_couplings):
+        route()
+    return Diagram(extent, placements, router.lines)
 
 
 def find_rows(starts: Mapping[str, tuple[int, range]], taken: set[_Cell]) -> dict[str, int]:
@@ -359,83 +362,99 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
     return placements | {couplings[name]: Placement.around(middle) for name, middle in grid.couplings.items()}
 
 
-def _lines(
-    tree: KinematicTree, names: Connectors, grid: _Grid, placements: Mapping[str, Placement]
-) -> dict[tuple[str, str], tuple[LineKind, LinePath]]:
-    """Return the lines: of frames link by link, then of flanges, then of couplings."""
-    lines: dict[tuple[str, str], tuple[LineKind, LinePath]] = {}
-    children = tree.children()
-    motions = {joint.name: MOTION_KINDS[joint.type] for joint in tree.joints if joint.type in MOTION_KINDS}
-    carried = defaultdict[str, list[str]](list)
-    for sensor in tree.sensors:
-        if not sensor.is_in_joint:
-            carried[sensor.at].append(sensor.name)
+class _Router:
+    """Routes the lines of a diagram, and collects them in `lines`."""
 
-    def place(end: str) -> Point:
+    def __init__(
+        self, tree: KinematicTree, names: Connectors, grid: _Grid, placements: Mapping[str, Placement]
+    ) -> None:
+        self.tree, self.names, self.grid, self.placements = tree, names, grid, placements
+        self.lines: dict[tuple[str, str], tuple[LineKind, LinePath]] = {}
+
+    def place(self, end: str) -> Point:
+        """Return the place of a connector, of a component or of the model."""
         component, _, port = end.partition(".")
-        return placements[component].port(port) if port else placements[component].centre
+        return self.placements[component].port(port) if port else self.placements[component].centre
 
-    def route(kind: LineKind, start: str, end: str, *bends: Point) -> None:
-        lines[start, end] = kind, as_path([place(start), *bends, place(end)])
+    def route(self, kind: LineKind, start: str, end: str, *bends: Point) -> None:
+        """Add a line with bends."""
+        self.lines[start, end] = kind, as_path([self.place(start), *bends, self.place(end)])
 
-    def route_frames(start: str, end: str, x: int) -> None:
-        route("frame", start, end, (x, place(start)[1]), (x, place(end)[1]))
+    def route_frames(self, start: str, end: str, x: int) -> None:
+        """Add a line between two frames, with a vertical part at x."""
+        self.route("frame", start, end, (x, self.place(start)[1]), (x, self.place(end)[1]))
 
-    for name, (trunk, _) in grid.links.items():
-        frame_a = f"{tree.link(name).component}.frame_a"
-        if name == tree.links[0].name:
-            route_frames("frame_a", frame_a, trunk)
-        if name in names.frames:
-            route_frames(frame_a, names.frames[name], trunk)
-        track = grid.descents.get((name, "below"), trunk)
-        for called in carried[name]:
-            route_frames(frame_a, f"{names.sensors[called]}.frame_a", track)
-            if frame := names.sensor_frames.get(called):
-                route("frame", f"{names.sensors[called]}.frame_b", frame)
-        for joint in children.get(name, ()):
-            component, child = tree.joint(joint.name).component, tree.link(joint.child).component
-            in_row = grid.joints[joint.name][1] == grid.links[name][1]
-            route_frames(frame_a, f"{component}.frame_a", trunk if in_row else track)
-            route_frames(f"{component}.frame_b", f"{child}.frame_a", grid.links[joint.child][0])
-    for loop in tree.loops:
-        component = tree.loop(loop.name).component
-        parent, end = (f"{tree.link(link).component}.frame_a" for link in (loop.parent, loop.child))
-        route_frames(parent, f"{component}.frame_a", grid.descents[loop.name, "frame_a"])
-        start, down = f"{component}.frame_b", grid.descents[loop.name, "frame_b"]
-        x, y = place(start)
-        # the line to a link further left passes below the joint
-        height = y if down > x + _TRACK else placements[component].y1 - _TRACK
-        bends = [(x + _TRACK, y), (x + _TRACK, height), (down, height), (down, place(end)[1])]
-        route("frame", start, end, *bends)
-    for name, drive in names.drives.items():
-        axis, support, motor = (f"{tree.joint(name).component}.{port}" for port in ("axis", "support", "motor"))
-        route(drive.motion, axis, drive.axis)
-        x, y = place(support)
-        route(drive.motion, support, drive.support, (x, y + 2), (place(drive.support)[0], y + 2))
-        if drive.motor and drive.gear:
-            route("rotational", f"{drive.gear}.flange_a", drive.motor)
-        elif drive.motor:  # the line passes the axis's connector on its way to the motor's connector above
-            route("rotational", motor, drive.motor, (place(motor)[0], place(drive.motor)[1]))
+    def route_links(self) -> None:
+        """Add the lines of each link: to its connector, its sensors and its joints, and from these to their links."""
+        tree, names, grid, children = self.tree, self.names, self.grid, self.tree.children()
+        carried = defaultdict[str, list[str]](list)
+        for sensor in tree.sensors:
+            if not sensor.is_in_joint:
+                carried[sensor.at].append(sensor.name)
+        root = tree.links[0].name
+        self.route_frames("frame_a", f"{tree.link(root).component}.frame_a", grid.links[root][0])
+        for name, (trunk, spine) in grid.links.items():
+            frame_a, track = f"{tree.link(name).component}.frame_a", grid.descents.get((name, "below"), trunk)
+            if name in names.frames:
+                self.route_frames(frame_a, names.frames[name], trunk)
+            for called in carried[name]:
+                self.route_frames(frame_a, f"{names.sensors[called]}.frame_a", track)
+                if frame := names.sensor_frames.get(called):
+                    self.route("frame", f"{names.sensors[called]}.frame_b", frame)
+            for joint in children.get(name, ()):
+                component, child = tree.joint(joint.name).component, tree.link(joint.child).component
+                x = trunk if grid.joints[joint.name][1] == spine else track
+                self.route_frames(frame_a, f"{component}.frame_a", x)
+                self.route_frames(f"{component}.frame_b", f"{child}.frame_a", grid.links[joint.child][0])
 
-    def route_axis(start: str, joint: str, *bends: Point) -> None:
-        """Route a line to the axis of a joint, down from the line's last bend or from its start."""
-        axis, y = f"{tree.joint(joint).component}.axis", (place(start), *bends)[-1][1]
-        x, end_y = place(axis)
+    def route_loops(self) -> None:
+        """Add the lines from the two links of each loop to its joint, below all rows."""
+        for loop in self.tree.loops:
+            component = self.tree.loop(loop.name).component
+            parent, end = (f"{self.tree.link(link).component}.frame_a" for link in (loop.parent, loop.child))
+            self.route_frames(parent, f"{component}.frame_a", self.grid.descents[loop.name, "frame_a"])
+            start, down = f"{component}.frame_b", self.grid.descents[loop.name, "frame_b"]
+            x, y = self.place(start)
+            # the line to a link further left passes below the joint
+            height = y if down > x + _TRACK else self.placements[component].y1 - _TRACK
+            bends = [(x + _TRACK, y), (x + _TRACK, height), (down, height), (down, self.place(end)[1])]
+            self.route("frame", start, end, *bends)
+
+    def route_drives(self) -> None:
+        """Add the lines from each joint that can be driven to its connectors above."""
+        for name, drive in self.names.drives.items():
+            component = self.tree.joint(name).component
+            axis, support, motor = (f"{component}.{port}" for port in ("axis", "support", "motor"))
+            self.route(drive.motion, axis, drive.axis)
+            x, y = self.place(support)
+            self.route(drive.motion, support, drive.support, (x, y + 2), (self.place(drive.support)[0], y + 2))
+            if drive.motor and drive.gear:
+                self.route("rotational", f"{drive.gear}.flange_a", drive.motor)
+            elif drive.motor:  # the line passes the axis's connector on its way to the motor's connector above
+                self.route("rotational", motor, drive.motor, (self.place(motor)[0], self.place(drive.motor)[1]))
+
+    def route_couplings(self) -> None:
+        """Add the lines from each coupling, and from each gear of two joints, to the axes of its joints."""
+        names = self.names
+        couplings = [(j.name, m.joint, names.couplings[j.name], "follower", "leader") for j, m in self.tree.followers()]
+        gears = ((name, drive.other, drive.gear) for name, drive in names.drives.items())
+        couplings += [(name, other, gear, "flange_b", "flange_c") for name, other, gear in gears if other and gear]
+        motions = {j.name: MOTION_KINDS[j.type] for j in self.tree.joints if j.type in MOTION_KINDS}
+        for joint, leader, coupling, near, far in couplings:
+            self._route_axis(motions[joint], f"{coupling}.{near}", joint)
+            if joint in self.grid.detours:
+                start, (x, y) = f"{coupling}.{far}", self.grid.detours[joint]
+                self._route_axis(motions[leader], start, leader, (x, self.place(start)[1]), (x, y))
+
+    def _route_axis(self, motion: Motion, start: str, joint: str, *bends: Point) -> None:
+        """Add a line to the axis of a joint, down from the line's last bend or from its start."""
+        axis, y = f"{self.tree.joint(joint).component}.axis", (self.place(start), *bends)[-1][1]
+        x, end_y = self.place(axis)
         down: list[Point] = [(x, y)]
-        if joint in names.drives:  # the line passes the axis's connector and the line of the motor
-            aside = x + _ASIDE + (_TRACK if names.drives[joint].motor else 0)
+        if joint in self.names.drives:  # the line passes the axis's connector and the line of the motor
+            aside = x + _ASIDE + (_TRACK if self.names.drives[joint].motor else 0)
             down = [(aside, y), (aside, end_y + 2), (x, end_y + 2)]
-        route(motions[joint], start, axis, *bends, *down)
-
-    couplings = [(j.name, m.joint, names.couplings[j.name], "follower", "leader") for j, m in tree.followers()]
-    gears = ((name, drive.other, drive.gear) for name, drive in names.drives.items())
-    couplings += [(name, other, gear, "flange_b", "flange_c") for name, other, gear in gears if other and gear]
-    for joint_name, leader, coupling, near, far in couplings:
-        route_axis(f"{coupling}.{near}", joint_name)
-        if joint_name in grid.detours:
-            start, (x, y) = f"{coupling}.{far}", grid.detours[joint_name]
-            route_axis(start, leader, (x, place(start)[1]), (x, y))
-    return lines
+        self.route(motion, start, axis, *bends, *down)
 
 
 def _has_starts(tree: KinematicTree) -> bool:

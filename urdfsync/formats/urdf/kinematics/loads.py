@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfsync.formats.urdf.kinematics.mechanism import turns
 from urdfsync.formats.urdf.kinematics.poses import Pose, compose, motion, pose, position_ranges, start_positions
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.robot import MOTION_KINDS, Joint, Link
@@ -51,7 +52,7 @@ def find_extremes(tree: KinematicTree) -> tuple[float | None, Mapping[str, float
             turned, moved = map(np.array, pose(joint.origin))
             place, rotation = place + rotation @ moved, rotation @ turned
             if MOTION_KINDS.get(joint.type) == "rotational":
-                rotation = rotation @ _turns(np.array(joint.axis), values)
+                rotation = rotation @ turns(np.array([joint.axis]), values)
             elif MOTION_KINDS.get(joint.type) == "translational":
                 place = place + values[:, None] * (rotation @ np.array(joint.axis))
             placed.append((rotation, place))
@@ -119,14 +120,6 @@ def _grids(
         yield [values[joint.name] for joint in path]
         if len(chosen) == len(names):
             return
-
-
-def _turns(axis: Array, angles: Array) -> Array:
-    """Return rotations about an axis, by Rodrigues' formula."""
-    x, y, z = axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    s, c = np.sin(angles)[:, None, None], np.cos(angles)[:, None, None]
-    return np.asarray(np.eye(3) + s * cross + (1 - c) * (cross @ cross))
 
 
 def _own(link: Link) -> _Moment:

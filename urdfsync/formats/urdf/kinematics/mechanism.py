@@ -95,7 +95,7 @@ class Mechanism:
         """Return the poses of the root and of each joint's child, as matrices."""
         positions = (self._gears @ q + self._offsets)[:, None]
         moved = self._still[1:].copy()
-        moved[:, :3, :3] = _turns(self._axes, positions * self.turns)
+        moved[:, :3, :3] = turns(self._axes, positions * self.turns)
         moved[:, :3, 3] = self._axes * (positions * self.slides)
         poses: list[Array] = [self._still[0]]
         for parent, pose in zip(self._parents, self._origins @ moved, strict=True):
@@ -167,8 +167,8 @@ def _cross(a: Array, b: Array) -> Array:
     return crossed
 
 
-def _turns(axes: Array, angles: Array) -> Array:
-    """Return turns about axes as matrices, by Rodrigues' formula."""
+def turns(axes: Array, angles: Array) -> Array:
+    """Return turns about axes as matrices, by Rodrigues' formula: one axis for each angle, or for all."""
     x, y, z = axes.T
     zero, angles = x * 0, angles.reshape(-1, 1, 1)
     skew = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
@@ -197,7 +197,7 @@ def _poses(origins: Sequence[Origin], dtype: type) -> Array:
     poses[:, :3, 3] = array_of([origin.xyz for origin in origins], dtype).reshape(-1, 3)
     angles = array_of([origin.rpy for origin in origins], dtype).reshape(-1, 3)
     for k in (2, 1, 0):
-        poses[:, :3, :3] = poses[:, :3, :3] @ _turns(array_of([AXES[k]] * len(origins), dtype), angles[:, k])
+        poses[:, :3, :3] = poses[:, :3, :3] @ turns(array_of([AXES[k]] * len(origins), dtype), angles[:, k])
     return poses
 
 

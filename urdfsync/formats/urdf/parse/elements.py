@@ -141,27 +141,13 @@ def read_joint(reader: Reader, element: Element, path: str, given: Collection[st
     """Read a joint, with its axis as written. Numbers that the catalogue has `given` are left out.
 
     Return None, after an error, for a joint without parent or child. A joint of unknown type becomes a plain fixed
-    joint. Isaac Sim writes `spherical` for a ball. SDFormat has limits and losses inside of the axis. Drake's page on
-    parsing models documents `drake:acceleration` among the limits.
+    joint.
     """
-    axis = element.find("axis")
-    if axis is not None:
-        for part in [part for part in axis if part.tag in ("limit", "dynamics") and element.find(part.tag) is None]:
-            axis.remove(part)
-            element.append(part)
-            message = f"{path}: <{part.tag}> stands in <axis> as in SDFormat, and is read"
-            reader.add(part, "sdf-spelling", message)
-    limit, dynamics = element.find("limit"), element.find("dynamics")
+    _write_as_urdf(reader, element, path)
     given = given if element.get("type") in MOTION_KINDS else ()
-    for part in [part for part in (limit, dynamics) if part is not None]:
+    for part in (part for tag in ("limit", "dynamics") for part in element.findall(tag)[:1]):
         for number in given:
             part.attrib.pop(number, None)
-    if limit is not None:
-        reader.drop_newer(limit, f"{path} / limit", ("acceleration", "deceleration", "jerk"), (1, 2))
-        if acceleration := limit.attrib.pop("drake:acceleration", ""):
-            limit.attrib.setdefault("acceleration", acceleration)
-    if element.get("type") == "spherical":
-        element.set("type", "ball")
     joint = reader.read(element, path, Joint, f"joint {element.get('name', '')}")
     if joint.type not in JOINT_KINDS:
         if joint.type:
@@ -170,26 +156,58 @@ def read_joint(reader: Reader, element: Element, path: str, given: Collection[st
         joint = Joint(joint.name, "fixed", joint.parent, joint.child)
     if not joint.parent or not joint.child:
         return None
+    _tell_missing_values(reader, element, path, joint, given)
+    limit = element.find("limit")
+    if limit is not None:
+        _check_limit(reader, limit, f"{path} / limit", joint, given)
+    elif JOINT_KINDS[joint.type].has_limits:
+        message = f"{path} is {joint.type} but has no <limit>: it moves without limits"
+        reader.add(element, "missing-limit", message)
+    return joint
+
+
+def _write_as_urdf(reader: Reader, element: Element, path: str) -> None:
+    """Write other spellings of a joint as URDF has them.
+
+    Isaac Sim writes `spherical` for a ball. SDFormat has limits and losses inside of the axis. Drake's page on parsing
+    models documents `drake:acceleration` among the limits.
+    """
+    if (axis := element.find("axis")) is not None:
+        for part in [part for part in axis if part.tag in ("limit", "dynamics") and element.find(part.tag) is None]:
+            axis.remove(part)
+            element.append(part)
+            message = f"{path}: <{part.tag}> stands in <axis> as in SDFormat, and is read"
+            reader.add(part, "sdf-spelling", message)
+    if (limit := element.find("limit")) is not None:
+        reader.drop_newer(limit, f"{path} / limit", ("acceleration", "deceleration", "jerk"), (1, 2))
+        if acceleration := limit.attrib.pop("drake:acceleration", ""):
+            limit.attrib.setdefault("acceleration", acceleration)
+    if element.get("type") == "spherical":
+        element.set("type", "ball")
+
+
+def _tell_missing_values(reader: Reader, element: Element, path: str, joint: Joint, given: Collection[str]) -> None:
+    """Add a warning for an axis, losses or a safety controller without the numbers that they are for."""
+    axis, dynamics, safety = map(element.find, ("axis", "dynamics", "safety_controller"))
     if axis is not None and "xyz" not in axis.attrib and JOINT_KINDS[joint.type].has_axis:
         reader.add(axis, "missing-value", f"{path} / axis has no 'xyz', and is taken as 1 0 0", 'write xyz="…"')
     if dynamics is not None and not {*Dynamics.__struct_fields__} & {*dynamics.attrib, *given}:
         reader.add(dynamics, "missing-value", f"{path} / dynamics has none of {', '.join(Dynamics.__struct_fields__)}")
-    safety = element.find("safety_controller")
     if safety is not None and "k_velocity" not in safety.attrib:
         reader.add(safety, "missing-gain", f"{path} / safety_controller has no 'k_velocity', taken as 0")
-    # As in urdfdom, an absent limit of position is 0, and an absent effort or velocity means no limit. Since URDF 1.2
-    # the limits of position are required, and effort and velocity may be left out without a warning.
+
+
+def _check_limit(reader: Reader, limit: Element, path: str, joint: Joint, given: Collection[str]) -> None:
+    """Add a warning for limits that are missing, or so small that the joint may not move.
+
+    As in urdfdom, an absent limit of position is 0, and an absent effort or velocity means no limit. Since URDF 1.2 the
+    limits of position are required, and effort and velocity may be left out without a warning.
+    """
     kind, is_new = JOINT_KINDS[joint.type], reader.version >= (1, 2)
-    if limit is None:
-        if kind.has_limits:
-            message = f"{path} is {joint.type} but has no <limit>: it moves without limits"
-            reader.add(element, "missing-limit", message)
-        return joint
     zero = [name for name in ("lower", "upper") if name not in limit.attrib and kind.has_limits]
     if zero and is_new:
-        message = f"{path} / limit has no {' and '.join(zero)}, which URDF 1.2 requires"
-        reader.add(limit, "missing-attribute", message)
-        return joint
+        reader.add(limit, "missing-attribute", f"{path} has no {' and '.join(zero)}, which URDF 1.2 requires")
+        return
     stated = {*limit.attrib, *given}
     unlimited = [name for name in ("effort", "velocity") if name not in stated and kind.motion and not is_new]
     if joint.limit and kind.motion:
@@ -197,9 +215,8 @@ def read_joint(reader: Reader, element: Element, path: str, given: Collection[st
         if kind.has_limits and not zero and joint.limit.lower == joint.limit.upper == 0:
             names = ["lower", "upper", *names]
         if names:
-            reader.add(limit, "zero-limits", f"{path} / limit has {', '.join(names)} = 0: the joint may not move")
+            reader.add(limit, "zero-limits", f"{path} has {', '.join(names)} = 0: the joint may not move")
     absent = [f"{' and '.join(zero)}, taken as 0"] if zero else []
     absent += [f"{' and '.join(unlimited)}, taken as unlimited"] if unlimited else []
     if absent:
-        reader.add(limit, "missing-limit-value", f"{path} / limit has no {'; no '.join(absent)}")
-    return joint
+        reader.add(limit, "missing-limit-value", f"{path} has no {'; no '.join(absent)}")

@@ -12,8 +12,6 @@ from collections.abc import Collection
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, tostring
 
-import msgspec
-
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.parse import xml
 from urdfsync.formats.urdf.robot import Inertia
@@ -77,19 +75,11 @@ def completed_for_pinocchio(
 def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
     """Return the URDF with made-up inertias in all links behind a moving joint without a mass.
 
-    The root link counts as moving: a robot without a mass gets inertias in all links. Couplings of `<ros2_control>` and
-    plugins become `<mimic>`.
+    The root link counts as moving: a robot without a mass gets inertias in all links.
     """
     massless, root = _massless_links(tree), xml.parse(content).root
-    couplings = {joint.name: mimic for joint, mimic in tree.followers()}
-    elsewhere = [
-        joint for joint in root.findall("joint") if joint.get("name") in couplings and joint.find("mimic") is None
-    ]
-    for joint in elsewhere:
-        numbers = msgspec.structs.asdict(couplings[joint.get("name", "")])
-        SubElement(joint, "mimic", {name: str(value) for name, value in numbers.items()})
     if not massless:
-        return CompletedSource(tostring(root, "UTF-8", xml_declaration=True) if elsewhere else content)
+        return CompletedSource(content)
     for link in root.findall("link"):
         if (name := link.get("name", "")) in massless:
             for old in link.findall("inertial"):

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
-from xml.etree.ElementTree import SubElement, tostring
+from xml.etree.ElementTree import tostring
 
 import msgspec
 import numpy as np
@@ -58,7 +58,7 @@ class PinocchioRobot(NamedTuple):
 def read(
     content: bytes, file: str, loose: Collection[str] = (), rows: Mapping[str, CatalogueNumbers] | None = None
 ) -> PinocchioRobot:
-    """Read a URDF with Pinocchio; its gears have the numbers of `rows` of the catalogue.
+    """Read a URDF with Pinocchio, as `completion` writes it; its gears have the numbers of `rows` of the catalogue.
 
     Raises SourceError if Pinocchio is not installed or refuses the file.
 
@@ -66,11 +66,8 @@ def read(
     reader lacks ball joints: this function adds them.
     """
     pin = pinocchio()
-    root, balls, is_changed = xml.parse(content).root, set[str](), bool(loose)
+    root, balls = xml.parse(content).root, set[str]()
     for joint in root.findall("joint"):
-        if joint.get("type") == "prismatic" and joint.find("limit") is None:
-            SubElement(joint, "limit", lower="0", upper="0", effort="0", velocity="0")  # Pinocchio refuses it without
-            is_changed = True
         if joint.get("name") in loose and joint.get("type") == "fixed":
             joint.set("type", "continuous")
         elif joint.get("type") in ("ball", "spherical"):
@@ -80,7 +77,7 @@ def read(
                 joint.remove(part)
             for losses in joint.findall("dynamics"):
                 losses.set("friction", "0")
-    if is_changed or balls:
+    if loose or balls:
         content = tostring(root)
     followers = {
         joint.get("name", ""): Mimic(

@@ -117,14 +117,9 @@ class _Comparison:
                     element = f"{kind} {name}"
                     self._compare(f"{self.name}.mo", element, (), {"name": elements[name].state(name)})
         self._attributes()
-        for contradiction in self.reading.contradictions:
-            place = Value("elements", "", "", 0)
-            self._differ(f"{self.name}.mo", "robot", place, Stated(contradiction, 0), "another one by yourdfpy")
         uncompared = [f"{path} of records ({counted(n, 'number')})" for path, n in sorted(self.uncompared.items())]
         if f"{self.name}Parameters.mo" in self.values:
             uncompared.append("the tables in the record of the whole robot, except by their motion with `--physics`")
-        if unread := self.reading.unread:
-            uncompared.insert(0, f"the reading by yourdfpy, which can't read {self.sample.file} ({unread})")
         return Numbers(self.right, self.total, tuple(self.differences), uncompared=tuple(uncompared))
 
     def _compare(self, file: str, element: str, values: Sequence[Value], expected: Mapping[str, Stated]) -> None:

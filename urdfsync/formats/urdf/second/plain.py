@@ -1,12 +1,14 @@
 """Writes a source as plain URDF: SDFormat's elements become attributes, and joints with several axes become chains.
 
-Numbers of the catalogue become attributes of joints, except the numbers of gears; `read_gears` has these.
+Couplings of ros2_control and of Gazebo's plugins become `<mimic>`. Numbers of the catalogue become attributes of
+joints, except the numbers of gears; `read_gears` has these.
 
 The second reader and Pinocchio read the result. The first reader shares only the decoding of bytes.
 """
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import re
 from collections.abc import Collection, Mapping
@@ -62,7 +64,9 @@ def plain_root(content: bytes, joints: Collection[str] | None = None, companions
     for element in elements:
         _write_pose_as_origin(element)
         _write_texts_as_attributes(element)
+    _remove_newer(root)
     _write_springs_of_gazebo(root)
+    _write_couplings(root)
     _write_rows(root, companions.rows)
     return root
 
@@ -109,6 +113,18 @@ def _write_texts_as_attributes(element: Any) -> None:
             element.set(name, text.strip())
 
 
+def _remove_newer(root: Any) -> None:
+    """Remove attributes that the version of the URDF does not have. Drake's spelling counts in any version."""
+    version = tuple(map(int, re.findall(r"\d+", root.get("version", "1.0"))[:2]))
+    for element in root.xpath("//origin[@quat_xyzw]") if version < (1, 1) else ():
+        del element.attrib["quat_xyzw"]
+    for limit in root.findall("joint/limit"):
+        for name in ("acceleration", "deceleration", "jerk") if version < (1, 2) else ():
+            limit.attrib.pop(name, None)
+        if acceleration := limit.attrib.pop("drake:acceleration", ""):
+            limit.set("acceleration", limit.get("acceleration", acceleration))
+
+
 def _write_springs_of_gazebo(root: Any) -> None:
     """Write the springs of joints in `<gazebo>` as attributes of `<dynamics>`."""
     for number in root.xpath("gazebo/springStiffness | gazebo/springReference"):
@@ -119,6 +135,27 @@ def _write_springs_of_gazebo(root: Any) -> None:
                 part.sourceline = joint.sourceline
             if field not in part.attrib:
                 part.set(field, (number.get("value") or number.text or "").strip())
+
+
+def _write_couplings(root: Any) -> None:
+    """Write the couplings of ros2_control, then those of Gazebo's plugins, as `<mimic>` of joints that have none."""
+    stated = list[tuple[str, Any, Mapping[str, Any], str]]()
+    for control in root.findall("ros2_control/joint"):
+        params = {param.get("name", ""): param for param in control.iterchildren("param")}
+        stated.append((control.get("name", ""), control, params, "mimic"))
+    for plugin in root.findall("gazebo/plugin"):
+        parts = {part.tag: part for part in plugin}
+        leader = "joint" if "joint" in parts else "jointName"
+        stated.append(((plugin.findtext("mimicJoint") or "").strip(), plugin, parts, leader))
+    for name, place, given, leader in stated:
+        texts = {part: (element.get("value") or element.text or "").strip() for part, element in given.items()}
+        for joint in root.xpath("joint[@name=$name][not(mimic)]", name=name):
+            if texts.get(leader) and joint.get("type") in ("revolute", "continuous", "prismatic"):
+                mimic = etree.SubElement(joint, "mimic", joint=texts[leader])
+                mimic.sourceline = place.sourceline
+                for part in ("multiplier", "offset"):
+                    with contextlib.suppress(ValueError):  # an unreadable number is left out
+                        mimic.set(part, repr(decimal(texts.get(part, ""))))
 
 
 def _write_rows(root: Any, rows: Mapping[str, CatalogueNumbers]) -> None:

@@ -1,5 +1,7 @@
 """Reads a URDF a second time, without code of the first reader, to check the first reading.
 
+yourdfpy reads masses, sizes, places, axes, limits, losses and `mimic` elements; this module reads all else.
+
 Each value has its path in the records of a package, such as `limits.effort`. The first reader reports faults, so this
 reader does not: an unreadable value counts as missing.
 """
@@ -7,8 +9,8 @@ reader does not: an unreadable value counts as missing.
 from __future__ import annotations
 
 import contextlib
+import copy
 import io
-import logging
 import re
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -18,6 +20,7 @@ import msgspec
 import numpy as np
 import yourdfpy
 from lxml import etree
+from trimesh import transformations
 
 from urdfsync.domain import Companion
 from urdfsync.formats.urdf.options import LoopFrame, Options
@@ -26,8 +29,6 @@ from urdfsync.formats.urdf.second.dynamics import OF_DYNAMICS
 from urdfsync.formats.urdf.second.gears import Gear, read_gears
 from urdfsync.formats.urdf.second.plain import SHAPES, decimal, plain_root
 
-# yourdfpy raises these for valid files without optional attributes.
-_FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
 INF, ZERO = float("inf"), (0.0, 0.0, 0.0)
 TURNS = ("revolute", "continuous")
 MOVES = (*TURNS, "prismatic")
@@ -45,6 +46,7 @@ _SERVOS = {
     "effort": "minEffort maxEffort;",
 }
 """Numbers of a drive's law by its command; without any of those before the semicolon there is no law."""
+_SUBSTITUTES = {"capsule": "cylinder", "ellipsoid": "box"}
 _WHEEL = re.compile("(left|right)((Front|Rear)?Joint|_joint)")
 _SENSORS = {
     **dict.fromkeys("camera depth depth_camera rgbd rgbd_camera wideanglecamera".split(), "camera"),
@@ -128,10 +130,6 @@ class SecondReading(msgspec.Struct):
     joints: dict[str, SecondElement] = {}
     loops: dict[str, SecondElement] = {}
     sensors: dict[str, SecondElement] = {}
-    unread: str = ""
-    """The reason why yourdfpy could not read the source; empty if it could."""
-    contradictions: tuple[str, ...] = ()
-    """Links and joints that only yourdfpy or only this module reads."""
 
 
 def read_again(content: bytes, options: Options, *companions: Companion) -> SecondReading:
@@ -150,12 +148,11 @@ def _read(content: bytes, options: Options, stated: Companions, names: Collectio
         part.tag = part.tag.replace(":", "_")
         for name in [name for name in part.attrib if ":" in name]:
             part.set(name.replace(":", "_"), part.attrib.pop(name))
-    version = tuple(map(int, re.findall(r"\d+", root.get("version", "1.0"))[:2]))
-    links = {each.name: each for each in _links(root, version)}
+    robot = _read_with_yourdfpy(root)
+    links = {each.name: each for each in _links(root, robot.links)}
     motors = ({"joint": joint, "at": at, "is_driven": True} for joint, at in stated.motors)
-    joints = {each.name: each for each in _joints(root, gears, [*_drives(root), *motors], options, version)}
-    reading = SecondReading(root.get("name", ""), links, joints)
-    _ask_yourdfpy(reading, root)
+    joints = {each.name: each for each in _joints(root, robot.joints, gears, [*_drives(root), *motors], options)}
+    reading = SecondReading(robot.name, links, joints)
     for name, (row, place) in stated.rows.items():
         for path in (PATHS[number] for number in row if name in joints):
             joints[name].values[path] = Stated(joints[name].values[path].value, place.sourceline, place.file)
@@ -176,11 +173,7 @@ def _read(content: bytes, options: Options, stated: Companions, names: Collectio
 
 def rotation(rpy: Sequence[float]) -> Any:
     """Return the matrix of fixed-axis roll, pitch and yaw angles. A matrix is returned unchanged."""
-    if len(np.shape(rpy)) == 2:
-        return rpy
-    (a, b, c), (s, t, u) = np.cos(rpy), np.sin(rpy)
-    about_x, about_y = [[1, 0, 0], [0, a, -s], [0, s, a]], [[b, 0, t], [0, 1, 0], [-t, 0, b]]
-    return np.array([[c, -u, 0], [u, c, 0], [0, 0, 1]]) @ about_y @ about_x
+    return rpy if len(np.shape(rpy)) == 2 else transformations.euler_matrix(*rpy)[:3, :3]
 
 
 def pose(xyz: Any, rpy: Any) -> Any:
@@ -195,18 +188,12 @@ def origin(element: SecondElement, path: str = "origin") -> Any:
     return pose(element.values[f"{path}.xyz"].value, element.values[f"{path}.rpy"].value)
 
 
-def poses(reading: SecondReading, positions: Mapping[str, float]) -> dict[str, Any]:
-    """Return the poses of all links in the root frame."""
+def poses(reading: SecondReading) -> dict[str, Any]:
+    """Return the poses of all links in the root frame, with all joints at zero."""
     placed = {name: np.eye(4) for name in reading.links.keys() - {joint.child for joint in reading.joints.values()}}
     for link in (waiting := list(placed)):  # the list grows in this loop
         for joint in (joint for joint in reading.joints.values() if joint.parent == link):
-            moved, q = np.eye(4), positions.get(joint.name, 0.0)
-            if joint.type in TURNS:
-                cross = _cross(joint.values["axis"].value)
-                moved[:3, :3] += np.sin(q) * cross + (1 - np.cos(q)) * cross @ cross
-            elif joint.type in MOVES:
-                moved[:3, 3] = q * np.array(joint.values["axis"].value)
-            placed[joint.child] = placed[link] @ origin(joint) @ moved
+            placed[joint.child] = placed[link] @ origin(joint)
             waiting.append(joint.child)
     return placed
 
@@ -218,11 +205,6 @@ def same(ours: Any, theirs: Any) -> bool:
     if {np.size(ours), np.size(theirs)} == {3, 9}:
         return bool(np.abs(rotation(ours) - rotation(theirs)).max() < 1e-9)
     return np.shape(ours) == np.shape(theirs) and bool(np.isclose(ours, theirs, rtol=1e-9, atol=1e-14).all())
-
-
-def _cross(axis: Any) -> Any:
-    x, y, z = axis
-    return np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
 
 
 # XML
@@ -253,59 +235,99 @@ def _text(element: Any, path: str) -> str:
     return (element.findtext(path) or "").strip()
 
 
-def _put_origin(element: SecondElement, around: Any, version: tuple[int, ...] = (1, 0), path: str = "origin") -> None:
+def _put_origin(element: SecondElement, around: Any, path: str = "origin", theirs: Any = None) -> None:
+    """State the origin in an XML element; `theirs` is yourdfpy's matrix, which knows no quaternions."""
     place = around.find("origin")
-    rpy, quaternion = _at(around, "origin@rpy", 3, ZERO), _at(around, "origin@quat_xyzw", 4)
-    if version >= (1, 1) and quaternion:
-        unit = np.array(quaternion) / max(map(abs, quaternion))  # without this, the squares of large numbers overflow
-        *axis, w = unit / np.linalg.norm(unit)
-        rpy = np.eye(3) + 2 * (w * _cross(axis) + _cross(axis) @ _cross(axis))
-    element.put(f"{path}.xyz", _at(around, "origin@xyz", 3, ZERO), around if place is None else place)
+    xyz, rpy = _at(around, "origin@xyz", 3, ZERO), _at(around, "origin@rpy", 3, ZERO)
+    if quaternion := _at(around, "origin@quat_xyzw", 4):
+        *axis, w = np.array(quaternion) / max(map(abs, quaternion))  # squares of large numbers would overflow
+        rpy = transformations.quaternion_matrix([w, *axis])[:3, :3]
+    elif theirs is not None:
+        xyz, turned = tuple(map(float, theirs[:3, 3])), theirs[:3, :3]
+        rpy = rpy if same(rpy, turned) else turned  # messages show angles as the source has them
+    element.put(f"{path}.xyz", xyz, around if place is None else place)
     element.put(f"{path}.rpy", rpy, around if place is None else place)
+
+
+# yourdfpy
+
+
+def _read_with_yourdfpy(root: Any) -> Any:
+    """Return the links and joints of a plain URDF with their numbers, as yourdfpy reads them.
+
+    It requires a name and known shapes, and an absent moment of inertia is 1 for it. Capsules and ellipsoids become
+    cylinders and boxes with the same numbers. Materials are left out: yourdfpy looks up no names.
+    """
+    plain = etree.Element("robot", name=root.get("name", ""))
+    plain.extend(copy.deepcopy(part) for part in root if part.tag in ("link", "joint"))
+    for inertia in plain.findall("link/inertial/inertia"):
+        inertia.attrib.update(dict.fromkeys(TENSOR, "0") | dict(inertia.attrib))
+    for shape in plain.xpath("link/visual | link/collision"):
+        if (geometry := _geometry(shape)) is None:
+            shape.getparent().remove(shape)
+            continue
+        sizes = {"size" if name == "radii" else name: text for name, text in geometry.items()}
+        shape.find("geometry")[:] = [etree.Element(_SUBSTITUTES.get(geometry.tag, geometry.tag), sizes)]
+        for material in shape.findall("material"):
+            shape.remove(material)
+    return yourdfpy.URDF.load(io.BytesIO(etree.tostring(plain)), load_meshes=False, build_scene_graph=False).robot
+
+
+def _geometry(shape: Any) -> Any:
+    """Return the first known geometry of a visual or collision; None without one."""
+    return next((part for part in shape.xpath("geometry[1]/*") if part.tag in SHAPES), None)
+
+
+def _number(theirs: Any, field: str, default: float) -> float:
+    """Return a number that yourdfpy has read; `theirs` may be None."""
+    number = getattr(theirs, field, None)
+    return default if number is None else float(number)
 
 
 # Links
 
 
-def _links(root: Any, version: tuple[int, ...]) -> Iterator[SecondElement]:
+def _links(root: Any, robot: Any) -> Iterator[SecondElement]:
     colors = dict[str, tuple[float, ...]]()
     for material in (*root.iterchildren("material"), *root.findall("link/visual/material")):
         if rgba := _at(material, "color@rgba", 4):
             colors.setdefault(material.get("name", ""), rgba)
     blocks = [("gazebo", block.get("reference"), block) for block in root.iterchildren("gazebo")]
-    for element in root.iterchildren("link"):
-        link = SecondElement(element.get("name", ""), element.sourceline)
+    for element, theirs in zip(root.iterchildren("link"), robot, strict=True):
+        link = SecondElement(theirs.name, element.sourceline)
         link.put("name", link.name, element)
         inertial = element.find("inertial")
-        if inertial is None:
+        if theirs.inertial is None:
             link.put("hasInertial", "false", element)
         else:
-            _put_origin(link, inertial, version, "inertial.origin")
-            link.put("inertial.mass", _at(inertial, "mass@value", 1, 0.0), inertial)
-            for name in TENSOR:
-                link.put(f"inertial.inertia.{name}", _at(inertial, f"inertia@{name}", 1, 0.0), inertial)
+            _put_origin(link, inertial, "inertial.origin", theirs.inertial.origin)
+            link.put("inertial.mass", _number(theirs.inertial, "mass", 0.0), inertial)
+            tensor = np.zeros((3, 3)) if theirs.inertial.inertia is None else theirs.inertial.inertia
+            for name, number in zip(TENSOR, tensor[np.triu_indices(3)], strict=True):
+                link.put(f"inertial.inertia.{name}", float(number), inertial)
         for kind, name, block in (("link", link.name, element), *blocks):
             for field, *places in (words.split() for words in _CONTACT[kind].split(", ") if name == link.name):
                 number = _at(block, " ".join(places), 1, -1.0)
                 if f"contact.{field}" not in link.values and (0 < number < INF or (number == 0 and field != "kp")):
                     link.put(f"contact.{field}", number, block)
-        for tag in ("visual", "collision"):
-            shapes = ((s, [part for part in s.xpath("geometry[1]/*") if part.tag in SHAPES]) for s in element)
-            drawn = [(shape, found[0]) for shape, found in shapes if shape.tag == tag and found]
-            for number, (shape, geometry) in enumerate(drawn, 1):
-                _put_shape(link, f"{tag}{number}", shape, geometry, version, colors)
+        for tag, sizes in (("visual", theirs.visuals), ("collision", theirs.collisions)):
+            drawn = [shape for shape in element.iterchildren(tag) if _geometry(shape) is not None]
+            for number, (shape, each) in enumerate(zip(drawn, sizes, strict=True), 1):
+                _put_shape(link, f"{tag}{number}", shape, each, colors)
         yield link
 
 
-def _put_shape(
-    link: SecondElement, path: str, shape: Any, geometry: Any, version: tuple[int, ...], colors: Mapping[str, Any]
-) -> None:
-    _put_origin(link, shape, version, f"{path}.origin")
+def _put_shape(link: SecondElement, path: str, shape: Any, drawn: Any, colors: Mapping[str, Any]) -> None:
+    geometry = _geometry(shape)
+    _put_origin(link, shape, f"{path}.origin", drawn.origin)
     link.put(f"{path}.shape", geometry.tag, geometry)
+    theirs = getattr(drawn.geometry, _SUBSTITUTES.get(geometry.tag, geometry.tag))
     for field in SHAPES[geometry.tag].split():
-        link.put(f"{path}.{field}", _at(geometry, f"@{field}", 3 if field in ("size", "radii") else 1), geometry)
+        numbers = np.ravel(getattr(theirs, "size" if field == "radii" else field))
+        link.put(f"{path}.{field}", tuple(map(float, numbers)), geometry)
     if geometry.tag == "mesh":
-        link.put(f"{path}.uri", (geometry.get("filename"), _at(geometry, "@scale", 3, (1.0, 1.0, 1.0))), geometry)
+        scale = (1.0, 1.0, 1.0) if theirs.scale is None else theirs.scale
+        link.put(f"{path}.uri", (theirs.filename, tuple(map(float, scale))), geometry)
     rgba: Any = (1.0, 105 / 255, 180 / 255, 0.5) if shape.tag == "collision" else None
     material = shape.find("material")
     if shape.tag == "visual" and material is not None:
@@ -320,30 +342,27 @@ def _put_shape(
 
 
 def _joints(
-    root: Any, gears: Mapping[str, Gear], found: Sequence[dict[str, Any]], options: Options, version: tuple[int, ...]
+    root: Any, robot: Any, gears: Mapping[str, Gear], found: Sequence[dict[str, Any]], options: Options
 ) -> Iterator[SecondElement]:
     drives, joints = defaultdict[str, list[dict[str, Any]]](list), list[SecondElement]()
     for drive in found:
         drives[drive["joint"]].append(drive)
-    for element in root.iterchildren("joint"):
-        joint = SecondElement(element.get("name"), element.sourceline, element.get("type"))
-        joint.parent, joint.child = (element.find(tag).get("link") for tag in ("parent", "child"))
+    for element, theirs in zip(root.iterchildren("joint"), robot, strict=True):
+        joint = SecondElement(theirs.name, element.sourceline, theirs.type, theirs.parent, theirs.child)
         joint.is_named = any(drive.get("is_driven") for drive in drives[joint.name])
         joint.is_measured = any(drive.get("is_measured") for drive in drives[joint.name])
         joint.put("name", joint.name, element)
-        _put_origin(joint, element, version)
+        _put_origin(joint, element, theirs=theirs.origin)
         if joint.type in (*MOVES, "planar"):
-            axis = np.array(_at(element, "axis@xyz", 3, (1.0, 0.0, 0.0)))
-            axis = axis / np.abs(axis).max()
+            axis = theirs.axis / np.abs(theirs.axis).max()
             joint.put("axis", tuple(map(float, axis / np.linalg.norm(axis))), element)
-        for place in _LOSSES.get(joint.type, ()) if element.find("dynamics") is not None else ():
-            joint.put(place, _at(element, f"dynamics@{place.rpartition('.')[2]}", 1, 0.0), element.find("dynamics"))
+        for place in _LOSSES.get(joint.type, ()) if theirs.dynamics else ():
+            joint.put(place, _number(theirs.dynamics, place.rpartition(".")[2], 0.0), element.find("dynamics"))
         if joint.type in MOVES:
-            _put_axis(joint, element, version)
-            _put_drive(joint, element, drives[joint.name], gears.get(joint.name), options)
+            _put_axis(joint, element, theirs)
+            _put_drive(joint, element, theirs.mimic, drives[joint.name], gears.get(joint.name), options)
         joints.append(joint)
     has_drives = any(joint.is_named for joint in joints)
-    turning = {joint.name for joint in joints if joint.type in TURNS and not joint.leader}
     for joint in joints:  # joints without a drive in the source may be driven, too
         is_free = has_drives and joint.type == "continuous" and not joint.has_limit
         is_passive = not joint.is_named and (joint.is_measured or is_free)
@@ -353,25 +372,21 @@ def _joints(
         joint.is_named = (
             joint.name in chosen if chosen is not None else joint.is_named or joint.name in options.commands
         )
-        if joint.shares and not {joint.name, joint.shares} <= turning:
-            joint.shares = ""
-            joint.values = {path: value for path, value in joint.values.items() if "transmission" not in path}
         yield joint
 
 
-def _put_axis(joint: SecondElement, element: Any, version: tuple[int, ...]) -> None:
+def _put_axis(joint: SecondElement, element: Any, theirs: Any) -> None:
     """State limits, inertia, calibration and safety controller of a joint that turns or slides."""
     limit = element.find("limit")
     joint.has_limit, at = limit is not None, element if limit is None else limit
     for field, infinite in (("lower", -INF), ("upper", INF)):
         is_open = limit is None or joint.type == "continuous"
-        joint.put(f"limits.{field}", infinite if is_open else _at(element, f"limit@{field}", 1, 0.0), at)
+        joint.put(f"limits.{field}", infinite if is_open else _number(theirs.limit, field, 0.0), at)
     for field in ("velocity", "effort"):
-        joint.put(f"limits.{field}", _at(element, f"limit@{field}", 1, INF), at)
-    own = {name.removeprefix("drake_"): text for name, text in at.items() if version >= (1, 2) or "drake" in name}
+        joint.put(f"limits.{field}", _number(theirs.limit, field, INF), at)
     for field in ("acceleration", "deceleration", "jerk"):
-        if limit is not None and (numbers := _numbers(own.get(field))):
-            joint.put(f"limits.{field}", numbers, at)
+        if (number := _at(element, f"limit@{field}")) is not None:
+            joint.put(f"limits.{field}", number, at)
     for field, attribute in OF_DYNAMICS.items():
         if (number := _at(element, f"dynamics@{attribute}")) is not None:
             joint.put(f"dynamics.{field}", number, element.find("dynamics"))
@@ -379,20 +394,22 @@ def _put_axis(joint: SecondElement, element: Any, version: tuple[int, ...]) -> N
         ("calibration", "calibration", "rising falling", INF),
         ("safety_controller", "safetyController", "k_velocity k_position soft_lower_limit soft_upper_limit", 0.0),
     ):
-        for field in fields.split() if element.find(tag) is not None else ():
-            joint.put(f"{group}.{field}", _at(element, f"{tag}@{field}", 1, default), element.find(tag))
+        for field in fields.split() if getattr(theirs, tag) else ():
+            joint.put(f"{group}.{field}", _number(getattr(theirs, tag), field, default), element.find(tag))
 
 
 def _put_drive(
-    joint: SecondElement, element: Any, drives: Sequence[Mapping[str, Any]], gear: Gear | None, options: Options
+    joint: SecondElement,
+    element: Any,
+    mimic: Any,
+    drives: Sequence[Mapping[str, Any]],
+    gear: Gear | None,
+    options: Options,
 ) -> None:
     """State gear, coupling, command and start of a joint. The first statement of each counts."""
     first = dict[str, Any]()
-    for mimic in element.iterchildren("mimic"):
-        numbers = _at(element, "mimic@multiplier", 1, 1.0), _at(element, "mimic@offset", 1, 0.0)
-        first.setdefault("mimic", ((mimic.get("joint"), *numbers), mimic))
     for drive in drives:
-        for key in ("mimic", "command", "start"):
+        for key in ("command", "start"):
             if drive.get(key) is not None:
                 first.setdefault(key, (drive[key], drive["at"]))
     if gear:
@@ -402,10 +419,10 @@ def _put_drive(
         for field, number in zip(("reduction", "offset", "rotorInertia", "otherReduction"), gears, strict=True):
             if number is not None:
                 joint.put(f"transmission.{field}", float(number), at)
-    if "mimic" in first:
-        (joint.leader, *numbers), at = first["mimic"]
-        for field, number in zip(("multiplier", "offset"), numbers, strict=True):
-            joint.put(f"mimic.{field}", number, at)
+    if mimic:
+        joint.leader = mimic.joint
+        for field in ("multiplier", "offset"):
+            joint.put(f"mimic.{field}", getattr(mimic, field), element.find("mimic"))
         return
     joint.command = options.commands.get(joint.name) or first.get("command", ("position",))[0]
     if "command" in first and joint.name not in options.commands:
@@ -423,8 +440,7 @@ def _drives(root: Any) -> Iterator[dict[str, Any]]:
     for control in root.iterchildren("ros2_control"):
         for joint in control.iterchildren("joint"):
             names = [part.get("name", "").removesuffix("_pid") for part in joint.iterchildren("command_interface")]
-            params = {param.get("name"): param for param in joint.iterchildren("param")}
-            drive = {"joint": joint.get("name"), "at": joint, "is_driven": bool(names), **_coupling(params, "mimic")}
+            drive = {"joint": joint.get("name"), "at": joint, "is_driven": bool(names)}
             drive["is_measured"] = not names and joint.find("state_interface") is not None
             drive["command"] = next((command for command in COMMANDS if command in names), None)
             drive["servo"] = _servo(joint, drive["command"])
@@ -434,9 +450,6 @@ def _drives(root: Any) -> Iterator[dict[str, Any]]:
         yield from (drive for part in control.iterchildren("transmission") for drive in _transmission(part))
     yield from (drive for part in root.iterchildren("transmission") for drive in _transmission(part))
     for plugin in root.findall("gazebo/plugin"):
-        parts = {part.tag: part for part in plugin}
-        if name := _text(plugin, "mimicJoint"):
-            yield {"joint": name, "at": plugin, **_coupling(parts, "joint" if "joint" in parts else "jointName")}
         for part in (part for part in plugin if _WHEEL.fullmatch(part.tag)):
             yield {"joint": (part.text or "").strip(), "at": part, "is_driven": True, "command": "velocity"}
 
@@ -455,13 +468,6 @@ def _servo(joint: Any, command: str | None) -> dict[str, tuple[float, Any]]:
     if command == "velocity" and "positionGain" not in numbers:  # nothing has a position to limit
         numbers = {field: each for field, each in numbers.items() if "Position" not in field}
     return {} if numbers.keys().isdisjoint(needed) else numbers
-
-
-def _coupling(parts: Mapping[Any, Any], leader: str) -> dict[str, Any]:
-    name = (parts[leader].text or "").strip() if leader in parts else ""
-    defaults = {"multiplier": 1.0, "offset": 0.0}
-    numbers = (_at(parts[key], ".", 1, value) if key in parts else value for key, value in defaults.items())
-    return {"mimic": (name, *numbers)} if name else {}
 
 
 def _transmission(element: Any) -> Iterator[dict[str, Any]]:
@@ -571,7 +577,7 @@ def _loop(name: str, kind: str, element: Any, places: Sequence[Any], axis: Any, 
 def _loops_in(root: Any, reading: SecondReading) -> Iterator[tuple[Any, ...]]:
     within = {"loop_joint": "self::*", "drake_ball_constraint": "self::*", "gazebo": "joint"}
     elements = [part for top in root if top.tag in within for part in top.xpath(within[top.tag])]
-    placed = poses(reading, {})
+    placed = poses(reading)
     for number, element in enumerate(elements, 1):
         name, kind = element.get("name") or f"loop_{number}", element.get("type", "")
         kind, axis, second = {"spherical": "ball", "continuous": "revolute"}.get(kind, kind), (0.0, 0.0, 1.0), None
@@ -609,55 +615,3 @@ def _loops_by_name(reading: SecondReading) -> Iterator[tuple[Any, ...]]:
         other = f"{name[:-1]}2"
         if re.fullmatch("closing_.+_1", name) and other in reading.links:
             yield name[:-2], "ball", None, [(name, ZERO, ZERO), (other, ZERO, ZERO)], (0.0, 0.0, 1.0), None
-
-
-# yourdfpy
-
-
-def _ask_yourdfpy(reading: SecondReading, root: Any) -> None:
-    """Replace values that yourdfpy reads differently by yourdfpy's values."""
-    logger = logging.getLogger("yourdfpy.urdf")
-    before, logger.disabled = logger.disabled, True
-    try:
-        robot = yourdfpy.URDF.load(io.BytesIO(etree.tostring(root)), load_meshes=False, build_scene_graph=False).robot
-    except _FAILURES as error:
-        reading.unread = f"{type(error).__name__}: {' '.join(str(error).split())}"[:120]
-        return
-    finally:
-        logger.disabled = before
-    sides = ((reading.links.values(), reading.joints.values()), (robot.links, robot.joints))
-    names = [
-        {f"link {e.name}" for e in links} | {f"joint {e.name} ({e.type}, {e.parent} → {e.child})" for e in joints}
-        for links, joints in sides
-    ]
-    reading.contradictions = tuple(sorted(names[0] ^ names[1]))
-    for elements, theirs in zip((reading.links, reading.joints), sides[1], strict=True):
-        for their in theirs:
-            own = elements[their.name].values if their.name in elements else {}
-            for path, stated in own.items():
-                other, value = _of_yourdfpy(their, path), stated.value
-                # yourdfpy ignores quaternions; this reader makes matrices of them
-                if other is not None and not isinstance(value, np.ndarray) and not same(value, other):
-                    own[path] = stated._replace(value=other)
-
-
-def _of_yourdfpy(their: Any, path: str) -> Any:
-    """Return yourdfpy's value of a link or joint at a path of the records; None if yourdfpy has no comparable value.
-
-    Angles become a matrix. Axes of any length, and limits of continuous joints, give None.
-    """
-    if path in ("name", "axis") or (path in ("limits.lower", "limits.upper") and their.type == "continuous"):
-        return None
-    value = their
-    for word in path.split("."):
-        if shape := re.fullmatch(r"(visual|collision)(\d+)", word):
-            value = getattr(value, f"{shape[1]}s")[int(shape[2]) - 1]
-        elif word in ("xyz", "rpy"):
-            value = value[:3, 3] if word == "xyz" else value[:3, :3]
-        else:
-            form = getattr(value, "geometry", None) if word != "origin" else None
-            value = next((part for kind in SHAPES if (part := getattr(form, kind, None)) is not None), value)
-            value = getattr(value, "limit" if word == "limits" else word, None)
-        if value is None:
-            return None
-    return value if len(np.shape(value)) == 2 else tuple(map(float, np.atleast_1d(value)))
