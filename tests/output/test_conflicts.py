@@ -18,6 +18,7 @@ from urdfsync.output.console import Console
 pytestmark = pytest.mark.usefixtures("folder")
 
 ELBOW = "modelica/Arm/Elbow.mo"
+IN_FOLDER = "modelica/Arm/Elbow/package.mo"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
 EDITED = BASE.replace("a = 1;", "a = 1; // measured")
 EXPORTED = BASE.replace("b = 2;", "b = 3;")
@@ -180,14 +181,15 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         (
             *(rejected(None, FOLDER), Reason.CONFLICT),
             f"{CHANGED} You turned the class into a folder.",
-            f"urdfsync resolve {ELBOW} --keep --keep your file as it is",
+            f"urdfsync resolve {IN_FOLDER} --keep --keep your file as it is",
         ),
     ],
     ids=["no model", "a file of the user's", "a lost base", "another name", "a folder"],
 )
 def test_why_a_merge_is_not_offered(found: Conflict, kind: Reason, reason: str, after: str) -> None:
     lines = seen(found, kind=kind)
-    assert lines[1] == f"  conflict   {found.origin or ELBOW}  link elbow"
+    file = IN_FOLDER if found.rejected == FOLDER else found.origin or ELBOW
+    assert lines[1] == f"  conflict   {file}  link elbow"
     words = " ".join(" ".join(lines).split())
     assert reason in words
     assert after in words

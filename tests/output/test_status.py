@@ -53,7 +53,7 @@ def test_every_action_says_how_its_file_stands(reason: Reason) -> None:
 
 
 def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
-    conflict = Action("Arm/New.mo", Reason.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo")
+    conflict = Action("Arm/New.mo", Reason.CONFLICT, Role.MODEL, base="b", origin="Arm/Old.mo", mine="m")
     move = Action("Arm/Other.mo", Reason.MOVE, Role.MODEL, base="b", origin="Arm/Same.mo")
     shown = "\n".join(said(result_of(conflict, move)))
     assert "conflict   /project/Arm/Old.mo" in shown

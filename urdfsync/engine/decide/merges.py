@@ -20,7 +20,7 @@ from urdfsync.engine.decide.conflicts import (
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.misfits import look_for_misfits
 from urdfsync.engine.decide.package_after import PackageAfter, keep_needed
-from urdfsync.engine.decide.package_names import known_names, names_of
+from urdfsync.engine.decide.package_names import class_of, known_names, names_of
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import PackageFiles
@@ -38,7 +38,7 @@ def merge_edits(inputs: Inputs, generation: Generation, decision: Decision) -> D
     package, actions = generation.package, decision.actions
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {one.path: _conflict(inputs, generation, one, decision) for one in disputed}
-    present = frozenset(decision.differences.ids.values())
+    present = {(file_id, class_of(path)) for path, file_id in decision.differences.ids.items()}
     conflicts = _refuse_unfit_merges(_Trials(inputs, package, actions, present), conflicts)
     names = {name: new for (_, name), new in decision.differences.renames.items()} | dict(decision.names)
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
@@ -117,8 +117,8 @@ class _Trials(msgspec.Struct, frozen=True, dict=True):
     package: Package
     actions: Sequence[Action]
     """The actions before any merge."""
-    present: Collection[str]
-    """The ids of all generated files."""
+    present: Collection[tuple[str, str]]
+    """The id and the class of each generated file."""
 
     def find_unfit(self, conflicts: Mapping[str, Conflict], side: Choice | None) -> dict[str, str]:
         """Return why merges do not fit the package, by key; `side` decides contradictions, None tries clean merges."""

@@ -177,11 +177,11 @@ class PackageAfter(Mapping[str, bytes]):
         return found
 
 
-def keep_needed(after: PackageAfter, present: Collection[str]) -> tuple[Action, ...]:
+def keep_needed(after: PackageAfter, present: Collection[tuple[str, str]]) -> tuple[Action, ...]:
     """Return the actions; keep files that the user's files need.
 
-    Needed files are records, their meshes, and the `package.mo` of a folder with classes. `present` are the ids of all
-    generated files: what is left of one of these at another path is not needed.
+    Needed files are records, their meshes, and the `package.mo` of a folder with classes. `present` has the id and
+    the class of each generated file: what is left of one of these in another folder is not needed.
     """
     actions, deleted, kept = after.actions, find_deletions(after.actions), set[str]()
     if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
@@ -207,7 +207,7 @@ def code_words(content: bytes) -> set[str]:
     return set(words) - {name for kind, name in itertools.pairwise(words) if kind in _CLASS_KINDS}
 
 
-def _find_mentioned(after: PackageAfter, present: Collection[str]) -> frozenset[str]:
+def _find_mentioned(after: PackageAfter, present: Collection[tuple[str, str]]) -> frozenset[str]:
     """Return the files that are no longer generated, but that the user's texts need.
 
     The user's texts need the records that they mention. A kept file needs all files that it mentions; these need the
@@ -225,7 +225,7 @@ def _find_mentioned(after: PackageAfter, present: Collection[str]) -> frozenset[
     pending = {
         action.path: action.role
         for action in deleted
-        if (stamp := inputs.files.stamp(action.path)) is None or stamp.id not in present
+        if (stamp := inputs.files.stamp(action.path)) is None or (stamp.id, class_of(action.path)) not in present
     }
     needed = set[str]()
     for path, role in pending.items():
