@@ -125,7 +125,7 @@ def test_numbers_of_the_check_are_those_in_use() -> None:
     oldest, following = (".".join(map(str, version)) for version in (OLDEST, NEXT))
     assert f"has to be {oldest}.0 or later, below {following}." in page
     assert MOST_SINGLE_EDITS == 6
-    assert "takes back up to six files" in page
+    assert "More than six files are not told apart" in page
     assert f"`--timeout` ({defaults.timeout:.0f} s)" in page
 
 

@@ -104,8 +104,8 @@ def test_details_name_the_compiler_and_a_finding_names_the_fault(capsys: pytest.
     assert "joint elbow: torque differs by 0 N·m between the compilers" in details
     torque = msgspec.structs.replace((result.deviations or ())[1], difference=0.25)
     result.effects, result.strict = (EditEffect(("Elbow.mo",), (torque,)),), True
-    assert (finding := to_section(result).finding)
-    assert finding.message == "Arm: Elbow.mo (edited) changes the torque of joint elbow by 0.25 N·m"
+    assert (verdict := to_section(result).verdict)
+    assert verdict.message == "Arm: Elbow.mo (edited) changes the torque of joint elbow by 0.25 N·m"
 
 
 @pytest.mark.parametrize(("rumoca", "omc", "sentence"), [

@@ -92,13 +92,13 @@ def _by_file(differences: Iterable[Mismatch]) -> Iterator[tuple[Mismatch, str]]:
 
 def _disagreements(result: CheckResult) -> Iterator[tuple[str, str]]:
     """Yield which of two compilers and the reference stands alone, then what the compilers make of edits."""
-    if result.between is None:
+    if not result.tools:
         return
     first, second = result.tools
     names = second.tool, first.tool, result.reference or "the reference"
     by_first, by_second = ({each.key: each for each in tool.deviations or ()} for tool in result.tools)
     outliers: dict[str, list[Deviation]] = {}
-    for deviation in result.between:
+    for deviation in result.between or ():
         three = by_first[deviation.key], by_second[deviation.key], deviation
         if not all(each.agrees for each in three):
             # the third one of a pair that agrees; near the tolerance two pairs may agree
