@@ -81,7 +81,7 @@ def test_checks_and_simulations_are_values(project: Path, monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("function", [urdfsync.check, urdfsync.simulate])
 def test_a_compiler_that_does_not_exist_is_an_error_of_urdfsync(project: Path, function: Callable[..., object]) -> None:
-    with pytest.raises(urdfsync.UrdfsyncError, match="no compiler 'omcc' to check with; use one of rumoca, omc"):
+    with pytest.raises(urdfsync.UrdfsyncError, match="no compiler 'omcc' to check with; use one of rumoca, omc, both"):
         function(tool="omcc")
 
 

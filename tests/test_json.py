@@ -24,6 +24,7 @@ from urdfsync.analysis.checks.results import (
     EditEffect,
     JointFit,
     Judgement,
+    ToolResult,
 )
 from urdfsync.analysis.identification.results import Excitation, FittedNumber, Identification, Unexcited
 from urdfsync.analysis.simulation import results as simulation
@@ -226,11 +227,15 @@ def checked() -> CheckResult:
     swing = Deviation(Quantity.EFFORT, "joint hold", 0.025, 1.25, 1.25, "N·m")
     exact = msgspec.structs.replace(swing, difference=2.5e-16)
     differing = Mismatch("joint hold", "limits.effort", "130", "150", "Joints/HoldParameters.mo", 12, "arm.urdf", 34)
+    first = ToolResult(tool="rumoca 0.10.2", deviations=(hand, exact), effects=(), seconds=12.5)
+    second = ToolResult(tool="OpenModelica 1.27.0", compiled=(CompiledModel("Arm", 410),), seconds=31.5)
     return CheckResult(
         "arm",
         "Arm",
         freedoms=1,
-        tool="rumoca 0.10.2",
+        tools=(first, second),
+        between=(exact,),
+        tool="rumoca 0.10.2 and OpenModelica 1.27.0",
         compiled=(CompiledModel("Arm", 0), CompiledModel("ArmRun", 412)),
         failing=("Cell",),
         deviations=(hand, exact),

@@ -180,7 +180,7 @@ def check(
     from urdfsync.analysis.checks.results import CheckOptions
 
     loaded = load(config)
-    options = CheckOptions(tool=compilers.choose(loaded, tool, trusted=trusted), **given)
+    options = CheckOptions(tools=compilers.choose(loaded, tool, trusted=trusted), **given)
     checked = run.check_robots(loaded, loaded.select(robots), options, progress)
     return Results(checked, lambda result: text(to_section(result, verbose=False)))
 
@@ -209,7 +209,7 @@ def simulate(
     loaded, files = load(config), files or {}
     robot = loaded.select_one(robots, "simulate", given.get("model", ""))
     check_outputs(files, input_files(loaded, robot, given.get("motion")))
-    chosen = compilers.choose(loaded, tool, trusted=trusted)
+    chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
     options = SimulateOptions(tool=chosen, **given)
     if options.against is not None:
         from urdfsync.analysis.simulation.against import simulate_against  # takes 60 ms with libgit2
@@ -248,7 +248,7 @@ def vary(
     if tables := [Path(name) for name in given.get("vary", ()) if "=" not in name]:
         inputs["the file with the cases"] = tables[0]
     check_outputs(files, inputs)
-    chosen = compilers.choose(loaded, tool, trusted=trusted)
+    chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
     study = cases.vary(loaded, robot, VaryOptions(tool=chosen, **given), progress)
     if "plot" in files and study.worst is None:
         message = "all cases failed, so there is nothing to draw"

@@ -67,13 +67,15 @@ def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeyp
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
     limits = ["--jobs", "3", "--timeout", "12.5", "--memory", "4", "--wait", "7"]
     assert cli.main(["check", "ladder", "--physics", "--strict", "--tool", "omc", *limits]) == 0
-    chosen = CheckOptions(physics=True, strict=True, tool=Tool("omc"), jobs=3, package_paths=(tmp_path,))
+    chosen = CheckOptions(physics=True, strict=True, tools=(Tool("omc"),), jobs=3, package_paths=(tmp_path,))
     assert checker.options == msgspec.structs.replace(chosen, timeout=12.5, memory=4.0, wait=7.0)
 
 
 def test_a_compiler_has_its_title_as_well(checker: Checker) -> None:
+    assert cli.main(["check", "--tool", "both"]) == 0
+    assert checker.options.tools == (Tool("rumoca"), Tool("omc"))
     assert cli.main(["check", "--tool", "openmodelica"]) == 0
-    assert checker.options == msgspec.structs.replace(checker.options, tool=Tool("omc"))
+    assert checker.options == msgspec.structs.replace(checker.options, tools=(Tool("omc"),))
 
 
 def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capture) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from support.urdfs import dynamics, joint, link, robot
+from urdfsync.analysis.checks import compilers
 from urdfsync.analysis.checks.results import CheckOptions, CheckResult
 from urdfsync.analysis.checks.robot import check_robot, recall_check
 from urdfsync.engine.build import build
@@ -25,9 +26,10 @@ def rebuild() -> None:
     assert not result.failed
 
 
-def check(physics: bool = False, fresh: bool = False, curves: bool = False) -> CheckResult:
+def check(physics: bool = False, fresh: bool = False, curves: bool = False, tool: str = "rumoca") -> CheckResult:
     loaded = config.load(Path("urdfsync.toml").absolute())
-    options = CheckOptions(physics=physics, compilers=2, fresh=fresh, curves=curves)
+    tools = compilers.choose(loaded, tool)
+    options = CheckOptions(physics=physics, tools=tools, compilers=2, fresh=fresh, curves=curves)
     robot = loaded.robots[0]
     return recall_check(loaded, robot, options) or check_robot(loaded, robot, options)
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from urdfsync.analysis.checks import compilers
-from urdfsync.analysis.checks.compilers import COMPILERS
+from urdfsync.analysis.checks.compilers import BOTH, COMPILERS
 from urdfsync.analysis.checks.report import closing_lines, to_section
 from urdfsync.analysis.checks.results import CheckOptions, CheckResult, CheckStatus, Judgement, exit_code
 from urdfsync.analysis.checks.run import check_robots
@@ -41,7 +41,7 @@ def add(commands: arguments.Commands) -> None:
         help="tell how far one robot is from a log of its joints: CSV, Parquet, or a recording of ROS 2",
     )
     option("--strict", action="store_true", help="effects of edits, doubtful sources and unchecked robots fail")
-    arguments.add_tool(parser, {name: compiler.TITLE for name, compiler in COMPILERS.items()})
+    arguments.add_tool(parser, {name: compiler.TITLE for name, compiler in COMPILERS.items()} | {BOTH: BOTH})
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
 
@@ -53,8 +53,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     write_report = prepare_page(args, console, args.report) if args.report else None
     judgement, fault = _judge(args, console) if args.log else (None, None)
     configured, results = arguments.load_robots(args, console), list[CheckResult]()
-    tool = compilers.choose(configured.config, args.tool, trusted=args.trusted)
-    chosen = arguments.chosen(CheckOptions, args) | {"tool": tool, "curves": args.report is not None}
+    tools = compilers.choose(configured.config, args.tool, trusted=args.trusted)
+    chosen = arguments.chosen(CheckOptions, args) | {"tools": tools, "curves": args.report is not None}
     options = CheckOptions(**chosen)
     try:
         progress = console.telling("compiling")

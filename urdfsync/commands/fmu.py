@@ -65,7 +65,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise not_writable(args.output, "an FMU's name ends with .fmu", "name such a file")
     if args.output:
         check_file(args.output, input_files(configuration, robot, args.motion))
-    tool = compilers.choose(configuration, "omc", trusted=args.trusted)
+    (tool,) = compilers.choose(configuration, "omc", trusted=args.trusted)
     options = SimulateOptions(tool=tool, **arguments.chosen(SimulateOptions, args))
     kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
     exported = export(configuration, robot, options, kind, console.telling(), for_trial=args.check)

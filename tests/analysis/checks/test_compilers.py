@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from support import checks
 
-from urdfsync.analysis.checks.compilers import COMPILERS, find_missing
+from urdfsync.analysis.checks.compilers import BOTH, COMPILERS, choose, find_missing
 from urdfsync.analysis.checks.compilers.compiler import Tool
+from urdfsync.project.config import Config
+
+
+def test_both_are_two_of_however_many_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(COMPILERS, "fake", checks.Compiler())
+    tools = choose(Config(Path("urdfsync.toml"), ()), BOTH, trusted=True)
+    assert [tool.name for tool in tools] == ["rumoca", "omc"]
 
 
 def test_a_missing_program_is_told_by_the_name_of_its_compiler(monkeypatch: pytest.MonkeyPatch) -> None:

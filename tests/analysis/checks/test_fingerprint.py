@@ -12,6 +12,7 @@ from unittest import mock
 import pytest
 from support.networks import RC_FOLDER, edit, set_keys
 
+from urdfsync.analysis.checks.compilers.compiler import Tool
 from urdfsync.analysis.checks.fingerprint import fingerprint
 from urdfsync.analysis.checks.results import CheckOptions
 from urdfsync.common.dependencies import program
@@ -19,6 +20,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.project import config
 
+OMC = Tool("omc")
 MODEL = "modelica/Ladder/Elements/R2.mo"
 
 
@@ -45,9 +47,9 @@ def append(file: str, text: str) -> None:
         stream.write(text)
 
 
-def now(physics: bool = False) -> str | None:
+def now(physics: bool = False, tools: tuple[Tool, ...] = (Tool(),)) -> str | None:
     loaded = config.load(Path("urdfsync.toml"))
-    return fingerprint(loaded, loaded.robots[0], CheckOptions(physics=physics))
+    return fingerprint(loaded, loaded.robots[0], CheckOptions(physics=physics, tools=tools))
 
 
 @pytest.mark.parametrize(("change", "matters"), [
@@ -73,13 +75,13 @@ def test_what_a_check_rests_on_changes_it(project: Path, change: Callable[[], No
 def test_so_do_another_tool_another_distribution_and_another_wish(
     project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    found = [now(), now(physics=True)]
+    found = [now(), now(physics=True), *(now(tools=tools) for tools in ((OMC,), (Tool(), OMC)))]
     (tmp_path / "site/numbers-2.0.dist-info").mkdir(parents=True)
     monkeypatch.syspath_prepend(tmp_path / "site")
     found.append(now())
     monkeypatch.setattr("urdfsync.analysis.checks.compilers.state", lambda *_: ["99"])
     found.append(now())
-    assert len(set(found)) == 4
+    assert len(set(found)) == 6
 
 
 def test_so_does_another_line_of_a_domain(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

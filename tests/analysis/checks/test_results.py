@@ -38,6 +38,8 @@ PLAIN = "syntax and layout; "
     (CHANGED, False, f"right: {PLAIN}"),
     ({**CHANGED, "gaps": (GAP,)}, True, f"differs: {PLAIN}"),
     ({**OFF, "in_step": False}, False, f"differs: {PLAIN}friction and gears differ (joint elbow); "),
+    ({"between": (ELBOW,)}, False, f"differs: {PLAIN}"),
+    ({"between_edited": (ELBOW,)}, False, f"differs: {PLAIN}"),
     (SAME_MASS, False, f"right: {PLAIN}rigid bodies right; "),
     ({**OFF, "diagnostics": (ERROR, WARNING, ERROR)}, False, "failed: 2 errors; friction and gears differ"),
     ({"compiled": USERS, "failing": ("Part", "Other"), "freedoms": 1}, False,

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import importlib.util
 import shutil
+import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from support import fake_omc
 from support.checks import Compiling, status
 from support.corpus import REPOSITORY
 from support.two_joints import ARM, JOINTS, LINKS, check, codes, lines, rebuild, replace, write
@@ -113,6 +115,30 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     result = check()
     assert (result.in_step, status(result, strict=False)) == (False, CheckStatus.OUT_OF_STEP)
     assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for omc is a script")
+def test_a_remembered_check_by_one_compiler_is_none_by_both(
+    arm: Path, modelica_library: Path, compiler: Compiling, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path / "om"))
+    for answers in ({}, {"getVersion": '"1.27"\n""\n'}):
+        fake_omc.install(tmp_path / "om/bin", answers)
+        compiler.models.clear()
+        for tool, count in (("rumoca", 0 if answers else 2), ("omc", 2), ("both", 4)):
+            before = len(compiler.models)
+            results = [check(tool=tool) for _ in range(2)]
+            assert len(compiler.models) - before == count, tool
+            assert {status(result, strict=True) for result in results} == {CheckStatus.RIGHT}
+            title = {"rumoca": "rumoca", "omc": "OpenModelica", "both": "rumoca and OpenModelica"}[tool]
+            assert {result.tool for result in results} == {title}
+            assert [len(result.tools) for result in results] == [2 * (tool == "both")] * 2
+    compiler.problems["ArmTest"] = "something is wrong"
+    failed = check(fresh=True, tool="both"), check(tool="both")
+    assert [result.failed for result in failed] == [True, True], "what is wrong is compiled again"
+    assert [one.model for one in failed[0].compiled] == ["Arm", "ArmRun"]
+    assert len(failed[0].diagnostics) == 1, "both find it"
 
 
 @pytest.mark.slow

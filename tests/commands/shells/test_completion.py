@@ -65,7 +65,7 @@ def test_what_a_line_may_become(built: Path) -> None:
     assert names("build", "") == ["ladder", "filter"]
     assert names("build", "ladder", "") == ["filter"]
     assert names("build", "--dr") == ["--dry-run"]
-    assert names("check", "--tool", "") == ["rumoca", "omc"]
+    assert names("check", "--tool", "") == ["rumoca", "omc", "both"]
     assert names("check", "--tool=o") == ["--tool=omc"]
     assert names("resolve", "f") == ["filter"]
     assert names("resolve", "mod") == names("diff", "mod") == names("init", "") == [":files"]

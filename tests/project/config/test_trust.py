@@ -154,6 +154,8 @@ def test_a_configuration_that_chooses_openmodelica_needs_the_users_word(asked: P
     assert [finding.code for finding in urdfsync.check()[0].diagnostics] == ["untrusted-command"]
     with pytest.raises(urdfsync.UrdfsyncError, match="OpenModelica was not run"):
         urdfsync.simulate()
+    Path("urdfsync.toml").write_text(Path("urdfsync.toml").read_text().replace('"omc"', '"both"'))
+    assert "[untrusted-command]" in execute("check", code=2).err
     assert not asked.exists()
 
 

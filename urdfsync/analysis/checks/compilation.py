@@ -5,6 +5,7 @@ from __future__ import annotations
 import bisect
 import math
 import re
+import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
@@ -31,10 +32,10 @@ from urdfsync.analysis.checks.package import PackageTexts, RobotPackage, UsersMo
 from urdfsync.analysis.checks.process import Limits
 from urdfsync.analysis.checks.results import (
     MOST_SINGLE_EDITS,
-    CheckResult,
     CompiledModel,
     Curve,
     EditEffect,
+    ToolResult,
     listed,
 )
 from urdfsync.common.diagnostics import Diagnostic, Severity, findings_of
@@ -57,7 +58,7 @@ _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
 
 
 class Compilation:
-    """The compiling of one package: `run` adds its answers to a result."""
+    """The compiling of one package by one compiler: `run` adds its answers to a result."""
 
     def __init__(
         self,
@@ -69,7 +70,7 @@ class Compilation:
         limits: Limits,
         folder: Path,
         processes: int,
-        result: CheckResult,
+        result: ToolResult,
     ) -> None:
         """At most `processes` compile at the same time; copies of the package go below `folder`.
 
@@ -80,10 +81,16 @@ class Compilation:
         # separate jobs: an unreadable file of the user's would keep the package from being compiled
         self._users_jobs = msgspec.structs.replace(self._jobs, needed=needed_by_users)
         self._compiler = compilers.COMPILERS[tool.name]
-        self._result = result
+        self.result = result
+        result.tool = self._compiler.TITLE
+        self.generated: Mapping[str, Series] = {}
+        """The simulations of the generated package with completed data, by the names of trials."""
+        self.edited: Mapping[str, Series] = {}
+        """The simulations of the package on disk, if files in it are edited."""
 
     def run(self, experiment: Experiment | None) -> None:
         """Compile the package, and run the experiment: this takes 20 s for a six-axis arm, minutes for a humanoid."""
+        begin = time.monotonic()
         # an experiment compiles several versions of the package at the same time, so the models need no division
         models = self._model_jobs(1 if experiment else max(1, min(self._processes, len(self._package.models))))
         done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
@@ -95,6 +102,7 @@ class Compilation:
         self._note_models(models, done)
         if experiment:
             self._compare(experiment, done)
+        self.result.seconds = time.monotonic() - begin
 
     def _versions(self, experiment: Experiment) -> dict[str, _Job]:
         """Return jobs that simulate the generated package and the edited one."""
@@ -115,31 +123,27 @@ class Compilation:
     def _compare(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Compare the generated package with the reference, and the edited one with the generated one."""
         package, trials = self._package, experiment.trials
-        generated, faults = self._motions(done["completed"], trials)
-        self._result.add(faults)
-        if generated:
-            self._result.deviations = compare_all(trials, generated)
-            self._result.curves = tuple(curves(trials[0], generated[trials[0].name]))
+        self.generated, faults = self._motions(done["completed"], trials)
+        self.result.add(faults)
+        if self.generated:
+            self.result.deviations = compare_all(trials, self.generated)
+            self.result.curves = tuple(curves(trials[0], self.generated[trials[0].name]))
         if "edited" not in done:
             return
-        without_edits = generated
+        without_edits = self.generated
         if "generated" in done:
             without_edits, faults = self._motions(done["generated"], trials)
-            self._result.add(faults)
-        edited, faults = self._motions(done["edited"], trials)
+            self.result.add(faults)
+        self.edited, faults = self._motions(done["edited"], trials)
         if faults:  # the package is not at fault
             self._add_gap(f"the effect of your edits was not measured: {faults[0].message}")
-        if edited and without_edits:
-            whole = find_changes(trials, edited, without_edits)
-            single = self._single_edits(trials, whole, edited, without_edits)
-            self._result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
+        if self.edited and without_edits:
+            whole = find_changes(trials, self.edited, without_edits)
+            single = self._single_edits(trials, whole, without_edits)
+            self.result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
     def _single_edits(
-        self,
-        trials: Sequence[Trial],
-        whole: Sequence[Deviation],
-        with_edits: Mapping[str, Series],
-        without_edits: Mapping[str, Series],
+        self, trials: Sequence[Trial], whole: Sequence[Deviation], without_edits: Mapping[str, Series]
     ) -> dict[str, list[Deviation]]:
         """Return, for each edited file, the changes that go away if this file alone is taken back.
 
@@ -149,7 +153,7 @@ class Compilation:
         edits, texts, generated = self._package.edits, self._package.files.texts, self._package.generated
         if len(edits) == 1:
             return {edits[0]: list(whole)}
-        trials = [trial for trial in trials if find_changes([trial], with_edits, without_edits)]
+        trials = [trial for trial in trials if find_changes([trial], self.edited, without_edits)]
         if not trials or len(edits) > MOST_SINGLE_EDITS:
             return {}
         tasks, changes = [_task(trial) for trial in trials], dict[str, list[Deviation]]()
@@ -157,7 +161,7 @@ class Compilation:
         for file, answers in zip(edits, done.values(), strict=True):
             if len(answers) == len(trials) and not any(each.problem or each.runs[0].problem for each in answers):
                 series = {trial.name: each.runs[0].values for trial, each in zip(trials, answers, strict=True)}
-                changes[file] = find_changes(trials, series, with_edits)
+                changes[file] = find_changes(trials, series, self.edited)
         return changes
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
@@ -203,17 +207,17 @@ class Compilation:
                     failing[task.title] = explain(answer.problem, self._compiler, files, users.files[task.title])
                     continue
                 if answer.problem:
-                    self._result.add(explain(answer.problem, self._compiler, files))
+                    self.result.add(explain(answer.problem, self._compiler, files))
                     continue
                 # another model may have the same finding under another name
-                told = {(finding.file, finding.line, finding.code) for finding in self._result.diagnostics}
+                told = {(finding.file, finding.line, finding.code) for finding in self.result.diagnostics}
                 warnings = explain_warnings(answer.warnings, self._compiler, files)
-                self._result.add(each for each in warnings if (each.file, each.line, each.code) not in told)
+                self.result.add(each for each in warnings if (each.file, each.line, each.code) not in told)
                 compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
                 inside = (part for part, whole in self._parts.items() if whole == task.title and not is_users)
                 compiled += (CompiledModel(part, 0) for part in inside)
         order = [*self._package.models, *users.files]
-        self._result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
+        self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
         waiting, parts = [users.files[model.model] for model in compiled if model.is_users], set[Path]()
         if {model.model for model in compiled} >= {*self._package.models}:
             waiting += (files.folder / path for path in self._package.generated)
@@ -222,15 +226,15 @@ class Compilation:
             waiting += more
         for model, faults in failing.items():
             if users.files[model] not in parts:  # else it has compiled as a component of another model
-                self._result.add(map(_as_part, faults))
-                self._result.failing += (model,)
+                self.result.add(map(_as_part, faults))
+                self.result.failing += (model,)
 
     def _add_gap(self, gap: str) -> None:
-        self._result.gaps = tuple(dict.fromkeys((*self._result.gaps, gap)))
+        self.result.gaps = tuple(dict.fromkeys((*self.result.gaps, gap)))
 
     def _note_version(self, answer: CompileResult) -> None:
         if answer.version:
-            self._result.tool = f"{self._compiler.TITLE} {answer.version}"
+            self.result.tool = f"{self._compiler.TITLE} {answer.version}"
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
         """Run jobs, some of them at the same time. A job in which the compiler breaks down has no results."""
@@ -245,7 +249,7 @@ class Compilation:
                     if label == _USERS:  # the package itself may be sound
                         self._add_gap(f"your models were not compiled: {faults[0].sentence}")
                     else:
-                        self._result.add(faults)
+                        self.result.add(faults)
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import msgspec
 
@@ -25,7 +25,7 @@ from urdfsync.project.state.store import Store
 
 def result_key(
     robot: RobotConfig,
-    tool: Tool,
+    tools: Sequence[Tool],
     needed: libraries.Libraries,
     *facts: object,
     hashed: Callable[..., str] = content_hash,
@@ -34,19 +34,19 @@ def result_key(
 
     `hashed` may be a `content_hash` that remembers its results, for one look at many robots: they share libraries.
 
-    The other inputs are urdfsync with its library, the domain's code, Python with its packages, the compiler and the
+    The other inputs are urdfsync with its library, the domain's code, Python with its packages, the compilers and the
     Modelica libraries.
 
     None if an input can't be read: then the result must not be remembered.
     """
     own = find_own_library(LIBRARY, robot.target.package)
     places = {**needed.others, **({LIBRARY: own} if own else {})}
-    if compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY:
+    if any(compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in tools):
         places |= {str(path): path for path in libraries.standard_libraries()}
     try:
         return digest(
             *(sys.platform, program.contents_hash(*registry.code(robot.domain))),
-            compilers.state(tool, hashed),
+            [compilers.state(tool, hashed) for tool in tools],
             [(name, str(path), hashed(path)) for name, path in sorted(places.items())],
             # the compiler gets copies of these libraries without resources
             [(str(path), hashed(path, (RESOURCES,))) for path in needed.standard.values()],
@@ -79,7 +79,7 @@ def fingerprint(
         return None
     return result_key(
         robot,
-        options.tool,
+        options.tools,
         msgspec.structs.replace(needed, others=others),
         *(options.physics, robot.options, text.content, text.companions, templates),
         shown(robot.folder),  # findings name files relative to the working folder

@@ -16,6 +16,7 @@ from urdfsync.analysis.checks.results import (
     Judgement,
     listed,
     part_word,
+    worst,
 )
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.common.spelling import counted
@@ -33,13 +34,15 @@ _FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction "}
 
 def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     """Return the sentences below the first line, with their styles."""
-    sentences = [*_numbers(result), *(_measured(result.log) if result.log else ()), *_differences(result)]
+    sentences = [*_numbers(result), *(_measured(result.log) if result.log else ())]
+    sentences += [*_disagreements(result), *_differences(result)]
     if result.strict and result.is_doubtful:
         sentences.append(("the source has parts that can hardly be meant: see the warnings", "bold red"))
     for effect in result.effects:
         changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
         style = _edit_style(result) if changed else "dim"
         sentences.append((f"{_edited(effect)} {changed or 'no compared motion or force'}", style))
+    sentences += _agreement(result)
     sentences += [(f"{file} (edited): its effect is not compared", "dim") for file in result.uncompared_edits]
     sentences += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
@@ -87,11 +90,47 @@ def _by_file(differences: Iterable[Mismatch]) -> Iterator[tuple[Mismatch, str]]:
         yield from ((each, more) for each in own[_MOST - 1 : _MOST])
 
 
+def _disagreements(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield which of two compilers and the reference stands alone, then what the compilers make of edits."""
+    if not result.tools:
+        return
+    first, second = result.tools
+    names = second.tool, first.tool, result.reference or "the reference"
+    by_first, by_second = ({each.key: each for each in tool.deviations or ()} for tool in result.tools)
+    outliers: dict[str, list[Deviation]] = {}
+    for deviation in result.between or ():
+        three = by_first[deviation.key], by_second[deviation.key], deviation
+        if not all(each.agrees for each in three):
+            # the third one of a pair that agrees; near the tolerance two pairs may agree
+            outlier = next((name for name, pair in zip(names, three, strict=True) if pair.agrees), "")
+            outliers.setdefault(outlier, []).append(max(three, key=lambda each: each.relative))
+    for name, deviations in outliers.items():
+        for deviation, others in _by_kind(deviations):
+            what, amount = _amount(deviation)
+            who = f"{name} stands alone, by {amount}" if name else f"all three differ, by up to {amount}"
+            yield f"{deviation.element}: {what}: {who}{others}", "bold red"
+    for deviation, others in _by_kind([each for each in result.between_edited if not each.agrees]):
+        what, amount = _amount(deviation)
+        sentence = f"with your edits, the {what} by {second.tool} differs from that by {first.tool} by {amount}"
+        yield f"{deviation.element}: {sentence}{others}", "bold red"
+
+
+def _agreement(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield how far two compilers agree, and their times."""
+    if result.between and all(each.agrees for each in result.between):
+        greatest = max(each.relative for each in result.between)
+        yield f"{result.tool} agree {f'to {greatest:.1e}' if greatest else 'exactly'}", ""
+    if result.tools:
+        yield "; ".join(f"{tool.tool}: {tool.seconds:.1f} s" for tool in result.tools), "dim"
+
+
 def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
-    """Yield how the package differs from the reference."""
+    """Yield how the package differs from the reference, except where two compilers were compared."""
     advice = "" if result.numbers and result.numbers.differences else _ADVICE
     reference = result.reference or "the reference"
-    for deviation, others in _by_kind([each for each in result.deviations or () if not each.agrees]):
+    by_both = {each.key for each in result.between or ()}
+    differing = [each for each in result.deviations or () if not (each.agrees or each.key in by_both)]
+    for deviation, others in _by_kind(differing):
         what, amount = _amount(deviation)
         yield f"{deviation.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"
         if deviation.unit in ("N·m", "N", "kg"):
@@ -101,14 +140,20 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
 
 def _details(result: CheckResult) -> Iterator[str]:
     """Yield each model, and each number that was compared."""
-    for model in result.compiled:
-        yield f"{model.model}: compiles"
-    for part, deviation in result.worst.items():
-        most = f"relative differences of up to {deviation.relative:.1e} ({deviation.element}, {deviation.quantity})"
-        yield f"{part}: {most if deviation.relative else 'no difference'}"
-    for deviation in result.deviations or ():
+    for tool in result.tools or (result,):
+        by = f" by {tool.tool}" if result.tools else ""
+        for model in tool.compiled:
+            yield f"{model.model}: compiles{by}"
+        for part, deviation in worst(tool.deviations or ()).items():
+            place = f"{deviation.element}, {deviation.quantity}"
+            most = f"relative differences of up to {deviation.relative:.1e} ({place})"
+            yield f"{part}: {most if deviation.relative else 'no difference'}{by}"
+        for deviation in tool.deviations or ():
+            what, amount = _amount(deviation)
+            yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e}){by}"
+    for deviation in result.between or ():
         what, amount = _amount(deviation)
-        yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e})"
+        yield f"{deviation.element}: {what} differs by {amount} between the compilers"
     for effect in result.effects:
         yield from (f"{_edited(effect)} {_change(deviation)}" for deviation in effect.deviations)
 

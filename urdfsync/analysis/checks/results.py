@@ -7,6 +7,7 @@ import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import ClassVar
 
 import msgspec
 
@@ -49,7 +50,8 @@ class CheckOptions(RunOptions, frozen=True):
     """Compare poses, efforts and masses with the domain's reference."""
     strict: bool = False
     """Treat the effects of edits as differences."""
-    tool: Tool = Tool()
+    tools: tuple[Tool, ...] = (Tool(),)
+    """One compiler, or two."""
     jobs: int | None = None
     """The greatest number of robots that are checked at the same time; None allows as many as cores and memory do."""
     compilers: int = 1
@@ -145,13 +147,42 @@ class Judgement(msgspec.Struct, frozen=True):
         return math.sqrt(sum(share * share for share in shares) / len(shares)) if shares else 0.0
 
 
-class CheckResult(msgspec.Struct):
+class ToolResult(msgspec.Struct, kw_only=True):
+    """The answers of one compiler about a package."""
+
+    KEYS: ClassVar[tuple[str, ...]] = ("tool", "compiled", "failing", "deviations", "effects", "seconds")
+
+    tool: str = ""
+    """The compiler with its version, or both compilers; empty if nothing was compiled."""
+    compiled: tuple[CompiledModel, ...] = ()
+    """The models that compile and are balanced."""
+    failing: tuple[str, ...] = ()
+    """Full names of the user's models that do not compile by themselves."""
+    deviations: tuple[Deviation, ...] | None = None
+    """Deviations of the generated package from the reference; None without a comparison."""
+    effects: tuple[EditEffect, ...] = ()
+    """The effects of the user's edits, each apart if possible."""
+    curves: tuple[Curve, ...] = ()
+    """Poses and efforts of the generated package in the first simulation, for a page."""
+    gaps: tuple[str, ...] = ()
+    """Parts that could not be checked, with reasons: one sentence each, without a full stop."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    seconds: float = 0.0
+    """Time from beginning to end."""
+
+    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add findings, each once."""
+        self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
+
+
+class CheckResult(ToolResult):
     """The result for one robot. Only the check changes this object."""
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
         *("numbers", "edited", "uncompared_edits", "freedoms", "tool", "compiled", "failing", "reference", "agrees"),
-        *("worst", "deviations", "effects", "log", "notes", "unchecked", "gaps", "diagnostics", "seconds"),
+        *("worst", "deviations", "effects", "tools", "between", "between_edited", "log", "notes", "unchecked", "gaps"),
+        *("diagnostics", "seconds"),
     )
 
     robot: str
@@ -168,29 +199,18 @@ class CheckResult(msgspec.Struct):
     """The comparison with a second reading of the source; None if there was none."""
     edited: tuple[str, ...] = ()
     """The edited files below the package's folder, without those that differ in comments and blanks only."""
-    tool: str = ""
-    """The compiler with its version; empty if nothing was compiled."""
-    compiled: tuple[CompiledModel, ...] = ()
-    """The models that compile and are balanced."""
-    failing: tuple[str, ...] = ()
-    """Full names of the user's models that do not compile by themselves."""
-    deviations: tuple[Deviation, ...] | None = None
-    """Deviations of the generated package from the reference; None without a comparison."""
-    effects: tuple[EditEffect, ...] = ()
-    """The effects of the user's edits, each apart if possible."""
-    curves: tuple[Curve, ...] = ()
-    """Poses and efforts of the generated package in the first simulation, for a page."""
+    tools: tuple[ToolResult, ...] = ()
+    """With two compilers: the answers of each. The result itself then has the deviations of both."""
+    between: tuple[Deviation, ...] | None = None
+    """Deviations of the second compiler from the first, for the generated package; None without two simulations."""
+    between_edited: tuple[Deviation, ...] = ()
+    """Deviations of the second compiler from the first, for the package with the user's edits; none without edits."""
     log: Judgement | None = None
     """How far the model is from a log; None without `--log`."""
     notes: tuple[str, ...] = ()
     """Assumptions of the comparison, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
     """Parts that a check with these options does not cover, with reasons: one sentence each, without a full stop."""
-    gaps: tuple[str, ...] = ()
-    """Parts that could not be checked, with reasons: one sentence each, without a full stop."""
-    diagnostics: tuple[Diagnostic, ...] = ()
-    seconds: float = 0.0
-    """Time from beginning to end."""
     folder: str = ""
     """The package's folder for messages; empty if the check broke off."""
     reference: str = ""
@@ -212,10 +232,11 @@ class CheckResult(msgspec.Struct):
 
     @property
     def differs(self) -> bool:
-        """Whether the generated package differs from its source or from the reference."""
+        """Whether the generated package differs from its source or from the reference, or two compilers disagree."""
         if self.numbers and self.numbers.differences:
             return True
-        return not all(each.agrees for each in self.deviations or ())
+        compared = *(self.deviations or ()), *(self.between or ()), *self.between_edited
+        return not all(each.agrees for each in compared)
 
     @property
     def is_changed_by_edits(self) -> bool:
@@ -268,10 +289,6 @@ class CheckResult(msgspec.Struct):
     def agrees(self) -> bool | None:
         """Whether the package without edits agrees with the reference; None without a comparison."""
         return None if self.deviations is None else not self.differs
-
-    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Add findings, each once."""
-        self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
 
 
 def worst(deviations: Iterable[Deviation]) -> dict[Aspect, Deviation]:

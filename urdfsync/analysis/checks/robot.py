@@ -19,7 +19,8 @@ from urdfsync.analysis.checks.libraries import Libraries, find_libraries
 from urdfsync.analysis.checks.names import check_names
 from urdfsync.analysis.checks.package import RobotPackage, read_package, users_models
 from urdfsync.analysis.checks.process import Limits, limits_of
-from urdfsync.analysis.checks.results import CheckOptions, CheckResult, listed
+from urdfsync.analysis.checks.results import CheckOptions, CheckResult, ToolResult, listed
+from urdfsync.analysis.checks.two_tools import run_both
 from urdfsync.common.dependencies.reads import read_file
 from urdfsync.common.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.common.files import shown
@@ -144,8 +145,16 @@ def _check(
     every = find_libraries(config, robot, [*contents, *names.users_files.values()], uses)
     every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
     experiment = _experiment(package, options, result, limits)
-    result.tool = compilers.COMPILERS[options.tool.name].TITLE
-    Compilation(package, options.tool, needed, users, every, limits, folder, options.compilers, result).run(experiment)
+    answers = [result] if len(options.tools) == 1 else [ToolResult() for _ in options.tools]
+    compilations = [
+        Compilation(package, tool, needed, users, every, limits, folder / tool.name, options.compilers, answer)
+        for tool, answer in zip(options.tools, answers, strict=True)
+    ]
+    if len(compilations) == 1:
+        compilations[0].run(experiment)
+    else:
+        first, second = compilations
+        run_both(first, second, experiment, result)
 
 
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
@@ -210,10 +219,10 @@ def _sample(package: RobotPackage) -> Sample:
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
     """Return why nothing can be compiled: an error with `--physics`, or if the user named the missing part."""
-    missing = compilers.find_missing(options.tool)
-    has_library = compilers.COMPILERS[options.tool.name].HAS_STANDARD_LIBRARY
+    missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
+    has_library = all(compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
     problem = missing or (None if has_library else needed.problem)
-    is_wanted = options.tool != CheckOptions().tool if missing else config.check.library
+    is_wanted = options.tools != CheckOptions().tools if missing else config.check.library
     if problem and (options.physics or is_wanted):
         result.add([problem])
     return problem

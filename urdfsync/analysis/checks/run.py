@@ -78,8 +78,8 @@ def check_built(
     config: Config, robots: Sequence[RobotConfig], request: BuildOptions, progress: Progress
 ) -> Iterator[CheckResult]:
     """Check packages after a build. A failure that ends all checks is an error of each other robot."""
-    tool = compilers.choose(config, trusted=request.trusted)
-    options = CheckOptions(tool=tool, jobs=request.jobs, wait=request.wait, fresh=request.full)
+    tools = compilers.choose(config, trusted=request.trusted)
+    options = CheckOptions(tools=tools, jobs=request.jobs, wait=request.wait, fresh=request.full)
     waiting = list(robots)
     try:
         for result in check_robots(config, robots, options, progress):

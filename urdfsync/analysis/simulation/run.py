@@ -96,7 +96,7 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
     task, plain, changed = simulation_task(options, prepared)
     (run,) = task.runs
     facts = task, *(sorted(files.items()) for files in (package.files.texts, package.around, changed))
-    key = result_key(package.robot, options.tool, prepared.needed, *facts)
+    key = result_key(package.robot, [options.tool], prepared.needed, *facts)
     if key and (earlier := cache.load(key, SimulationResult)):
         return earlier, run, True
     later = threading.Timer(_LATER, cache.trim)  # trimming takes 200 ms, so it is done while the compiler is busy
@@ -115,7 +115,7 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
         simulation = msgspec.structs.replace(part, problem=simulation.problem)
     if not simulation.values:
         raise UrdfsyncError(*_end(model, options, simulation))
-    is_same = key == result_key(package.robot, options.tool, prepared.needed, *facts)  # if not, a file was saved
+    is_same = key == result_key(package.robot, [options.tool], prepared.needed, *facts)  # if not, a file was saved
     if key and is_same:
         cache.save(key, None if simulation.problem else simulation)
     return simulation, run, False

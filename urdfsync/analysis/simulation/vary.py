@@ -111,7 +111,7 @@ def vary(config: Config, robot: RobotConfig, options: VaryOptions, progress: Pro
     prepared = prepare(config, robot, options)
     base, plain, changed = simulation_task(options, prepared)
     package, cache = prepared.package, UserCache.default()
-    program = result_key(robot, options.tool, prepared.needed)
+    program = result_key(robot, [options.tool], prepared.needed)
     texts = [sorted(files.items()) for files in (package.files.texts, package.around, changed)]
     key = program and digest(program, base, *texts)
     setting = Setting(

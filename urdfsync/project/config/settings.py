@@ -66,7 +66,7 @@ class CheckConfig(msgspec.Struct, frozen=True):
 
     library: Path | None = None
     """The folder that holds the Modelica Standard Library, absolute; None to search for the library."""
-    tool: CompilerName = "rumoca"
+    tool: Literal[CompilerName, "both"] = "rumoca"
     """See `checks.compilers.choose`."""
     omc: str = ""
     """OpenModelica's compiler, as an absolute path or a name on the PATH; empty to search for the compiler."""

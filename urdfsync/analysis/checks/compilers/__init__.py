@@ -23,26 +23,35 @@ COMPILERS: Mapping[str, Compiler] = {
     name: cast(Compiler, import_module(f"{__name__}.{name}")) for name in get_args(settings.CompilerName)
 }
 """The compilers by the value of `--tool`, the default first."""
+BOTH = "both"
+"""The value of `--tool` that compares two compilers."""
+_BOTH = ("rumoca", "omc")
 
 
-def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> Tool:
-    """Return the compiler that `--tool` chooses; if `name` is None, the configuration chooses it.
+def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
+    """Return the one or two compilers that `--tool` chooses; if `name` is None, the configuration chooses them.
 
     `trusted` says whether the user trusts the configuration: it may choose a program, or a compiler that lets models
     start programs. `--tool omc` needs no trust: the user chose it.
     """
     chosen = name or config.check.tool
-    if chosen not in COMPILERS:
-        hint = f"use one of {', '.join(COMPILERS)}"
+    if chosen not in {*COMPILERS, BOTH}:
+        hint = f"use one of {', '.join([*COMPILERS, BOTH])}"
         raise ConfigError.of("unknown-compiler", f"there is no compiler {chosen!r} to check with", hint=hint)
-    compiler, problem = COMPILERS[chosen], None
-    is_trusted = trusted or (bool(name) and not config.check.program(chosen))
+    return tuple(
+        _tool(config, each, is_trusted=trusted or (bool(name) and not config.check.program(each)))
+        for each in (_BOTH if chosen == BOTH else [chosen])
+    )
+
+
+def _tool(config: Config, name: str, *, is_trusted: bool) -> Tool:
+    compiler, problem = COMPILERS[name], None
     if compiler.STARTS_PROGRAMS and not is_trusted:
         try:
-            problem = find_untrusted_compiler(config, chosen, compiler.TITLE)
+            problem = find_untrusted_compiler(config, name, compiler.TITLE)
         except ConfigError as error:  # the user's file of trusted folders is unreadable
             problem = error.diagnostics[0]
-    return Tool(chosen, config.check.program(chosen), problem)
+    return Tool(name, config.check.program(name), problem)
 
 
 def find_missing(tool: Tool) -> Diagnostic | None:
