@@ -3,7 +3,8 @@
 `--long` adds the tests that take more than a few seconds, as in CI. `--tests`, for a further Python, leaves out the
 linter, and the tests whose result does not depend on the Python. Two options check nothing: `--renew` writes the golden
 files anew, which templates and library write (tests/support/golden.py); `--map [ROOM]` prints what each module of
-urdfsync holds, by the first line of its docstring.
+urdfsync holds, by the first line of its docstring. `--windows FOLDER` runs tests
+with the Windows Python that FOLDER/python starts (support/windows.py), or those that further arguments of pytest name.
 """
 
 import ast
@@ -20,6 +21,7 @@ STATIC = {
     "lint": ["ruff", "check", "."],
     "format": ["ruff", "format", "--check", "."],
     "types": ["mypy"],
+    "types on Windows": ["mypy", "--platform", "win32", "urdfsync"],
     "imports": ["lint-imports", "--no-cache"],
 }
 EXAMPLES = {"examples in step": ["urdfsync", "build", "--check"]}
@@ -40,6 +42,11 @@ def main() -> int:
     environment |= COMPILER
     if "--map" in sys.argv:
         return print_map(*sys.argv[sys.argv.index("--map") + 1 :][:1])
+    if sys.argv[1:2] == ["--windows"]:
+        sys.path.insert(0, str(ROOT / "tests"))
+        from support import windows
+
+        return windows.run(Path(sys.argv[2]).resolve(), sys.argv[3:])
     given = [argument for argument in sys.argv[1:] if argument not in OPTIONS]
     if "--renew" in sys.argv:
         own = {"PYTHONPATH": str(ROOT / "tests")}

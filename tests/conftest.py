@@ -40,7 +40,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in a build: numpy's thr
 settings.register_profile("urdfsync", deadline=None, derandomize=not CASES, max_examples=max(40, CASES))
 settings.load_profile("urdfsync")
 
-_HOME = Path.home()
+_HOME, _TEMPORARY = Path.home(), Path(tempfile.gettempdir())
 _ALLOWED = {"__pycache__", ".hypothesis", ".pytest_cache", ".mypy_cache", ".ruff_cache", ".coverage", ".git"}
 _strays: list[str] = []
 
@@ -53,13 +53,36 @@ def _guard(kind: str, what: str) -> None:
     if place.is_relative_to(REPOSITORY):
         is_stray = not _ALLOWED & set(place.relative_to(REPOSITORY).parts)
     else:
-        inside = place.is_relative_to(_HOME) and _HOME.parent != _HOME
+        is_temporary = place.is_relative_to(_TEMPORARY)  # which is in the home folder on Windows
+        inside = place.is_relative_to(_HOME) and _HOME.parent != _HOME and not is_temporary
         is_stray = inside and place.relative_to(_HOME).parts[:1] not in ((".cache",), (".matplotlib",), (".config",))
     if is_stray:
         _strays.append(what)
 
 
 audit.listeners.append(_guard)
+
+if sys.platform == "win32":
+
+    def _skip(*_: object, **__: object) -> None:
+        """Skip a test that makes a link; pytest, which makes some of its own, does without."""
+        if not Path(sys._getframe(1).f_code.co_filename).is_relative_to(REPOSITORY):
+            raise OSError("no links")
+        pytest.skip("Windows makes symbolic links for administrators alone, and no pipes in folders")
+
+    @pytest.fixture(autouse=True)
+    def _no_pools(monkeypatch: pytest.MonkeyPatch) -> None:
+        """Wine loses the empty messages by which Python wakes a pool of processes: these would wait for ever."""
+        import ctypes
+
+        if hasattr(ctypes.windll.ntdll, "wine_get_version"):
+            monkeypatch.setattr("urdfsync.common.processes.machine.cores", lambda: 1)
+            monkeypatch.setattr("urdfsync.common.processes.workers.ProcessPoolExecutor", _no_pool)
+
+    def _no_pool(*_: object) -> None:
+        pytest.skip("Wine has no pools of processes")
+
+    Path.symlink_to = os.symlink = os.mkfifo = _skip  # type: ignore[method-assign]
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -358,6 +381,14 @@ def _is_same_with_every_python(item: pytest.Item) -> bool:
     needs = {"modelica_library", "corpus"} & set(getattr(item, "fixturenames", ()))
     is_random = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
     return bool(needs or is_random) and "analysis/checks/compilers" not in item.nodeid
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Skip what another system is needed for; the marker `posix` says why."""
+    if sys.platform == "win32" and (marker := item.get_closest_marker("posix")):
+        pytest.skip(f"not on Windows: {marker.args[0]}")
+    if sys.platform != "win32" and item.get_closest_marker("windows"):
+        pytest.skip("only on Windows: `python -m tests --windows FOLDER` runs it")
 
 
 def pytest_collection_finish() -> None:

@@ -21,7 +21,7 @@ from support.replay import contents
 from support.urdfs import joint, limit, link, robot
 
 from urdfsync.common.dependencies import localfile
-from urdfsync.common.files import digest, text_hash
+from urdfsync.common.files import text_hash
 from urdfsync.domain import Import
 from urdfsync.engine.actions import FileStatus, Reason
 from urdfsync.engine.build import build
@@ -170,8 +170,8 @@ def other_headings(record: Record, random: Random) -> Record:
 
 def invent_an_import(record: Record, _: Random) -> Record:
     file = ARM / "Resources/mine.csv"
-    entry = Import("Resources/mine.csv", "0" * 64, digest(file.read_bytes()), {})
-    files = {**record.files, file.as_posix(): digest(file.read_bytes())}
+    entry = Import("Resources/mine.csv", "0" * 64, text_hash(file.read_bytes()), {})
+    files = {**record.files, file.as_posix(): text_hash(file.read_bytes())}
     return msgspec.structs.replace(record, imports={"mine": entry}, files=files)
 
 

@@ -37,6 +37,7 @@ before is.
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 import shlex
 import shutil
@@ -124,7 +125,7 @@ class Scenario:
 
     def says(self, rest: str) -> None:
         text = rest.strip().removeprefix("! ").replace("@", f"{self._package}/")
-        is_printed = " ".join(text.split()) in self._printed.words
+        is_printed = " ".join(text.split()) in self._printed.words.replace(os.sep, "/")
         assert is_printed is not rest.strip().startswith("! "), "printed:" if is_printed else "not printed, but:"
 
     def again(self, _: str) -> None:
@@ -252,7 +253,7 @@ class Scenario:
         words = rest.split()
         dry = words[:1] == ["dry"]
         words = words[dry:]
-        found = {str(path): str(reason) for path, reason in kinds(run(dry=dry)).items()}
+        found = {Path(path).as_posix(): str(reason) for path, reason in kinds(run(dry=dry)).items()}
         expected = dict(zip(words[::2], words[1::2], strict=True))
         assert found == {self.path(path).as_posix(): reason for path, reason in expected.items()}
 

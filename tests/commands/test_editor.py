@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import tempfile
 from pathlib import Path
 
@@ -11,6 +13,7 @@ from support.files import unchanged
 from support.git import NEEDS_GIT
 from support.networks import FRESH, LADDER, MODEL, edit
 
+from urdfsync.common import system
 from urdfsync.modelica.stamp import split
 
 
@@ -25,7 +28,7 @@ def test_an_editor_makes_one_text_of_both(
     assert not list(tmp_path.glob("urdfsync-edit-*"))
 
 
-@pytest.mark.parametrize("left", ["", "os.mkfifo(file)"])
+@pytest.mark.parametrize("left", ["", pytest.param("os.mkfifo(file)", marks=pytest.mark.posix("a pipe in a folder"))])
 def test_an_editor_that_leaves_no_file_is_told(
     contradictory: Path, execute: Execute, editor: Editor, left: str
 ) -> None:
@@ -182,8 +185,8 @@ def test_no_folder_of_the_project_chooses_what_is_started(
 def test_a_command_that_cannot_be_read_is_no_bug(
     contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("VISUAL", "it's")
-    assert "`it's` is no command: no closing quotation" in execute("resolve", MODEL, "--edit", code=2).err
+    monkeypatch.setenv("VISUAL", 'it"s')
+    assert '`it"s` is no command: no closing quotation' in execute("resolve", MODEL, "--edit", code=2).err
 
 
 def test_what_an_edited_text_uses_stays(contradictory: Path, execute: Execute, editor: Editor) -> None:
@@ -192,3 +195,29 @@ def test_what_an_edited_text_uses_stays(contradictory: Path, execute: Execute, e
     assert "2 orphans kept because your files need them" in printed.words
     assert "Elements.R2 mine" in Path(MODEL).read_text()
     assert Path(LADDER, "Elements/R2.mo").exists()
+
+
+@pytest.mark.windows
+@pytest.mark.parametrize(("line", "words"), [
+    (r"C:\windows\notepad.exe", [r"C:\windows\notepad.exe"]),
+    (r'"C:\Program Files\Editor\editor.exe" -n', [r"C:\Program Files\Editor\editor.exe", "-n"]),
+    (r"code.cmd --wait", ["code.cmd", "--wait"]),
+])  # fmt: skip
+def test_backslashes_of_an_editor_stay(line: str, words: list[str]) -> None:
+    assert system.split_words(line) == words
+
+
+@pytest.mark.windows
+def test_an_editor_may_be_a_batch_file(
+    contradictory: Path, execute: Execute, editor: Editor, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    editor(SETTLE)
+    batch = tmp_path / "my editor" / "code.cmd"
+    batch.parent.mkdir()
+    batch.write_text(f'@"{sys.executable}" "{tmp_path / "editor.py"}" %1\n')
+    monkeypatch.setenv("PATH", f"{batch.parent}{os.pathsep}{os.environ['PATH']}")
+    for command in (f'"{batch}"', "code"):
+        monkeypatch.setenv("VISUAL", command)
+        execute("resolve", MODEL, "--edit")
+        assert 'Real mine "1 %";' in Path(MODEL).read_text()
+        execute("resolve", MODEL, "--undo", code=3)

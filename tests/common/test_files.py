@@ -44,7 +44,7 @@ def test_line_ends_make_no_difference_to_a_text() -> None:
 
 def test_a_file_is_written_as_a_whole_or_not_at_all(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     put(folder / "a", b"first")
-    monkeypatch.setattr(Path, "replace", mock.Mock(side_effect=PermissionError))
+    monkeypatch.setattr(os, "replace", mock.Mock(side_effect=PermissionError))
     with pytest.raises(PermissionError):
         put(folder / "a", b"second")
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == {"a": b"first"}

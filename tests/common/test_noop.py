@@ -280,7 +280,7 @@ def test_young_files_are_compared_by_content(folder: Path, path: str, monkeypatc
     now = time.time_ns()
     monkeypatch.setattr(facts, "YOUNG", 60_000_000_000)
     monkeypatch.setattr(
-        facts, "stat_of", lambda status: (status.st_mode, status.st_ino, status.st_dev, status.st_size, now, now)
+        facts, "stat_of", lambda status, *_: (status.st_mode, status.st_ino, status.st_dev, status.st_size, now, now)
     )
     for _ in range(2):  # the first one in a copy notes that it wrote this folder
         assert cli.main(BUILD) == 0

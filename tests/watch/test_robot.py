@@ -100,7 +100,7 @@ def test_a_young_file_changes_by_its_content(
     robot: WatchedRobot, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(facts, "YOUNG", 10**19)
-    monkeypatch.setattr(facts, "stat_of", lambda status: (status.st_mode, 0, 0, status.st_size, 1, 1))
+    monkeypatch.setattr(facts, "stat_of", lambda status, *_: (status.st_mode, 0, 0, status.st_size, 1, 1))
     robot.take(read(folder).entries, {})
     robot.look()
     assert not robot.has_changed

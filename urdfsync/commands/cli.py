@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, get_args
 
 from urdfsync.commands import arguments, overview
-from urdfsync.common import streams
+from urdfsync.common import streams, system
 from urdfsync.common.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.common.spelling import nearest
 from urdfsync.engine.result import Exit
@@ -110,15 +110,16 @@ def _command(given: Sequence[str]) -> str:
 
 @contextlib.contextmanager
 def _terminated_as_interrupted() -> Iterator[None]:
-    """Let SIGTERM end a command as Ctrl-C does, with clean-up; `watch` has handlers of its own."""
-    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
-        yield
-        return
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    """Let SIGTERM, or Ctrl-Break, end a command as Ctrl-C does, with clean-up; `watch` has handlers of its own."""
+    is_main = threading.current_thread() is threading.main_thread()
+    signals = [one for one in system.ending_signals() if is_main and signal.getsignal(one) == signal.SIG_DFL]
+    for number in signals:
+        signal.signal(number, signal.default_int_handler)
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        for number in signals:
+            signal.signal(number, signal.SIG_DFL)
 
 
 class _ProgramParser(arguments.CommandParser):

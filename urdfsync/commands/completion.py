@@ -18,7 +18,8 @@ def add(commands: arguments.Commands) -> None:
         help="print the script that completes commands in a shell",
         description="Print the script that completes commands, options, robots and joints in a shell.",
         epilog='examples: eval "$(urdfsync completion bash)"   # in ~/.bashrc; zsh in ~/.zshrc, below compinit\n'
-        "          urdfsync completion fish | source   # in ~/.config/fish/config.fish",
+        "          urdfsync completion fish | source   # in ~/.config/fish/config.fish\n"
+        "          urdfsync completion powershell | Out-String | Invoke-Expression   # in $PROFILE",
     )
     parser.add_argument("shell", choices=completion.SHELLS, help="the shell")
 

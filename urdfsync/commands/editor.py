@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import difflib
 import os
-import shlex
 import shutil
 import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
+from urdfsync.common import system
 from urdfsync.common.dependencies.facts import read_unrecorded
 from urdfsync.common.diagnostics import UrdfsyncError
 from urdfsync.engine.decide.conflicts import Conflict
@@ -33,7 +33,7 @@ def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[s
     """
     command = os.environ.get("VISUAL") or os.environ.get("EDITOR") or ""
     try:
-        words = shlex.split(command)
+        words = system.split_words(command)
     except ValueError as error:
         raise UrdfsyncError.of("no-editor", f"`{command}` is no command: {str(error).lower()}", hint=_HINT) from None
     if not words:
@@ -46,7 +46,7 @@ def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[s
         proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
         file.write_bytes(encode(proposal if edited is None else edited))
         try:  # not in the project's folder, where an editor may look for settings
-            code = subprocess.run([*words, str(file)], cwd=file.parent, check=False).returncode  # noqa: S603
+            code = subprocess.run(system.command([*words, str(file)]), cwd=file.parent, check=False).returncode  # noqa: S603
         except OSError as error:
             if not texts:  # nothing was edited
                 shutil.rmtree(folder)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
-import shlex
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
@@ -17,7 +16,7 @@ from pathlib import Path, PurePosixPath
 import msgspec
 
 from urdfsync.commands import arguments
-from urdfsync.common import noop
+from urdfsync.common import noop, system
 from urdfsync.common.dependencies.facts import LISTINGS, UNMERGED, VARIABLE, Entry, counting
 from urdfsync.common.dependencies.places import Clone
 from urdfsync.common.dependencies.reads import Reads
@@ -306,4 +305,4 @@ def _adding(paths: Collection[str], index: git.Index, folders: Sequence[str] = (
             names = names - inside | {folder.removesuffix("/")}
     # to git `:/` means the top, from any folder; after a second colon, a name may begin with a special sign
     from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
-    return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
+    return f"`{system.join_words(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"

@@ -7,7 +7,6 @@ import contextlib
 import json
 import os
 import re
-import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -16,6 +15,7 @@ import msgspec
 import tomli_w
 
 from urdfsync.commands import arguments, merge_driver
+from urdfsync.common import system
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.common.files import Tree, put, shown
 from urdfsync.domain import Domain, Version, registry
@@ -152,7 +152,7 @@ def _with_argument(finding: Diagnostic, command: str, source: Path, given: Mappi
     name = _names(next(iter(given.values()), "") or source.name.partition(".")[0])[0]
     unset = {one: name if one == "name" else "VALUE" for one in re.findall(r"`([^`]+)`", finding.message)}
     words = [str(source), *(f"{key}:={value}" for key, value in {**given, **unset}.items())]
-    return msgspec.structs.replace(finding, hint=f"run `urdfsync {command} {shlex.join(words)}`")
+    return msgspec.structs.replace(finding, hint=f"run `urdfsync {command} {system.join_words(words)}`")
 
 
 def _search(folder: Path, suffix: str) -> Iterator[Path]:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from urdfsync.watch.daemon import Daemon
 
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
-_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
+_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK", "SIGALRM")
 """Signals that end the daemon; the daemon's own timer sends the last one."""
 _TIMES = (
     ("settle", "MS", 500, "milliseconds without a change before a build"),
@@ -114,7 +114,7 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
 
     def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - as signal calls it
         received.append(signal.Signals(number).name)
-        if hasattr(signal, "setitimer"):  # without a timer, only a second signal ends the work
+        if sys.platform != "win32":  # without a timer, only a second signal ends the work
             signal.setitimer(signal.ITIMER_REAL, _GRACE, _GRACE)
         daemon.stop(received[0])
 
@@ -124,7 +124,7 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
     try:
         yield received
     finally:
-        if hasattr(signal, "setitimer"):
+        if sys.platform != "win32":
             signal.setitimer(signal.ITIMER_REAL, 0)
         for number, handler in before.items():
             signal.signal(number, handler)

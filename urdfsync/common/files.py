@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from urdfsync.common import system
 from urdfsync.common.dependencies.facts import Facts, read_unrecorded
 from urdfsync.common.dependencies.places import label
 from urdfsync.common.dependencies.reads import depend_on, file_type, read_file, read_stat, unrecorded, walk_files
@@ -26,6 +27,9 @@ _HINTS = {
     **dict.fromkeys((errno.EISDIR, errno.ENOTDIR, errno.EEXIST, errno.ENOTEMPTY), "move away what is in its place"),
     **dict.fromkeys((errno.ENAMETOOLONG, errno.EINVAL), "choose a shorter or plainer name for it"),
 }
+
+_LONGEST_PATH = 259
+"""The length of a path that each Windows allows."""
 
 
 def shown(path: str | Path) -> str:
@@ -54,18 +58,20 @@ def digest(content: bytes) -> str:
 
 
 def text_digest(content: bytes) -> str:
-    r"""Return the SHA-256 (hex) of a text file's bytes with `\r\n` and `\r` read as `\n`."""
+    r"""Return the SHA-256 (hex) of a file's bytes; in a text, `\r\n` and `\r` count as `\n`."""
     return digest(normalised(content))
 
 
 def text_hash(content: bytes) -> str:
-    """Return the hash of a text of a package: 16 digits, enough to tell the texts of one robot apart."""
+    """Return the hash of a file of a package: 16 digits, enough to tell the files of one robot apart."""
     return text_digest(content)[:16]
 
 
 def normalised(content: bytes) -> bytes:
-    r"""Return a text file's bytes with `\r\n` and `\r` as `\n`."""
-    return content.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in content else content
+    r"""Return a text's bytes with `\r\n` and `\r` as `\n`; a content with a NUL is no text, for git as well."""
+    if b"\r" not in content or b"\0" in content:
+        return content
+    return content.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
 
 
 def put(file: Path, content: bytes) -> None:
@@ -74,7 +80,7 @@ def put(file: Path, content: bytes) -> None:
     try:
         with temporary.open("xb") as new:  # follows no link in its place
             new.write(content)
-        temporary.replace(file)
+        system.replace(temporary, file)
     finally:
         with contextlib.suppress(OSError):  # the file may not exist
             temporary.unlink(missing_ok=True)
@@ -110,9 +116,22 @@ def templates_digest(folders: Sequence[Path]) -> str:
 
 def failure(error: OSError, path: str | Path, what: str = "it can't be written") -> OutputError:
     """Return an error of the system about a file or folder, with a hint."""
-    hint = "; ".join(filter(None, [_HINTS.get(error.errno or 0, ""), "then build again"]))
-    message = f"{what}: {error.strerror or error}"
+    hint = "; ".join(filter(None, [_hint(error, path), "then build again"]))
+    message = f"{what}: {reason(error, path)}"
     return OutputError.of("output-not-writable", message, shown(path), hint=hint)
+
+
+def reason(error: OSError, path: str | Path) -> str:
+    """Return why a file can't be read or written, in words."""
+    if system.is_held(error):
+        return f"{system.find_holder(str(path)) or 'another program'} has it open"
+    return error.strerror or str(error)
+
+
+def _hint(error: OSError, path: str | Path) -> str:
+    if system.IS_WINDOWS and len(str(path)) > _LONGEST_PATH:
+        return "choose shorter names, or allow long paths in Windows (LongPathsEnabled)"
+    return "close it there" if system.is_held(error) else _HINTS.get(error.errno or 0, "")
 
 
 def kind_of(mode: int) -> str:
@@ -164,8 +183,9 @@ class Tree:
         except (FileNotFoundError, NotADirectoryError):
             return None  # somebody deleted the file meanwhile
         except OSError as error:
-            hint = _HINTS.get(error.errno or 0, "")
-            raise _refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None
+            raise _refusal(
+                "output-unreadable", path, f"it can't be read: {reason(error, path)}", _hint(error, path)
+            ) from None
         message = f"{kind_of(mode)} is where urdfsync would write a file"
         raise _refusal("output-in-the-way", path, message, "move it away")
 

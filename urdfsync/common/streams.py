@@ -6,6 +6,7 @@ command finishes its work, and reports the fault at its end.
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 import sys
@@ -15,6 +16,23 @@ if TYPE_CHECKING:
     from typing import IO, Any, TextIO
 
 
+_FALLBACK = "urdfsync"
+_PLAIN = {"→": "->", "…": "...", "·": "|", "²": "^2", "³": "^3", "×": "x", "°": " deg", "±": "+-", "−": "-", "─": "-"}
+"""What an encoding may lack, and what stands for it: those of Windows' pipes lack `→`."""
+
+
+def _spell_out(error: UnicodeError) -> tuple[str, int]:
+    """Return plain signs for characters that an encoding lacks, else their numbers; and where to go on."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    signs = error.object[error.start : error.end]
+    plain = (_PLAIN.get(sign) or sign.encode("ascii", "backslashreplace").decode() for sign in signs)
+    return "".join(plain), error.end
+
+
+codecs.register_error(_FALLBACK, _spell_out)
+
+
 class Stream:
     """A text stream that drops texts that it can't write; `error` is the first failure, None without one."""
 
@@ -22,7 +40,9 @@ class Stream:
         self._inner = inner
         self.error: OSError | None = None
         if hasattr(inner, "reconfigure"):
-            inner.reconfigure(errors="backslashreplace")
+            inner.reconfigure(errors=_FALLBACK)
+            if sys.platform == "win32" and not inner.isatty():
+                inner.reconfigure(newline="\n")  # a shell or a program reads it: bash refuses `\r`
 
     def write(self, text: str) -> int:
         """Write `text` unless an earlier write failed. Returns its length, even if it is dropped."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from urdfsync.common import system
 from urdfsync.common.spelling import counted
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.decide.conflicts import Conflict
@@ -163,7 +163,7 @@ def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
     """Yield the difference of two texts, in git's form."""
-    import difflib  # takes 1 ms, as shlex below, and few builds have conflicts
+    import difflib  # takes 1 ms, and few builds have conflicts
 
     texts = _split_lines(old), _split_lines(new)
     for text in difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT):
@@ -186,11 +186,7 @@ def _text_line(text: str, style: str) -> StyledLine:
 def _command(arguments: Sequence[str], console: Console) -> str:
     """Return a command line to copy."""
     command = ["urdfsync", *arguments, *(["--config", console.config] if console.config else [])]
-    if os.name == "nt":
-        return " ".join(f'"{argument}"' if " " in argument else argument for argument in command)
-    import shlex
-
-    return shlex.join(command)
+    return system.join_words(command)
 
 
 def _sentence(clause: str) -> str:

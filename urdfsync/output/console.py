@@ -218,7 +218,7 @@ class Console:
             self.count_robots()
             self.findings(diagnostics)
             return code
-        sys.stdout.write(self._document(code, (*self._warnings, *diagnostics)))
+        self.write(self._document(code, (*self._warnings, *diagnostics)).encode(errors="backslashreplace"))
         return code
 
     def count_robots(self) -> None:

@@ -7,13 +7,17 @@ fields. `urdfsync schema` prints schemas of the same types, with the docstrings 
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
 
 from urdfsync.common.diagnostics import Diagnostic
 
+_PATHS = ("against", "file", "folder", "source")
+"""The fields with texts of paths."""
 JSON_VERSION: Literal[3] = 3
 """Version of the JSON documents and events; the number grows if a key is removed or changes its meaning."""
 
@@ -35,7 +39,8 @@ def plain(value: Any) -> Any:
     """Return a value as plain data; infinity and NaN become None."""
     match value:
         case msgspec.Struct():
-            return {name: plain(getattr(value, name)) for name in document_keys(type(value))}
+            fields = ((name, getattr(value, name)) for name in document_keys(type(value)))
+            return {name: plain(with_slashes(field) if name in _PATHS else field) for name, field in fields}
         case Mapping():
             return {str(key): plain(item) for key, item in value.items()}
         case list() | tuple():
@@ -44,7 +49,12 @@ def plain(value: Any) -> Any:
             return value if math.isfinite(value) else None
         case str() | int() | None:
             return value
-    return str(value)  # of a path
+    return Path(value).as_posix()
+
+
+def with_slashes(path: Any) -> Any:
+    """Return the text of a path as it is on each system; other values, such as lists of files, as they are."""
+    return path.replace(os.sep, "/") if isinstance(path, str) else path
 
 
 def document_keys(kind: type[msgspec.Struct]) -> Sequence[str]:

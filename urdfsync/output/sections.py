@@ -10,6 +10,7 @@ import msgspec
 
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.output.console import StyledLine
+from urdfsync.output.documents import with_slashes
 
 
 class Mark(enum.StrEnum):
@@ -70,7 +71,7 @@ def findings_table(findings: Sequence[Diagnostic]) -> TextTable:
     rows = [
         (
             f"{_SEVERITIES[finding.severity]}{finding.severity}",
-            ":".join([finding.file, *(str(number) for number in (finding.line,) if number)]),
+            ":".join([with_slashes(finding.file), *(str(number) for number in (finding.line,) if number)]),
             finding.sentence,
             finding.code,
         )

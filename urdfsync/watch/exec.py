@@ -69,7 +69,13 @@ class CommandRunner:
         text = "\n".join(map(str, files))
         if len(os.fsencode(text)) > _MAX_VARIABLE:
             text = str(robot.folder)
-        names = {"URDFSYNC_ROBOT": robot.name, "URDFSYNC_PACKAGE": robot.target.package, "URDFSYNC_FILES": text}
+        # without the last one, `cmd` looks for programs in the working folder first
+        names = {
+            "URDFSYNC_ROBOT": robot.name,
+            "URDFSYNC_PACKAGE": robot.target.package,
+            "URDFSYNC_FILES": text,
+            "NoDefaultCurrentDirectoryInExePath": "1",
+        }
         try:
             code = subprocess.run(  # noqa: S602 - the user gives a shell command
                 self._command,

@@ -20,7 +20,7 @@ from typing import IO, Any, TypeVar
 import msgspec
 import psutil
 
-from urdfsync.common import processes
+from urdfsync.common import processes, system
 from urdfsync.common.diagnostics import UrdfsyncError
 
 T = TypeVar("T")
@@ -112,7 +112,7 @@ def run(
             env={**os.environ, **processes.importable(), **(environment or {})},
             # An interruption from the keyboard is for the command, which ends this process. In a session of its own
             # the user's `nice` would have no effect: Linux schedules sessions as groups.
-            process_group=0,
+            **system.own_group(),
         ) as process:
             try:
                 if process.stdin is not None:
@@ -129,7 +129,7 @@ def run(
         take(answers)
         if results and isinstance(results[-1], Exception):
             raise results[-1]
-        if process.returncode == -getattr(signal, "SIGPROF", 0) != 0:  # on a busy machine, before we have looked
+        if processes.is_out_of_time(process.returncode):  # on a busy machine, before we have looked
             raise _out_of_time(limits)
         if process.returncode or not results or results[-1] is not None:
             errors.seek(0)

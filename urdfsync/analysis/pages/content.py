@@ -27,6 +27,7 @@ from urdfsync.engine.package.generate import Package
 from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
 from urdfsync.engine.stage.writes import draw_model
+from urdfsync.output.documents import with_slashes
 from urdfsync.output.outline import number_table, outline
 from urdfsync.output.sections import Section, TextTable
 from urdfsync.project.config import Config, RobotConfig
@@ -189,5 +190,5 @@ def _files(package: Package, robot: RobotConfig) -> dict[str, list[str]]:
     files = dict[str, list[str]]()
     for path, artifact in package.artifacts.items():
         name = shown(robot.folder / path).encode("utf-8", "replace").decode()  # names of folders may have any bytes
-        files.setdefault(artifact.owner, []).append(name)
+        files.setdefault(artifact.owner, []).append(with_slashes(name))
     return files

@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
-import shlex
 import tempfile
 import threading
 import time
@@ -35,6 +34,7 @@ from urdfsync.analysis.simulation.package import Prepared, check_compiled, prepa
 from urdfsync.analysis.simulation.results import TOLERANCE, VaryOptions
 from urdfsync.analysis.simulation.run import simulation_task
 from urdfsync.analysis.simulation.values import read_values
+from urdfsync.common import system
 from urdfsync.common.diagnostics import ConfigError
 from urdfsync.common.files import shown
 from urdfsync.common.processes import machine
@@ -198,7 +198,7 @@ def _command(config: Config, robot: RobotConfig, options: VaryOptions) -> str:
     words += ["--tool", options.tool.name] if options.tool.name != Tool().name else []
     words += ["--input", str(options.motion)] if options.motion else []
     words += [word for value in options.values for word in ("--set", value)]
-    return shlex.join(words)
+    return system.join_words(words)
 
 
 def _run_all(

@@ -8,12 +8,11 @@ empty. Names with special characters of shells are left out: a stranger may have
 from __future__ import annotations
 
 import os
-import sys
 
-from urdfsync.common import noop
+from urdfsync.common import noop, streams
 from urdfsync.common.dependencies.facts import read_unrecorded
 
-SHELLS = ("bash", "zsh", "fish")
+SHELLS = ("bash", "zsh", "fish", "powershell")
 _SHELLS = os.path.dirname(__file__)
 _STATE = ".urdfsync/robots"
 _LARGEST = 500_000
@@ -28,9 +27,13 @@ def answer(arguments: list[str]) -> bool:
     if not arguments or arguments[0] not in SHELLS or arguments[1:2] not in ([], ["--"]):
         return False
     if len(arguments) == 1:
-        sys.stdout.write(read_unrecorded(f"{_SHELLS}/completion.{arguments[0]}").decode())
+        text = read_unrecorded(f"{_SHELLS}/completion.{arguments[0]}").decode()
     else:
-        sys.stdout.writelines(f"{name}\t{meaning}".rstrip() + "\n" for name, meaning in complete(arguments[2:]))
+        # PowerShell before version 7.3 drops empty words, so its script puts a dot before each
+        words = [word[arguments[0] == "powershell" :] for word in arguments[2:]]
+        text = "".join(f"{name}\t{meaning}".rstrip() + "\n" for name, meaning in complete(words))
+    with streams.SafeStreams() as output:  # on Windows, too, a shell gets lines without `\r`
+        output.write(text)
     return True
 
 

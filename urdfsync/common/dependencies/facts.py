@@ -70,17 +70,18 @@ def look(kind: str, path: str | os.PathLike[str]) -> Facts:
 def _path_facts(path: str | os.PathLike[str]) -> Facts:
     status = os.lstat(place(path))
     if stat.S_ISREG(status.st_mode):
-        return stat_of(status)
+        return stat_of(status, place(path))
     if not stat.S_ISLNK(status.st_mode):
         return (stat.S_IFMT(status.st_mode),)  # the times of a folder change with each file in it
     try:
         target = os.stat(place(path))
     except OSError as error:
         if error.errno in _ABSENT:
-            return (*stat_of(status), 0)
+            return (*stat_of(status, place(path)), 0)
         raise
     is_file = stat.S_ISREG(target.st_mode)
-    return (*stat_of(status), *(stat_of(target) if is_file else (stat.S_IFMT(target.st_mode),)))
+    facts = stat_of(target, place(path), follow=True) if is_file else (stat.S_IFMT(target.st_mode),)
+    return (*stat_of(status, place(path)), *facts)
 
 
 def is_young(facts: Facts, now: int) -> bool:
@@ -115,9 +116,14 @@ def aged(known: Dependencies, now: int) -> Dependencies:
     return {entry: fact for entry, fact in known.items() if entry[0] != CONTENT}
 
 
-def stat_of(status: os.stat_result) -> Stat:
-    """Return the stat values that differ after a change."""
-    return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+def stat_of(status: os.stat_result, path: str, *, follow: bool = False) -> Stat:
+    """Return the stat values of a path that differ after a change; with `follow` those of a link's target."""
+    changed = status.st_ctime_ns
+    if os.name == "nt":
+        from urdfsync.common.system import change_time  # a no-op build on other systems saves this import
+
+        changed = change_time(path, status, follow=follow)
+    return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, changed
 
 
 def scan(kind: str, folder: str | os.PathLike[str]) -> tuple[list[os.DirEntry[str]], Facts]:
@@ -210,6 +216,10 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
 def _open(path: str, flags: int) -> int:
     """Open a file; opening a pipe waits for no writer. Raises OSError."""
     try:
+        if os.name == "nt":
+            from urdfsync.common.system import open_file  # likewise
+
+            return open_file(place(path), flags)
         return os.open(place(path), flags | _NONBLOCK)
     except OSError as error:
         error.filename = path

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import stat
 
-from urdfsync.common.dependencies.facts import MAX_FILE
+from urdfsync.common.dependencies.facts import MAX_FILE, stat_of
 
 _READ = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
@@ -16,6 +16,10 @@ _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | 
 _AGE = 10_000_000_000
 """Nanoseconds by which a file is dated back: then its last change of status (`st_ctime`) is later, unless the file
 system lets users set this time, too, as FAT and sshfs."""
+
+
+_COARSEST = 2_000_000_000
+"""The steps (ns) of the coarsest clock, that of FAT."""
 
 
 def _first_line(inode: int, time: int) -> bytes:
@@ -42,6 +46,7 @@ def write(path: str | os.PathLike[str], content: bytes) -> None:
     try:
         status = os.fstat(descriptor)
         time = status.st_mtime_ns - _AGE
+        time -= time % _COARSEST  # the time that is read later is that of the first line
         content = _first_line(status.st_ino, time) + content
         while content:
             content = content[os.write(descriptor, content) :]
@@ -67,8 +72,8 @@ def replace(path: str, content: bytes, *, needs_times: bool = False) -> None:
         if os.path.lexists(temporary):
             os.unlink(temporary)  # a killed process left this file
         write(temporary, content)
-        status = os.lstat(temporary)
-        if needs_times and (os.name == "nt" or status.st_ctime_ns <= status.st_mtime_ns):
+        *_, written, changed = stat_of(os.lstat(temporary), temporary)
+        if needs_times and changed <= written:
             os.unlink(temporary)
         else:
             os.replace(temporary, path)

@@ -79,4 +79,6 @@ def _files(*places: str) -> Iterator[str]:
 
 def user() -> str:
     """Return the identity of the user: another user may not be able to read the same files."""
-    return repr((os.geteuid(), os.getegid(), *sorted(os.getgroups()))) if hasattr(os, "geteuid") else ""
+    if sys.platform == "win32":
+        return ""
+    return repr((os.geteuid(), os.getegid(), *sorted(os.getgroups())))

@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO
 
+from urdfsync.common import system
+
 if sys.platform != "win32":
     import resource
 
@@ -52,6 +54,13 @@ def end_with_parent(read: Callable[[], object]) -> None:
     threading.Thread(target=wait, name="end-with-parent", daemon=True).start()
 
 
+def is_out_of_time(code: int) -> bool:
+    """Return whether a process ended with this exit code since its time was over (see `limits`)."""
+    if sys.platform == "win32":
+        return code == system.OUT_OF_TIME
+    return code == -signal.SIGPROF
+
+
 def exit_cause(code: int) -> str:
     """Return the exit code of a process in words: `exit code 3`, `signal 11 (SIGSEGV)`."""
     if code >= 0xC0000000:  # Windows
@@ -66,22 +75,26 @@ def exit_cause(code: int) -> str:
 def limits(seconds: float, memory: int, largest: int = 0) -> Iterator[None]:
     """Limit CPU time (s), memory (bytes, on Linux) and written files (bytes of each) of this process.
 
-    SIGPROF ends the process when its time is over. Load libraries before. Windows has no such limits.
+    SIGPROF, or a job object on Windows, ends the process when its time is over. Load libraries before.
     """
     if sys.platform == "win32":
-        yield
-        return
-    kinds = {resource.RLIMIT_FSIZE: largest, resource.RLIMIT_CORE: 0}
-    if sys.platform == "linux":  # macOS accepts this limit but does not enforce it
-        kinds[resource.RLIMIT_DATA] = memory
-    before = {kind: resource.getrlimit(kind) for kind in kinds}
-    for kind, limit in kinds.items():
-        resource.setrlimit(kind, (limit, before[kind][1]))
-    # RLIMIT_CPU has whole seconds and counts all earlier work
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        for kind, both in before.items():
-            resource.setrlimit(kind, both)
+        system.limit_process(seconds, memory)
+        try:
+            yield
+        finally:
+            system.limit_process(0, 0)
+    else:
+        kinds = {resource.RLIMIT_FSIZE: largest, resource.RLIMIT_CORE: 0}
+        if sys.platform == "linux":  # macOS accepts this limit but does not enforce it
+            kinds[resource.RLIMIT_DATA] = memory
+        before = {kind: resource.getrlimit(kind) for kind in kinds}
+        for kind, limit in kinds.items():
+            resource.setrlimit(kind, (limit, before[kind][1]))
+        # RLIMIT_CPU has whole seconds and counts all earlier work
+        signal.setitimer(signal.ITIMER_PROF, seconds)
+        try:
+            yield
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0)
+            for kind, both in before.items():
+                resource.setrlimit(kind, both)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
-import signal
 import subprocess
 import sys
 import threading
@@ -14,7 +13,8 @@ from typing import IO, Any, cast
 
 import msgspec
 
-from urdfsync.common.processes import importable, reserve_stdout
+from urdfsync.common import system
+from urdfsync.common.processes import importable, is_out_of_time, reserve_stdout
 
 _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
@@ -57,19 +57,24 @@ class LimitedProcess:
         """
         with self._lock:
             process = self._process = self._process or self._start()
-            timer = threading.Timer(wall_seconds, process.kill)
+            is_late = threading.Event()
+
+            def end_late() -> None:
+                is_late.set()
+                process.kill()
+
+            timer = threading.Timer(wall_seconds, end_late)
             timer.start()
             try:
                 answer, files = _exchange(process, request, contents)
                 if answer.is_last:
                     self.end()
             except (OSError, ValueError) as error:  # the process has ended, or the answer is invalid
-                limits = {signal.SIGKILL: wall_seconds, getattr(signal, "SIGPROF", None): seconds}
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     process.wait(1)  # it may end a moment after its pipes
-                limit = limits.get(-(process.returncode or 0))
+                limit = wall_seconds if is_late.is_set() else seconds if is_out_of_time(process.returncode or 0) else 0
                 self.end()
-                if limit is None:
+                if not limit:
                     raise ValueError("the process that reads the file fails") from error
                 raise TimeoutError(f"reading the file takes more than {limit:g} s") from error
             except BaseException:  # after an interruption, the pipe may hold half an answer
@@ -98,7 +103,7 @@ class LimitedProcess:
             stderr=subprocess.DEVNULL,
             # threads need memory; libraries use deprecated parts of numpy
             env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1", "PYTHONWARNINGS": "ignore", **variables},
-            process_group=0,  # Ctrl-C reaches only the waiting program, which ends the process
+            **system.own_group(),  # Ctrl-C reaches only the waiting program, which ends the process
         )
 
 

@@ -9,7 +9,6 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, wait
 from concurrent.futures.process import ProcessPoolExecutor
 from multiprocessing import get_context
-from multiprocessing.connection import Connection
 from multiprocessing.queues import SimpleQueue
 from signal import SIG_IGN, SIGINT, signal
 from types import ModuleType
@@ -121,10 +120,10 @@ def _safe_path() -> Iterator[None]:
             os.environ["PYTHONSAFEPATH"] = before
 
 
-def _begin(folder: str, end: Connection, steps: SimpleQueue[str]) -> None:
+def _begin(folder: str, end: Any, steps: SimpleQueue[str]) -> None:
     """Prepare a process, which ends when the command ends or closes its pipe; Ctrl-C does not end the process.
 
-    Files in diagnostics are relative to `folder`.
+    Files in diagnostics are relative to `folder`. `end` is a connection, of another type on each system.
     """
     global _steps
     os.chdir(folder)

@@ -202,12 +202,10 @@ class PackageFiles:
         self._states[path] = state
         return state
 
-    def hash(self, key: str, role: Role) -> str | None:
-        """Return the hash of an imported file's bytes, or of any other file's text; None without a file."""
+    def hash(self, key: str, role: Role) -> str | None:  # noqa: ARG002 - of files of each role alike
+        """Return the hash of a file, whatever its line ends (see `files.text_hash`); None without a file."""
         state = self.state(key)
-        if state is None:
-            return None
-        return state.sha256 if role is Role.IMPORT else state.text_sha256
+        return None if state is None else state.text_sha256
 
     def on_disk(self, key: str, role: Role) -> OnDisk:
         """Return the hash of a file, or CLASS_FOLDER if its class is a folder; None without both."""
@@ -290,7 +288,7 @@ def _state_of(content: bytes) -> FileState:
     if b"__urdfsync" in content:
         text, stamp = split(normalised(content).decode(errors="surrogateescape"))
         return FileState(sha256, text_hash(text), stamp)
-    return FileState(sha256, files.text_hash(content) if b"\r" in content else sha256[:16])
+    return FileState(sha256, sha256[:16] if normalised(content) is content else files.text_hash(content))
 
 
 def text_hash(text: str) -> str:

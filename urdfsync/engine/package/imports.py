@@ -18,7 +18,7 @@ from urdfsync.common.dependencies.facts import MAX_FILE
 from urdfsync.common.dependencies.places import place
 from urdfsync.common.dependencies.reads import file_type, read_file
 from urdfsync.common.diagnostics import Diagnostic, Severity, SourceError, StateError
-from urdfsync.common.files import digest, shown
+from urdfsync.common.files import digest, normalised, shown, text_hash
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources import ros_packages
@@ -54,7 +54,7 @@ class RecordedFile(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def hash(self) -> str:
         """The hash of the copy; empty if there is none."""
-        return "" if self.copy is None else digest(self.copy)
+        return "" if self.copy is None else text_hash(self.copy)
 
     @property
     def is_intact(self) -> bool:
@@ -163,7 +163,7 @@ class _Importer(msgspec.Struct):
             return Diagnostic(Severity.WARNING, code, message, *place, hint=hint)
         path, text = content
         others = _read_mentioned(self.domain, dependency, path, text)
-        sha256 = digest(b"".join((text, *others.values())))
+        sha256 = digest(b"".join(map(normalised, (text, *others.values()))))  # git may change the line ends
         own = self.recorded.get(dependency.key)
         # copies in a former folder may be the user's files: do not use these
         if own and own.entry.source_hash == sha256 and not (self.is_full or self.has_moved):
@@ -183,7 +183,7 @@ class _Importer(msgspec.Struct):
             return Diagnostic(Severity.WARNING, code, found.message, *place, hint=found.hint)
         for (key, target), part in zip(places_of(dependency), (conversion, *conversion.more), strict=False):
             names = (*others,) if part is conversion else ()
-            self.result.add(key, Import(target, sha256, digest(part.content), part.facts, names), part.content)
+            self.result.add(key, Import(target, sha256, text_hash(part.content), part.facts, names), part.content)
             self.result.converted.add(key)
         return None
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import re
-import shlex
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -16,11 +15,12 @@ from typing import Any
 
 import msgspec
 
+from urdfsync.common import system
 from urdfsync.common.dependencies.places import label
 from urdfsync.common.dependencies.reads import read_file, read_variable
 from urdfsync.common.diagnostics import SourceError
 from urdfsync.common.files import digest, shown, text_digest
-from urdfsync.common.processes import exit_cause, importable, python_module
+from urdfsync.common.processes import exit_cause, importable, is_out_of_time, python_module
 from urdfsync.domain import Translator
 from urdfsync.engine.sources import ros_packages
 from urdfsync.engine.sources.exchange import Answer, Request, fault, not_unicode
@@ -203,14 +203,14 @@ def _ask(translator: Translator, inputs: SourceFiles, arguments: Mapping[str, st
             capture_output=True,
             timeout=WALL_SECONDS,
             env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # the text is the same each time
-            process_group=0,  # Ctrl-C must reach only this process, which then ends the worker
+            **system.own_group(),  # Ctrl-C must reach only this process, which then ends the worker
             check=False,
         )
         return msgspec.json.decode(done.stdout, type=Answer)
     except subprocess.TimeoutExpired:
         return limits
     except msgspec.DecodeError:  # the process ended too early
-        if done.returncode < 0:
+        if done.returncode < 0 or is_out_of_time(done.returncode):
             return limits
         words = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
         return Answer(problem=fault(translator.name, ": ".join([exit_cause(done.returncode), *words])))
@@ -220,7 +220,7 @@ def run_command(config: Config, robot: RobotConfig) -> None:
     """Run a robot's command, which writes the source, in the configuration's folder. Raises SourceError if it fails."""
     try:
         done = subprocess.run(  # noqa: S603 - the user has trusted this configuration
-            robot.command,
+            system.command(robot.command, config.root),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -237,6 +237,6 @@ def run_command(config: Config, robot: RobotConfig) -> None:
     except OSError as error:
         reason = error.strerror or str(error)
     if reason:
-        message = f"robot `{robot.name}`: the command `{shlex.join(robot.command)}` failed: {reason}"
+        message = f"robot `{robot.name}`: the command `{system.join_words(robot.command)}` failed: {reason}"
         place, hint = (shown(config.file), robot.lines.get("command", 0)), "correct it, then build again"
         raise SourceError.of("command", message, *place, hint=hint)

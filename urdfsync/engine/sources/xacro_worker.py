@@ -266,16 +266,15 @@ def _raise_at_limit(seconds: float) -> None:
 
     Python can't raise this error within native code: there, `limits` ends the process a little later.
     """
-    if sys.platform == "win32":
-        return
 
     def stop(*_: object) -> None:
         raise TimeLimitError
 
-    signal.signal(signal.SIGPROF, stop)
-    end, hardest = math.ceil(time.process_time() + seconds) + _GRACE, resource.getrlimit(resource.RLIMIT_CPU)[1]
-    if hardest == resource.RLIM_INFINITY or end < hardest:
-        resource.setrlimit(resource.RLIMIT_CPU, (end, hardest))
+    if sys.platform != "win32":
+        signal.signal(signal.SIGPROF, stop)
+        end, hardest = math.ceil(time.process_time() + seconds) + _GRACE, resource.getrlimit(resource.RLIMIT_CPU)[1]
+        if hardest == resource.RLIM_INFINITY or end < hardest:
+            resource.setrlimit(resource.RLIMIT_CPU, (end, hardest))
 
 
 def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.common import system
 from urdfsync.common.dependencies import reads
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.common.files import shown
@@ -36,9 +37,7 @@ def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | N
 
     Raises ConfigError if this file can't be read.
     """
-    import shlex  # takes 2 ms, and few robots have a command
-
-    message = f"robot `{robot.name}`: its `command` was not run: {shlex.join(robot.command)}"
+    message = f"robot `{robot.name}`: its `command` was not run: {system.join_words(robot.command)}"
     return _find_untrusted(config, message, robot.lines.get("command", 0), "untrusted-command")
 
 

@@ -28,7 +28,8 @@ class Repository:
     def __init__(self) -> None:
         """Raises GitError if there is no working tree of a repository."""
         words = "--show-toplevel", "--absolute-git-dir", "--git-path", "index", "--git-path", "objects"
-        self.top, self.folder, *paths = run("rev-parse", *words).removesuffix("\n").split("\n")
+        lines = run("rev-parse", *words).removesuffix("\n").split("\n")
+        self.top, self.folder, *paths = map(os.path.normpath, lines)  # git writes `C:/folder`
         here = os.getcwd() if "GIT_DIR" in os.environ else find_top(os.curdir) or ""
         self.index, self.objects = (os.path.realpath(os.path.join(here, path)) for path in paths)
 
@@ -92,9 +93,11 @@ def run(*arguments: str, clone: str | None = None, **given: str) -> str:
     variables |= given if clone is None else {"GIT_DIR": f"{clone}/.git", "GIT_WORK_TREE": clone} | given
     import subprocess  # takes 5 ms, which most builds save: they run nothing
 
+    from urdfsync.common import system
+
     command = ["git", *_SETTINGS, *(() if clone is None else _CLONE), *arguments]
     try:
-        done = subprocess.run(command, cwd=top, capture_output=True, env=variables, check=False)  # noqa: S603
+        done = subprocess.run(system.command(command), cwd=top, capture_output=True, env=variables, check=False)  # noqa: S603
     except OSError as error:
         raise GitError(f"git can't be started: {error.strerror}") from None
     if done.returncode:

@@ -16,6 +16,8 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from urdfsync.common import system
+
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _FEW = 32
 """The greatest number of files that are synced one by one. With 400 files, syncing the machine is ten times faster."""
@@ -50,7 +52,7 @@ def read(path: str | Path) -> bytes | None:
     try:
         if not stat.S_ISREG(os.lstat(path).st_mode):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-        with open(path, "rb") as file:
+        with open(path, "rb", opener=system.open_file) as file:
             return file.read()
     except (FileNotFoundError, NotADirectoryError):
         return None
@@ -66,6 +68,8 @@ def write(path: str | Path, content: bytes, like: str | Path | None) -> None:
             with contextlib.suppress(FileNotFoundError):
                 mode = stat.S_IMODE(os.lstat(like).st_mode)
                 os.chmod(descriptor if os.chmod in os.supports_fd else path, mode)
+        if system.IS_WINDOWS:  # which has no `os.sync`, and opens no read-only file to sync it
+            os.fsync(descriptor)
     finally:
         os.close(descriptor)
 
@@ -94,11 +98,14 @@ def spare(path: str | Path) -> str:
 
 def replace(path: str | Path, target: str | Path) -> None:
     """Move a file to another name in its folder; replace a file of this name."""
-    os.replace(path, target)
+    system.replace(path, target)
 
 
 def place(path: str | Path, target: str | Path) -> None:
     """Move a file to a free name of its folder. Raises FileExistsError if the name is not free."""
+    if system.IS_WINDOWS:
+        system.patiently(lambda: os.rename(path, target))  # replaces nothing there
+        return
     if rename(path, target, _NOREPLACE):
         return
     try:
@@ -116,18 +123,18 @@ def place(path: str | Path, target: str | Path) -> None:
 def remove(path: str | Path) -> None:
     """Remove a file, if it exists."""
     with contextlib.suppress(FileNotFoundError, NotADirectoryError):
-        os.unlink(path)
+        system.unlink(path)
 
 
 def sync(paths: Sequence[str | Path]) -> None:
     """Write files and folders from the system's cache to the disk, so that they survive a power failure."""
-    if len(paths) > _FEW and hasattr(os, "sync"):
+    if sys.platform == "win32":  # `write` has synced the files, and Windows writes the entries of folders without this
+        return
+    if len(paths) > _FEW:
         os.sync()
         return
     for path in paths:
-        if os.name == "nt" and os.path.isdir(path):
-            continue  # Windows can't open a folder, and writes its entries without this
-        descriptor = os.open(path, os.O_RDWR if os.name == "nt" else os.O_RDONLY)
+        descriptor = os.open(path, os.O_RDONLY)
         try:
             os.fsync(descriptor)
         finally:

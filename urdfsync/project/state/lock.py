@@ -19,11 +19,13 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-_FLAGS = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+_FLAGS = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 _LEAST_WAIT = 0.2
 """The least seconds to try: another program may delete the lock file during the first attempt."""
 _PAUSE = 0.05
 """Seconds between two attempts."""
+_LOCKED_BYTE = 1_000_000
+"""The place that Windows locks: behind the number of the process, which everybody may read."""
 
 
 class LockedError(UrdfsyncError):
@@ -104,10 +106,13 @@ def _lock(file: Path) -> int | None:
     descriptor = os.open(file, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
     with contextlib.ExitStack() as stack:
         stack.callback(os.close, descriptor)
-        # on Windows, opening a held lock raises PermissionError
-        with contextlib.suppress(BlockingIOError, PermissionError, FileNotFoundError):
+        with contextlib.suppress(BlockingIOError, FileNotFoundError):
             if sys.platform == "win32":
-                msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+                os.lseek(descriptor, _LOCKED_BYTE, os.SEEK_SET)
+                try:
+                    msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+                except OSError:  # its number has no meaning: it is that of a denied access, or of no error
+                    return None
             else:
                 fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if os.path.samestat(os.fstat(descriptor), os.lstat(file)):  # otherwise the file was replaced meanwhile

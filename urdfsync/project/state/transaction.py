@@ -26,8 +26,9 @@ from typing import NamedTuple
 
 import msgspec
 
+from urdfsync.common import system
 from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.common.files import TEMPORARY, Tree, digest, failure, shown
+from urdfsync.common.files import TEMPORARY, Tree, digest, failure, reason, shown
 from urdfsync.common.spelling import counted
 from urdfsync.project.state import file_operations
 
@@ -109,6 +110,7 @@ class Transactions:
         self._check(folders)
         made = self._missing_folders(changes)
         try:
+            system.check_unheld(target.path for target in targets if target.old)
             _prepare(targets, changes, made)
             overtaken = _first_saved(one for one in targets[:first] if not one.change())
             if overtaken is None:
@@ -133,7 +135,7 @@ class Transactions:
             done = sum(_hash(one.path) == one.new for one in targets) + sum(move.is_done() for move in moves)
             if not done:
                 raise failure(error, place) from None
-            message = f"{done} of {counted(len(targets), 'file')} are written, then: {error.strerror or error}"
+            message = f"{done} of {counted(len(targets), 'file')} are written, then: {reason(error, place)}"
             hint = "correct this, then build again: the next build writes the rest"
             raise OutputError.of(UNFINISHED, message, shown(place), hint=hint) from error
         return Applied(overtaken, tuple(notes), {target.path: target.new for target in targets})

@@ -286,12 +286,13 @@ def test_another_omc_is_another_state(tmp_path: Path, monkeypatch: pytest.Monkey
     for version in ("1.26", "1.27"):
         fake_omc.install(tmp_path / "bin", {"getVersion": f'"{version}"\n""\n'})
         found.append(state(Tool("omc"), content_hash))
-    for file in ("lib/omc/libOpenModelicaCompiler.so", "lib/omlibrary/Modelica 4.1.0/Math.mo", "bin/omc"):
+    libraries = "lib/omc/libOpenModelicaCompiler.so", "bin/libOpenModelicaCompiler.dll"
+    for file in (*libraries, "lib/omlibrary/Modelica 4.1.0/Math.mo", "bin/omc"):
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         with (tmp_path / file).open("a") as stream:
             stream.write("\n")
         found.append(state(Tool("omc"), content_hash))
-    assert len({tuple(one) for one in found}) == 6
+    assert len({tuple(one) for one in found}) == 7
 
 
 def test_an_omc_that_does_not_say_its_version_has_no_state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import msgspec
 import pytest
@@ -19,6 +19,7 @@ LOOKUP = Lookup(Path("/ws/src/arm/urdf/arm.urdf"), (Path("/opt/robots"), Path("/
 scales = st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3)
 
 
+@pytest.mark.posix("its paths have no drives")
 @pytest.mark.parametrize(("uri", "paths"), [
     ("package://arm/meshes/a.stl", ["/opt/robots/arm/meshes/a.stl", "/ws/src/arm/meshes/a.stl"]),
     ("package://gripper/a.stl", ["/opt/robots/gripper/a.stl", "/opt/gripper/a.stl", "/ws/src/gripper/a.stl"]),
@@ -51,6 +52,36 @@ def test_uri_is_looked_for_in_this_order(uri: str, paths: list[str]) -> None:
     assert [path for path in found if path in paths] == paths
 
 
+@pytest.mark.parametrize(("uri", "is_found"), [
+    (r"\\server\share\meshes\a.stl", True),
+    ("//SERVER/Share/meshes/a.stl", True),
+    ("file://server/share/meshes/a.stl", True),
+    ("file:////server/share/meshes/a.stl", True),
+    (r"\\stranger\share\meshes\a.stl", False),
+    ("file://stranger/share/meshes/a.stl", False),
+    (r"\\server\other\meshes\a.stl", False),
+])  # fmt: skip
+def test_a_mesh_on_a_share_is_looked_for_where_the_source_is(uri: str, is_found: bool) -> None:
+    """Windows signs in to each server that is looked at: a stranger's would get what proves who the user is."""
+    lookup = Lookup(PureWindowsPath(r"\\server\share\arm.urdf"), ())  # type: ignore[arg-type]
+    places = [path.as_posix().lower() for path in candidates(uri, lookup) if str(path).startswith(("//", "\\\\"))]
+    assert ("//server/share/meshes/a.stl" in places) is is_found
+    assert not [place for place in places if "stranger" in place and "server" not in place]
+    elsewhere = Lookup(Path("/robots/arm.urdf").absolute(), (PureWindowsPath(r"\\server\share\meshes"),))  # type: ignore[arg-type]
+    assert (
+        any("server/share/meshes/a.stl" in path.as_posix().lower() for path in candidates(uri, elsewhere)) is is_found
+    )
+
+
+@pytest.mark.windows
+@pytest.mark.parametrize(
+    "uri", ["file:///C:/data/a.stl", r"C:\data\a.stl", "file://C:/data/a.stl", "file:C:/data/a.stl"]
+)
+def test_a_mesh_on_a_drive_is_looked_for(uri: str) -> None:
+    assert candidates(uri, Lookup(Path(r"D:\robots\arm.urdf"), ()))[0] == Path("C:/data/a.stl")
+
+
+@pytest.mark.posix("its paths have no drives")
 @pytest.mark.parametrize(("uri", "paths"), [
     ("modelica://Meshes/a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/arm/urdf/Meshes/a.stl", "/ws/Meshes/a.stl"]),
     ("Modelica://Meshes//a.stl", ["/lib/Meshes 1.2/a.stl", "/ws/src/Meshes/a.stl"]),
@@ -67,6 +98,7 @@ def test_modelica_uri_is_looked_for_in_the_library_and_then_around_the_source(ur
     assert [path for path in found if path in paths] == paths
 
 
+@pytest.mark.posix("its paths have no drives")
 def test_the_source_may_be_in_a_library_with_a_version() -> None:
     inside = Lookup(Path("/lib/Plant 2.1/Resources/arm.urdf"))
     assert Path("/lib/Plant 2.1/Resources/a.stl") in candidates("modelica://Plant/Resources/a.stl", inside)
@@ -93,10 +125,12 @@ def test_uri_that_names_no_file_or_leads_out_of_a_library_has_no_candidates(uri:
     assert candidates(uri, known) == ()
 
 
+@pytest.mark.posix("its paths have no drives")
 def test_folders_above_the_source_may_have_names_that_are_not_utf_8() -> None:
     assert candidates("a.stl", Lookup(Path("/ws/\udcff/arm.urdf")))[0] == Path("/ws/\udcff/a.stl")
 
 
+@pytest.mark.posix("its paths have no drives")
 def test_a_guess_leaves_out_the_name_of_the_package() -> None:
     uri, places = "package://hand/meshes/a.stl", LOOKUP.source.parents
     plain, guess = candidates(uri, LOOKUP), candidates(uri, msgspec.structs.replace(LOOKUP, guess=True))

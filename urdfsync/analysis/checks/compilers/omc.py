@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 import os
 import re
-import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -27,6 +26,7 @@ from urdfsync.analysis.checks.compilers.compiler import (
     SimulationResult,
     one_line,
 )
+from urdfsync.common import system
 from urdfsync.common.processes import exit_cause
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 
@@ -87,9 +87,10 @@ class _Answer(NamedTuple):
 def program(named: str) -> str | None:
     """See `Compiler`: the named program, else `omc` below OPENMODELICAHOME, else `omc` on the PATH."""
     if named:
-        return shutil.which(named)
+        return system.find_program(named)
     home = os.environ.get("OPENMODELICAHOME")
-    return (shutil.which("omc", path=str(Path(home, "bin"))) if home else None) or shutil.which("omc")
+    inside = system.find_program("omc", path=str(Path(home, "bin"))) if home else None
+    return inside or system.find_program("omc")
 
 
 def state(named: str) -> tuple[str, list[Path]]:
@@ -97,13 +98,14 @@ def state(named: str) -> tuple[str, list[Path]]:
 
     The program may be a script that starts another program, so urdfsync also asks for the version.
     """
-    file = Path(program(named) or "omc").resolve()
+    file = Path(program(named) or "").resolve()
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
         try:
             ((version, _),) = _ask(CompileJob((), (), named), Path(folder), ["getVersion()"], _PATIENCE)
         except (ImportError, subprocess.TimeoutExpired) as error:
             raise OSError(str(error)) from error
-    patterns = "lib/omc/*.so*", "lib/*/omc/*.so*", *(f"lib/omlibrary/{name}*" for name in STANDARD_LIBRARIES)
+    libraries = (f"lib/omlibrary/{name}*" for name in STANDARD_LIBRARIES)
+    patterns = "lib/omc/*.so*", "lib/*/omc/*.so*", "bin/*.dll", *libraries
     return version, [file, *(path for pattern in patterns for path in sorted(file.parent.parent.glob(pattern)))]
 
 
@@ -200,7 +202,7 @@ def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | N
     script.write_text("".join(f"{call}; getErrorString();\n" for call in calls), encoding="utf-8")
     try:
         done = subprocess.run(  # noqa: S603 - the user's own program
-            [program(job.program) or "omc", script.name],
+            system.command([program(job.program) or "omc", script.name]),
             cwd=folder,
             capture_output=True,
             stdin=subprocess.DEVNULL,

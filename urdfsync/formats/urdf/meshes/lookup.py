@@ -13,7 +13,7 @@ import itertools
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from pathlib import Path, PurePosixPath, PureWindowsPath
 from urllib.parse import unquote
 
 from urdfsync.common.diagnostics import Diagnostic, Severity
@@ -201,7 +201,9 @@ def _places(text: str, lookup: Lookup) -> Iterator[Path]:
     elif not (match := re.fullmatch(_SCHEME, text)):
         yield from _at_path(text, lookup)
     elif match[1].lower() == "file":
-        yield from _at_path(re.sub("^localhost/", "/", match[2]), lookup)
+        path = re.sub("^localhost/", "/", match[2])
+        yield from _at_path(path, lookup)
+        yield from _on_share(f"//{path}", lookup)  # `file://server/share/a.stl`
     elif match[1].lower() in ("package", "model"):
         package, _, rest = match[2].partition("/")
         yield from _in_package(package, rest, lookup)
@@ -215,9 +217,20 @@ def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
     if drive := re.fullmatch(_DRIVE, text):
         yield Path(drive[1])
     elif text.startswith("/"):
+        yield from _on_share(text, lookup)
         yield Path("/" + text.lstrip("/"))
     elif text:
         yield from (folder / text for folder in (*lookup.source.parents, *lookup.package_paths))
+
+
+def _on_share(text: str, lookup: Lookup) -> Iterator[Path]:
+    """Yield the path `//server/share/a.stl` on Windows, if the source or a search path is on this share.
+
+    Windows signs in to each server that is looked at, and another one may be a stranger's.
+    """
+    share = PureWindowsPath(text).drive.lower()
+    if share and share in {folder.drive.lower() for folder in (lookup.source, *lookup.package_paths)}:
+        yield Path(text)
 
 
 def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:

@@ -76,9 +76,9 @@ def _answer(line: bytes, contents: IO[bytes]) -> tuple[LimitedAnswer, list[bytes
 
 def _allocated() -> int:
     """Return the bytes that count against the memory limit, freed bytes included; 0 without a limit."""
-    if sys.platform != "linux":
-        return 0
-    return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
+    if sys.platform == "linux":
+        return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
+    return 0
 
 
 if __name__ == "__main__":
