@@ -338,7 +338,7 @@ _SAME = tuple(f"tests/{name}" for name in (
     *("engine/", "merge/", "modelica/", "output/", "formats/urdf/", "domain/test_comparison", "domain/test_matching"),
     *(f"analysis/{name}/" for name in ("pages", "patches", "simulation", "versions")),
     *("formats/table/test_catalogue", "formats/table/test_units", "test_forged_states", "test_hostile_templates"),
-    *("test_ignored", "test_loops", "test_renumbered", "test_templates", "test_verdicts"),
+    *("test_ignored", "test_loops", "test_renumbered", "test_templates"),
     *(f"analysis/identification/test_{name}" for name in ("excite", "fit", "records", "run", "signals")),
     # other formats and checks, but for their processes and for rumoca
     *("formats/mjcf/", "formats/sdf/", "watch/test_checks", "watch/test_report", "watch/test_view"),
@@ -346,7 +346,7 @@ _SAME = tuple(f"tests/{name}" for name in (
     *(f"analysis/checks/test_{name}" for name in ("afterbuild", "fingerprint", "names", "report", "robot")),
     "analysis/checks/test_texts",
     # git's merges
-    *("test_edits_meet_exports", "test_merge", "test_unite"),
+    *("test_edits_meet_exports", "test_merge"),
     "test_unmerged",
     # texts of the project itself
     *("test_corpus_page", "test_docs", "test_domains_page", "common/test_spelling", "test_urdf_page"),

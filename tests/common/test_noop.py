@@ -525,6 +525,7 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     ours = {f"urdfsync.common.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "memory")}
     ours |= {
         "urdfsync",
+        "urdfsync.common",
         "urdfsync.common.noop",
         "urdfsync.common.dependencies",
         "urdfsync.common.streams",

@@ -286,7 +286,6 @@ CART = robot(
 )
 
 
-@pytest.mark.large  # `check` compares casters
 def test_a_caster_turns_by_itself_in_test(modelica_library: Path, tmp_path: Path) -> None:
     """Its mass lies beside its axis: it falls with m*g*l/(I + m*l^2), while the sweep of Test moves the wheel."""
     package = generate(CART.encode(), Target("Cart", "Cart"))

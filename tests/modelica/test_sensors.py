@@ -84,7 +84,6 @@ def expected(instant: motion.Instant) -> Array:
     return np.concatenate([acceleration, velocity, acceleration, velocity, *wrenches])
 
 
-@pytest.mark.large  # `check` compares them, see test_seen_faults
 def test_sensors_show_what_pinocchio_says_in_motion(modelica_library: Path, tmp_path: Path) -> None:
     """The base and all joints move; Pinocchio's wrenches are those of the parent on the child, in the child's axes."""
     case = physics.prepare(ARM.encode(), "Arm").only("motion")
