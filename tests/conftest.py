@@ -299,8 +299,8 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option of CI that runs only a part of the slow tests."""
-    parser.addoption("--part", metavar="N/M", default="1/1", help="run the N-th of M parts of the tests marked slow")
+    """Add the option that runs only a part of the long tests."""
+    parser.addoption("--part", metavar="N/M", default="1/1", help="run the N-th of M parts of the slow and large tests")
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)  # before `-m` reads the marks
@@ -318,14 +318,15 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         cases[test] += 1
     yield
     number, parts = map(int, config.getoption("part").split("/"))
-    all_slow = [item for item in items if item.get_closest_marker("slow")]
-    slow = [item for item in all_slow if zlib.crc32(item.nodeid.encode()) % parts == number - 1]
-    config.hook.pytest_deselected(items=[item for item in all_slow if item not in slow])
-    quick = [item for item in items if not item.get_closest_marker("slow")]
+    long = [item for item in items if item.get_closest_marker("slow") or item.get_closest_marker("large")]
+    part = [item for item in long if zlib.crc32(item.nodeid.encode()) % parts == number - 1]
+    of_all, others = set(long), set(long) - set(part)
+    quick = [item for item in items if item not in of_all]
+    config.hook.pytest_deselected(items=[item for item in long if item in others])
     pieces: list[list[pytest.Item]] = [[] for _ in range(int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))]
-    for _, tests in itertools.groupby(slow, key=lambda item: item.path):
+    for _, tests in itertools.groupby(part, key=lambda item: item.path):
         min(pieces, key=len).extend(tests)
-    size = (len(slow) + len(quick)) // len(pieces)
+    size = (len(part) + len(quick)) // len(pieces)
     for piece in pieces:
         room = max(0, size - len(piece))
         piece += quick[:room]

@@ -130,7 +130,9 @@ def test_two_versions_in_a_team(program: Path, tmp_path: Path, monkeypatch: pyte
         for command in (["build"], ["build", "--check"], ["status"], ["hook", "check"], ["resolve", "--all", "--take"]):
             refused = run(ROOT, *command)
             assert refused.returncode == 2, command
-            assert "urdfsync 0.2.0 wrote this state, and this is 0.1.0, which is older; update urdfsync" in refused.stderr
+            assert (
+                "urdfsync 0.2.0 wrote this state, and this is 0.1.0, which is older; update urdfsync" in refused.stderr
+            )
         edit(Path("arm.urdf"), 'effort="6"', 'effort="5"')
         assert all(file.read_bytes() == content for file, content in files.items() if "deps" not in file.parts)
         assert call(program, "build", "--check") == 0
