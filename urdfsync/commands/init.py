@@ -28,6 +28,7 @@ from urdfsync.output.console import Console, line
 from urdfsync.project import config
 from urdfsync.project.config import schema
 from urdfsync.project.config.load import in_words
+from urdfsync.project.git.unmerged import NO_DRIVER
 
 _HEADER = f"""\
 #:schema {config.STATE_FOLDER}/{schema.SCHEMA_FILE}
@@ -100,11 +101,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         write_templates(file.parent, guesses)
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     if is_clone and not (is_asked or installs):
-        message, hint = (
-            "git merges models line by line in this clone",
-            "for elements, `urdfsync merge-driver --install`",
-        )
-        warnings.append(Diagnostic(Severity.NOTE, "no-merge-driver", message, hint=hint))
+        warnings.append(NO_DRIVER)
     return show_guesses(console, file, "written", guesses, warnings)
 
 

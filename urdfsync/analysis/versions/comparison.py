@@ -93,7 +93,7 @@ class Comparison(msgspec.Struct, frozen=True):
     @property
     def summary(self) -> str:
         """The changes since the older version, as the rest of a line that names the robot."""
-        if self.result.failed and self.result.changes is None:
+        if self.result.failed and self.result.changes is None and not self.versions:
             return f"{error_count(self.result.diagnostics)}, so nothing can be compared"
         if self.missing:
             return self.missing
@@ -265,7 +265,7 @@ def _with_version(
     is_pair: bool,
 ) -> Comparison:
     """Compare a source with another version; `result` is that of a dry run."""
-    if result.failed:
+    if result.source_error is not None:
         return Comparison(result, shown(robot.source), against)
     former, now = _read_both(robot, against, config, options, folder, is_pair=is_pair)
     domain, name = registry.domain(robot.domain), shown(robot.source)

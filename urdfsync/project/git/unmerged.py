@@ -8,7 +8,15 @@ from pathlib import Path
 
 from urdfsync.common.dependencies import reads
 from urdfsync.common.dependencies.places import is_clone, place
+from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.project import git
+
+NO_DRIVER = Diagnostic(
+    Severity.NOTE,
+    "no-merge-driver",
+    "git merges models line by line in this clone",
+    hint="for elements, `urdfsync merge-driver --install`",
+)
 
 
 def find_unmerged(folders: Iterable[Path]) -> set[str]:
@@ -20,6 +28,14 @@ def find_unmerged(folders: Iterable[Path]) -> set[str]:
     if found:
         reads.cannot_record()  # their versions are in git's objects
     return found
+
+
+def has_driver(folder: Path) -> bool:
+    """Return whether git's settings of the clone around a folder name urdfsync's merge driver."""
+    try:
+        return bool(git.run("-C", str(folder), "config", "--get", "merge.urdfsync.driver"))
+    except git.GitError:  # git has no such setting
+        return False
 
 
 def find_git_folder(top: str) -> Path:
