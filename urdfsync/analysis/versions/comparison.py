@@ -93,7 +93,7 @@ class Comparison(msgspec.Struct, frozen=True):
     @property
     def summary(self) -> str:
         """The changes since the older version, as the rest of a line that names the robot."""
-        if self.result.failed and self.result.changes is None and not self.versions:
+        if self.result.failed and self.result.changes is None:
             return f"{error_count(self.result.diagnostics)}, so nothing can be compared"
         if self.missing:
             return self.missing
@@ -265,7 +265,7 @@ def _with_version(
     is_pair: bool,
 ) -> Comparison:
     """Compare a source with another version; `result` is that of a dry run."""
-    if result.source_error is not None:
+    if result.failed and result.changes is None:  # an export that is refused has changes
         return Comparison(result, shown(robot.source), against)
     former, now = _read_both(robot, against, config, options, folder, is_pair=is_pair)
     domain, name = registry.domain(robot.domain), shown(robot.source)
@@ -284,7 +284,8 @@ def _with_version(
     judged = [*judge(domain, new, now.reading, now.text.name, old, differences)]
     judged += find_jumps(domain, new, now.reading, now.text.name, old, differences.renames)
     findings = [*(now.text.locate(finding) for finding in judged if finding.is_new), *findings]
-    findings += [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
+    errors = [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
+    findings = [*(one for one in findings if one.code not in {error.code for error in errors}), *errors]
     files, effects = dict[str, ChangeKind](), tuple[Effect, ...]()
     if differences.changes or _is_reordered(old, new):
         templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
