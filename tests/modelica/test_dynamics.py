@@ -196,7 +196,7 @@ def test_functions_agree_with_pinocchio_for_robots_of_the_corpus(
     corpus: Path, modelica_library: Path, tmp_path: Path, file: str
 ) -> None:
     """Files without inertias get made-up ones, for both sides."""
-    content = completion.completed_for_pinocchio((corpus / file).read_bytes()).content
+    content = completion.completed_for_reference((corpus / file).read_bytes()).content
     found = read_robot(content, file).robot
     if found is None or obstacles(found.joints):
         pytest.skip("a faulty file, or planar and floating joints")

@@ -18,7 +18,7 @@ from support.urdfs import dynamics, every_number, joint, link, links, mimic, rob
 from urdfsync.domain import Target
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.physics import motion
-from urdfsync.formats.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.formats.urdf.physics.completion import completed_for_reference
 from urdfsync.formats.urdf.physics.motion import Course
 from urdfsync.formats.urdf.physics.reference import Configuration, Reference, read
 from urdfsync.formats.urdf.second.dynamics import mechanism_efforts
@@ -120,7 +120,7 @@ def prepare(content: bytes, name: str = "Bot") -> Robot:
     """A robot that Pinocchio can read."""
     package = generate(content, Target(name, name), approach=("record",))
     axes = [joint.name for joint in motion.driven_axes(package.skeleton)]
-    return Robot(package, Reference(read(completed_for_pinocchio(content).content, "robot.urdf"), axes))
+    return Robot(package, Reference(read(completed_for_reference(content).content, "robot.urdf"), axes))
 
 
 def free_task(

@@ -13,14 +13,14 @@ from urdfsync.domain import Target
 from urdfsync.domain.experiment import Sample
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.physics.closing import OpenLoopError
-from urdfsync.formats.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.formats.urdf.physics.completion import completed_for_reference
 from urdfsync.formats.urdf.physics.motion import Course, Instant
 from urdfsync.formats.urdf.physics.subject import Subject
 from urdfsync.formats.urdf.robot import Inertia, Inertial, Link, Origin, Robot
 
 
 def subject(robot: Robot) -> Subject:
-    content = completed_for_pinocchio(to_urdf(robot).encode()).content
+    content = completed_for_reference(to_urdf(robot).encode()).content
     return Subject(Sample(content, "robot.urdf", Target("Bot", "Bot"), Options(), {}), robot)
 
 
