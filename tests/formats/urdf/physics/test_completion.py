@@ -46,7 +46,7 @@ LACKING = {
 def test_what_pinocchio_asks_for_is_added(added: str, urdf: str) -> None:
     content, notes = completed_for_reference(urdf.encode())
     assert notes == (f"additions for the reference's reader: {added.partition(' of')[0]}",)
-    model = read(content, "robot.urdf").model
+    model = read(content, "robot.urdf").multibody.model
     assert sum(inertia.mass for inertia in model.inertias) == sum(masses(urdf.encode()).values())
     assert completed_for_reference(content) == (content, ())
 

@@ -31,6 +31,10 @@ class Load(NamedTuple):
     force: Array
     torque: Array
 
+    def torque_at(self, point: Array) -> Array:
+        """Return the torque about another point."""
+        return self.torque + np.cross(self.point - point, self.force)
+
 
 def cross_matrix(vector: Array) -> Array:
     """Return the matrix M with M·x = vector × x."""

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, tostring
 import numpy as np
 import pinocchio as pin
 
-from urdfsync.formats.urdf.physics.multibody import Array, Coordinates, Load
+from urdfsync.formats.urdf.physics.multibody import Array, Coordinates
 from urdfsync.formats.urdf.robot import Vector
 
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
@@ -36,7 +36,7 @@ class PinocchioRobot:
         self.coordinates = {
             name: Coordinates(joint.idx_v, joint.nv, joint.shortname().startswith(_SLIDING_JOINTS))
             for name, joint in zip(model.names, model.joints, strict=True)
-            if joint.nv and name != unused
+            if name not in ("universe", unused)
         }
 
     def set_gravity(self, gravity: float) -> None:
@@ -71,18 +71,14 @@ class PinocchioRobot:
         at = *self._placed(link, xyz), pin.LOCAL_WORLD_ALIGNED
         return np.array(pin.getFrameClassicalAcceleration(self.model, data, *at).vector)
 
-    def efforts(self, q: Array, v: Array, a: Array, loads: Sequence[Load] = ()) -> Array:
-        """Return the efforts of all coordinates, without losses, under loads on links."""
-        return np.array(pin.rnea(self.model, self.model.createData(), q, v, a, self._forces(q, loads)))
+    def efforts(self, q: Array, v: Array, a: Array) -> Array:
+        """Return the efforts of all coordinates, without losses."""
+        return np.array(pin.rnea(self.model, self.model.createData(), q, v, a))
 
-    def mass(self, q: Array) -> Array:
-        """Return the mass matrix."""
-        return np.array(pin.crba(self.model, self.model.createData(), q))
-
-    def wrench(self, q: Array, v: Array, a: Array, joint: str, loads: Sequence[Load] = ()) -> tuple[Array, Array]:
+    def wrench(self, q: Array, v: Array, a: Array, joint: str) -> tuple[Array, Array]:
         """Return force and torque of the parent on the child's frame in a joint, resolved in the world."""
         data, number = self.model.createData(), self.model.getJointId(joint)
-        pin.rnea(self.model, data, q, v, a, self._forces(q, loads))
+        pin.rnea(self.model, data, q, v, a)
         force = data.f[number]
         pin.forwardKinematics(self.model, data, q)  # `rnea` leaves `oMi` at the identity
         axes = data.oMi[number].rotation
@@ -100,17 +96,6 @@ class PinocchioRobot:
         """Return the joint that moves a link, and the pose of a point of the link behind it."""
         frame = self.model.frames[self._frame(link)]
         return frame.parentJoint, frame.placement * pin.SE3(np.eye(3), np.array(xyz))
-
-    def _forces(self, q: Array, loads: Sequence[Load]) -> Any:
-        """Return loads in Pinocchio's form: one force on each joint's body, in the joint's frame."""
-        forces = [pin.Force.Zero() for _ in range(self.model.njoints)]
-        if loads:
-            data = self.move(q)
-            for load in loads:
-                joint = self.model.frames[self._frame(load.link)].parentJoint
-                at_point = pin.SE3(np.eye(3), load.point)
-                forces[joint] += data.oMi[joint].actInv(at_point.act(pin.Force(load.force, load.torque)))
-        return pin.StdVec_Force(forces)
 
 
 def _with_balls(model: Any, balls: Collection[str]) -> Any:

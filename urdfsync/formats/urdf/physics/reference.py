@@ -172,7 +172,7 @@ class Reference:
     def set_gravity(self, gravity: float) -> None:
         """Set the gravity (m/s²) along -z of the world."""
         self.multibody.set_gravity(gravity)
-        self._gravity = np.array([0, 0, -gravity])
+        self.gravity = gravity
 
     def state(self, courses: Sequence[Course], base: Sequence[Course] = (*motion.PATH, motion.TURN)) -> Configuration:
         """Return the configuration for courses of the axes, and of the base's place and angle. Raises OpenLoopError."""
@@ -228,7 +228,7 @@ class Reference:
         loose = [*(range(6) if is_free else ()), *self._balls]
         ways = np.column_stack([np.eye(nv)[:, loose], state.ways[:, : self._scalars]])
         drives = np.concatenate([np.zeros(len(loose)), efforts[: self._scalars]])
-        mass = ways.T @ (self.multibody.mass(state.q) + self.rotors) @ ways
+        mass = ways.T @ self.mass(state) @ ways
         if len(mass) and not (np.isfinite(mass).all() and np.linalg.cond(mass) < _GREATEST_CONDITION):
             return None
         gains = np.asarray(ways @ self._solved(mass, drives - ways.T @ load) + state.drift)
@@ -264,19 +264,30 @@ class Reference:
         data, place = self.multibody.move(state.q, state.v, state.a), origin(sensor)
         axes = self.multibody.pose(data, sensor.parent)[1] @ place[:3, :3]
         at = sensor.parent, tuple(place[:3, 3])
-        gain = self.multibody.acceleration(data, *at)[:3] - self._gravity
+        gain = self.multibody.acceleration(data, *at)[:3] - (0, 0, -self.gravity)
         return axes.T @ gain, axes.T @ self.multibody.jacobian(data, *at)[3:] @ state.v
 
     def wrench(self, state: Configuration, sensor: SecondElement, parent: str, child: str) -> tuple[Array, Array]:
         """Return force and torque in a sensor's joint between two links, in the sensor's axes."""
-        loads = self.closing.loads(state.q, self.load(state, state.a)) if self.closing else ()
-        wrench = self.multibody.wrench(state.q, state.v, state.a, sensor.parent, loads)
+        multibody, data = self.multibody, self.multibody.move(state.q)
+        force, torque = multibody.wrench(state.q, state.v, state.a, sensor.parent)
+        for load in self.closing.loads(state.q, self.load(state, state.a)) if self.closing else ():
+            if multibody.jacobian(data, load.link)[:, multibody.coordinates[sensor.parent].start].any():
+                # the load acts behind the joint
+                force, torque = force - load.force, torque - load.torque_at(multibody.pose(data, child)[0])
         has_parents_axes, has_parents_sign = sensor.axes
-        axes = self.multibody.pose(self.multibody.move(state.q), parent if has_parents_axes else child)[1]
+        axes = multibody.pose(data, parent if has_parents_axes else child)[1]
         if not has_parents_axes:
             axes = axes @ origin(sensor)[:3, :3]
         sign = 1 if has_parents_sign else -1
-        return sign * axes.T @ wrench[0], sign * axes.T @ wrench[1]
+        return sign * axes.T @ force, sign * axes.T @ torque
+
+    def mass(self, state: Configuration) -> Array:
+        """Return the mass matrix of all coordinates, with rotors."""
+        self.multibody.set_gravity(0.0)
+        columns = [self.multibody.efforts(state.q, 0 * state.v, unit) for unit in np.eye(self.multibody.nv)]
+        self.multibody.set_gravity(self.gravity)
+        return np.column_stack(columns) + self.rotors
 
     def solve(self, state: Configuration) -> Solution:
         """Return poses, and the efforts of base and axes."""

@@ -89,7 +89,8 @@ class RobotRegressor:
         self.reference = Reference(robot, [joint.name for joint in joints], assembly.closed)
         self.axes = tuple(_axes(assembly, joints, gears))
         multibody = robot.multibody
-        self._rows = {name: row.start for name, row in multibody.coordinates.items()}
+        rows = multibody.coordinates
+        self._rows = {joint.name: rows[joint.name].start for joint in tree.joints if joint.name in rows}
         body_of = {tree.links[0].name: ""}
         """The first link of each link's body; the base rests."""
         bodies, firsts = list[MovingLink](), set[str]()
