@@ -182,6 +182,16 @@ def test_signs_that_git_would_replace_stay(
     assert "\ntry '/my python/100%%Python' -P -m urdfsync\n" in clone.git("config", "merge.urdfsync.driver")
 
 
+@pytest.mark.windows
+@NEEDS_GIT
+def test_the_shell_of_git_gets_no_backslash(
+    clone: Repository, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "executable", r"C:\my python\python.exe")
+    execute("merge-driver", "--install")
+    assert "\ntry 'C:/my python/python.exe' -P -m urdfsync\n" in clone.git("config", "merge.urdfsync.driver")
+
+
 # The environment has moved since
 
 

@@ -101,7 +101,7 @@ def install(folder: Path, console: Console) -> None:
 
     Raises UrdfsyncError if writing fails.
     """
-    driver = _DRIVER.format(python=shlex.quote(sys.executable).replace("%", "%%"))
+    driver = _DRIVER.format(python=shlex.quote(Path(sys.executable).as_posix()).replace("%", "%%"))
     inside, file = ("-C", str(folder)), folder / ".gitattributes"
     try:
         top = git.run(*inside, "rev-parse", "--show-toplevel").removesuffix("\n")
