@@ -7,6 +7,7 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
+import pinocchio as pin
 import pytest
 from support import generic, physics
 from support.cases import sampled
@@ -261,7 +262,7 @@ def test_a_force_at_the_tool_frame_accelerates_the_robot_as_pinocchio_says(
 def accelerations(own: generic.Robot, link: str) -> Array:
     """Of the axes at rest at their start, with the Jacobian of the link."""
     reference = own.reference
-    pin, model = reference.pin, reference.model
+    model = reference.multibody.model
     state = generic.at_rest(own, np.zeros(len(reference.axes)), np.zeros(len(reference.axes)))
     data = model.createData()
     springs = mechanism_efforts(reference.dynamics, state.positions)
@@ -302,7 +303,7 @@ def dropped() -> tuple[Array, Array]:
         assert text.count(old) == 1
         text = text.replace(old, new)
     own = generic.prepare(text.encode())
-    own.reference.model.gravity.linear = np.array([0, 0, -GRAVITY])
+    own.reference.set_gravity(GRAVITY)
     positions = start_positions(own.skeleton)
     start = [motion.Course(positions[name], 0.0, 0.0) for name in own.reference.axes]
     end = generic.free_motion(own, start, MOMENT, 2000)

@@ -17,7 +17,7 @@ import tomli_w
 from urdfsync.commands import arguments, merge_driver
 from urdfsync.common import system
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError
-from urdfsync.common.files import Tree, put, shown
+from urdfsync.common.files import Tree, put, relative, shown
 from urdfsync.domain import Domain, Version, registry
 from urdfsync.domain.advice import Proposal
 from urdfsync.engine.judgements import judge
@@ -164,7 +164,7 @@ def _guess(
     domain: Domain, source: Path, given: Mapping[str, str], root: Path, known: Sequence[Guess]
 ) -> tuple[Guess, Sequence[Diagnostic]]:
     """Return a robot for a source, under free names; also warnings. Raises SourceError, ConfigError."""
-    path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
+    path = source if source.is_absolute() and root not in source.parents else Path(relative(source, root))
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError.of("source-name", message, shown(source), hint=hint)

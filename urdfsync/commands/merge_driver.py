@@ -94,7 +94,7 @@ def install(folder: Path, console: Console) -> None:
 
     Raises UrdfsyncError if writing fails.
     """
-    driver = _DRIVER.format(python=shlex.quote(sys.executable).replace("%", "%%"))
+    driver = _DRIVER.format(python=shlex.quote(Path(sys.executable).as_posix()).replace("%", "%%"))
     inside, file = ("-C", str(folder)), folder / ".gitattributes"
     try:
         top = git.run(*inside, "rev-parse", "--show-toplevel").removesuffix("\n")
@@ -103,7 +103,7 @@ def install(folder: Path, console: Console) -> None:
         is_named = _is_named(folder)
     except git.GitError as error:
         raise UrdfsyncError.of("git", str(error), hint="run it in a clone") from None
-    console.tell([line((f"git merges with urdfsync in {top}", ""))])
+    console.tell([line((f"git merges with urdfsync in {Path(top)}", ""))])
     if not is_named:
         try:
             old = file.read_bytes() if os.path.lexists(file) else b""

@@ -15,7 +15,7 @@ from typing import NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError, findings_of
-from urdfsync.common.files import shown
+from urdfsync.common.files import relative, shown
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Lookup, Reading, Target, Version, registry
 from urdfsync.domain import comparison as changes
 from urdfsync.domain.changes import Effect
@@ -293,7 +293,7 @@ def _with_version(
         if domain.describe is None:
             differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
         for path, kind in _differing_files(packages, (old, new)):
-            files[Path(os.path.relpath(result.folder / path, result.root)).as_posix()] = kind
+            files[Path(relative(result.folder / path, result.root)).as_posix()] = kind
         effects = _effects(domain, old, new, differences, robot)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(findings))
     news = differences if differences.changes else None

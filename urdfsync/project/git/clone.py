@@ -21,7 +21,7 @@ import msgspec
 from urdfsync.common.dependencies import localfile
 from urdfsync.common.dependencies.places import Clone
 from urdfsync.common.diagnostics import SourceError
-from urdfsync.common.files import digest
+from urdfsync.common.files import digest, relative
 from urdfsync.project.git import GitError, Repository, hook, list_paths, run
 from urdfsync.project.state.lock import Lock
 
@@ -121,7 +121,7 @@ def _prepare(clone: str, objects: str) -> None:
     borrowed = Path(clone, ".git/objects/info/alternates")
     borrowed.parent.mkdir(exist_ok=True)
     # relative, so that the user can move the repository
-    borrowed.write_text(f"{os.path.relpath(objects, f'{clone}/.git/objects')}\n", errors="surrogateescape")
+    borrowed.write_text(f"{relative(objects, f'{clone}/.git/objects')}\n", errors="surrogateescape")
 
 
 def _find_head() -> str | None:
