@@ -125,7 +125,7 @@ class Scenario:
 
     def says(self, rest: str) -> None:
         text = rest.strip().removeprefix("! ").replace("@", f"{self._package}/")
-        is_printed = " ".join(text.split()) in self._printed.words.replace(os.sep, "/")
+        is_printed = " ".join(text.split()) in self._printed.words
         assert is_printed is not rest.strip().startswith("! "), "printed:" if is_printed else "not printed, but:"
 
     def again(self, _: str) -> None:

@@ -110,7 +110,7 @@ def install(folder: Path, console: Console) -> None:
         is_named = _is_named(folder)
     except git.GitError as error:
         raise UrdfsyncError.of("git", str(error), hint="run it in a clone") from None
-    console.tell([line((f"git merges with urdfsync in {top}", ""))])
+    console.tell([line((f"git merges with urdfsync in {Path(top)}", ""))])
     if not is_named:
         try:
             old = file.read_bytes() if os.path.lexists(file) else b""
