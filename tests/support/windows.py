@@ -53,7 +53,7 @@ def run(folder: Path, arguments: Sequence[str] = ()) -> int:
             source = Path(__file__).with_name("git_for_windows.c")
             subprocess.run([_COMPILER, "-municode", "-o", program, source, "-lws2_32"], check=True)
             environment |= {"WINEPATH": windows_path(program.parent), "URDFSYNC_GIT_PORT": str(server.getsockname()[1])}
-            threading.Thread(target=_serve, args=(server,), daemon=True).start()
+            threading.Thread(target=_serve, args=(server, folder), daemon=True).start()
         quick, slow = ([f"tests/{name}" if (ROOT / "tests" / name).is_dir() else f"tests/{name}.py" for name in names]
                        for names in (QUICK, SLOW))  # fmt: skip
         runs = [list(arguments)] if arguments else [[*quick, "-m", "not slow and not large"], [*slow, "-m", "slow"]]
@@ -80,17 +80,17 @@ def _fast_folder() -> str | None:
     return "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 
 
-def _serve(server: socket.socket) -> None:
+def _serve(server: socket.socket, folder: Path) -> None:
     while True:
         try:
             connection, _ = server.accept()
         except OSError:  # the tests are over
             return
-        threading.Thread(target=_run_git, args=(connection,), daemon=True).start()
+        threading.Thread(target=_run_git, args=(connection, folder), daemon=True).start()
 
 
-def _run_git(connection: socket.socket) -> None:
-    """Run git for one `git.exe`, with paths of this system."""
+def _run_git(connection: socket.socket, windows: Path) -> None:
+    """Run git for one `git.exe`, with paths of this system; a merge driver runs the Windows Python."""
     with connection, connection.makefile("rwb") as stream:
 
         def take() -> bytes:
@@ -106,7 +106,9 @@ def _run_git(connection: socket.socket) -> None:
         names = dict(variable.decode().split("=", 1) for variable in variables)
         environment = {name: text for name, text in os.environ.items() if not name.startswith("GIT_")}
         environment |= {name: _local(text.encode()) for name, text in names.items()}
-        command = ["git", *map(_local, arguments)]
+        environment["PYTHONPATH"] = windows_path(ROOT)
+        program = f"{windows}/cpython/python.exe"
+        command = ["git", *(_local(each).replace(program, f"{windows}/python") for each in arguments)]
         done = subprocess.run(
             command, cwd=folder, env=environment, input=b"".join(content), capture_output=True, check=False
         )
