@@ -37,7 +37,6 @@ before is.
 from __future__ import annotations
 
 import contextlib
-import os
 import re
 import shlex
 import shutil
@@ -142,7 +141,7 @@ class Scenario:
     def project(self, name: str) -> None:
         self._source, self._package = f"{name}.urdf", f"modelica/{name.capitalize()}"
         table = f'[robots.{name}]\nsource = "{self._source}"\npackage = "{name.capitalize()}"\n'
-        Path("urdfsync.toml").write_text(table)
+        Path("urdfsync.toml").write_text(table, newline="\n")
 
     def arm(self, links: str) -> None:
         Path(self._source).write_text(robot_of(links))
@@ -151,7 +150,7 @@ class Scenario:
         Path(self._source).write_text(robot_of(links, are_legs=True))
 
     def configure(self, line: str) -> None:
-        with Path("urdfsync.toml").open("a") as file:
+        with Path("urdfsync.toml").open("a", newline="\n") as file:
             file.write(f"{line}\n")
 
     def config(self, rest: str) -> None:
@@ -203,12 +202,17 @@ class Scenario:
 
     def delete(self, file: str) -> None:
         path = self.path(file)
-        shutil.rmtree(path) if path.is_dir() else path.unlink()
+        if path.is_dir():
+            for each in path.rglob("*"):
+                each.chmod(0o700)  # Windows deletes no read-only files, as those of git are
+            shutil.rmtree(path)
+        else:
+            path.unlink()
 
     def move(self, rest: str) -> None:
         old, new = map(self.path, rest.split())
         new.parent.mkdir(parents=True, exist_ok=True)
-        old.rename(new)
+        old.replace(new)
 
     def copy(self, rest: str) -> None:
         shutil.copy(*map(self.path, rest.split()))

@@ -15,7 +15,6 @@ from support.daemon import LIMIT, REPOSITORY, Start, holds, ladder, stopped
 
 from urdfsync.commands import cli
 
-
 QUEUE = Path("/proc/sys/fs/inotify/max_queued_events")
 SETPRIV = "setpriv"
 ROBOT = '[robots.{0}]\nsource = "{1}"\npackage = "{0}"\ndomain = "rcnetwork"\n'
