@@ -70,6 +70,8 @@ if sys.platform == "win32":
             raise OSError("no links")
         pytest.skip("Windows makes symbolic links for administrators alone, and no pipes in folders")
 
+    # the texts of tests have the same bytes on each system; some tests write other line ends themselves
+    Path.write_text = functools.partialmethod(Path.write_text, newline="\n")  # type: ignore[assignment,method-assign]
     Path.symlink_to = os.symlink = os.mkfifo = _skip  # type: ignore[method-assign]
 
 

@@ -141,7 +141,7 @@ class Scenario:
     def project(self, name: str) -> None:
         self._source, self._package = f"{name}.urdf", f"modelica/{name.capitalize()}"
         table = f'[robots.{name}]\nsource = "{self._source}"\npackage = "{name.capitalize()}"\n'
-        Path("urdfsync.toml").write_text(table, newline="\n")
+        Path("urdfsync.toml").write_text(table)
 
     def arm(self, links: str) -> None:
         Path(self._source).write_text(robot_of(links))
