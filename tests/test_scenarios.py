@@ -247,7 +247,8 @@ class Scenario:
         assert self.path(file).exists()
 
     def gone(self, file: str) -> None:
-        assert not self.path(file).exists()
+        path = self.path(file)
+        assert path.name not in (os.listdir(path.parent) if path.parent.is_dir() else ()), "also by case"
 
     def order(self, rest: str) -> None:
         file, *names = rest.split()
