@@ -305,6 +305,20 @@ OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
 
 @NEEDS_GIT
+def test_a_hook_judges_a_commit_in_its_clone(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    execute("build")
+    repository = Repository(project, monkeypatch)
+    repository.commit()
+    execute("hook", "check")
+    resistor(220)
+    repository.git("add", "-A")
+    assert "out of step" in execute("hook", "check", code=1).err
+    execute("build")
+    repository.git("add", "-A")
+    execute("hook", "check")
+
+
+@NEEDS_GIT
 def test_a_clone_with_other_line_ends_is_in_step_and_keeps_its_state(
     tmp_path: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:

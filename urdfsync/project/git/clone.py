@@ -120,8 +120,8 @@ def _prepare(clone: str, objects: str) -> None:
     Path(clone, ".git/index.lock").unlink(missing_ok=True)  # git was killed
     borrowed = Path(clone, ".git/objects/info/alternates")
     borrowed.parent.mkdir(exist_ok=True)
-    # relative, so that the user can move the repository
-    borrowed.write_text(f"{relative(objects, f'{clone}/.git/objects')}\n", errors="surrogateescape")
+    # relative, so that the user can move the repository; as bytes, since git takes no other line ends
+    borrowed.write_bytes(os.fsencode(relative(objects, f"{clone}/.git/objects").replace(os.sep, "/") + "\n"))
 
 
 def _find_head() -> str | None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from urdfsync.common.dependencies import reads
 from urdfsync.common.dependencies.places import is_clone, place
 from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import placed
 from urdfsync.project import git
 
 NO_DRIVER = Diagnostic(
@@ -24,7 +25,11 @@ def find_unmerged(folders: Iterable[Path]) -> set[str]:
     if is_clone():  # a commit has no unmerged files
         return set()
     tops = {top for folder in folders if (top := git.find_top(os.path.realpath(folder)))}
-    found = {f"{top}/{path}" for top in tops for path in reads.find_unmerged(find_git_folder(top) / "index")}
+    found = {
+        placed(os.path.join(top, ""), path)  # noqa: PTH118 - a text
+        for top in tops
+        for path in reads.find_unmerged(find_git_folder(top) / "index")
+    }
     if found:
         reads.cannot_record()  # their versions are in git's objects
     return found

@@ -9,17 +9,14 @@ joints follow from J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from urdfsync.formats.urdf.kinematics.loops import ClosedLoops, Closure
-from urdfsync.formats.urdf.physics.multibody import Array, Load, cross_matrix
+from urdfsync.formats.urdf.physics.multibody import Array, Load, Multibody, cross_matrix
 from urdfsync.formats.urdf.robot import Origin, Vector
 from urdfsync.formats.urdf.second.reading import rotation
-
-if TYPE_CHECKING:
-    from urdfsync.formats.urdf.physics.reference import Multibody
 
 _STEPS = 8
 """Number of steps from the start to a pose: small steps lead to the nearest closed pose."""

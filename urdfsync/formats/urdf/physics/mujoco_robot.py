@@ -15,7 +15,7 @@ from xml.etree.ElementTree import Element, SubElement, tostring
 import mujoco
 import numpy as np
 
-from urdfsync.formats.urdf.physics.multibody import Array, Coordinates
+from urdfsync.formats.urdf.physics.multibody import Array, Coordinates, Multibody
 from urdfsync.formats.urdf.robot import Vector
 from urdfsync.formats.urdf.second.reading import rotation
 
@@ -35,7 +35,7 @@ _READ = ("origin", "parent", "child", "axis", "dynamics", "inertial")
 """The parts of joints and links that MuJoCo shall read."""
 
 
-class MujocoRobot:
+class MujocoRobot(Multibody):
     """A robot in MuJoCo; its base is free. Raises ValueError if MuJoCo refuses the file."""
 
     name = f"MuJoCo {mujoco.__version__}"

@@ -9,13 +9,13 @@ from xml.etree.ElementTree import Element, tostring
 import numpy as np
 import pinocchio as pin
 
-from urdfsync.formats.urdf.physics.multibody import Array, Coordinates
+from urdfsync.formats.urdf.physics.multibody import Array, Coordinates, Multibody
 from urdfsync.formats.urdf.robot import Vector
 
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
 
-class PinocchioRobot:
+class PinocchioRobot(Multibody):
     """A robot in Pinocchio; its base is free. Raises ValueError or RuntimeError if Pinocchio refuses the file."""
 
     name = f"Pinocchio {pin.__version__}"

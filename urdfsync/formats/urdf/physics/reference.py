@@ -13,7 +13,7 @@ from __future__ import annotations
 import contextlib
 import copy
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import msgspec
 import numpy as np
@@ -28,18 +28,12 @@ from urdfsync.formats.urdf.parse import xml
 from urdfsync.formats.urdf.physics import motion
 from urdfsync.formats.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.formats.urdf.physics.motion import Course
-from urdfsync.formats.urdf.physics.multibody import Array
+from urdfsync.formats.urdf.physics.multibody import Array, Multibody
 from urdfsync.formats.urdf.robot import Mimic, Vector
 from urdfsync.formats.urdf.second.companions import CatalogueNumbers
 from urdfsync.formats.urdf.second.dynamics import OF_DYNAMICS, mechanism_efforts
 from urdfsync.formats.urdf.second.gears import Gear, read_gears
 from urdfsync.formats.urdf.second.reading import SecondElement, origin, rotation
-
-if TYPE_CHECKING:
-    from urdfsync.formats.urdf.physics.mujoco_robot import MujocoRobot
-    from urdfsync.formats.urdf.physics.pinocchio_robot import PinocchioRobot
-
-    Multibody: TypeAlias = PinocchioRobot | MujocoRobot
 
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """Steepness s of the dry friction f·tanh(s·v/2) of generated joints, in s/rad and s/m."""
