@@ -248,7 +248,8 @@ class Scenario:
 
     def gone(self, file: str) -> None:
         path = self.path(file)
-        assert not path.parent.is_dir() or path.name not in [each.name for each in path.parent.iterdir()], "by case, too"
+        listed = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
+        assert path.name not in listed, "by case, too"
 
     def order(self, rest: str) -> None:
         file, *names = rest.split()
