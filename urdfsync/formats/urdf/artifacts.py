@@ -11,7 +11,7 @@ from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.formats.urdf.assembly import Assembly
 from urdfsync.formats.urdf.model.joint import joint_model, joint_title
 from urdfsync.formats.urdf.model.loop import loop_note, loop_reaches, loop_title
-from urdfsync.formats.urdf.model.numbers import joint_part, link_numbers, loop_numbers, shape_part
+from urdfsync.formats.urdf.model.numbers import joint_numbers, joint_record, link_numbers, loop_numbers, shape_part
 from urdfsync.formats.urdf.model.record import obstacles, record_data
 from urdfsync.formats.urdf.model.robot import bench_data, robot_data, sensor_rows
 from urdfsync.formats.urdf.model.shapes import link_model, link_shapes, standing_height
@@ -137,7 +137,7 @@ def _link(assembly: Assembly, link: Link, imports: Mapping[str, Import]) -> Iter
     shapes = {"visuals": list(map(shape_part, visuals)), "collisions": list(map(shape_part, collisions))}
     record = {"numbers": link_numbers(link.name, link.inertial), "contact": contact, **shapes}
     note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>."
-    model = link_model(visuals, collisions, link.contact)
+    model = msgspec.structs.asdict(link_model(visuals, collisions, link.contact))
     templates = "link/model", "link/record"
     return _element(assembly, "link", link.name, f'link "{link.name}"', templates, (model, record), note)
 
@@ -147,7 +147,8 @@ def _joint(assembly: Assembly, joint: Joint) -> Iterator[Artifact]:
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}."
     is_driven = joint.name in assembly.closed.driven
-    data = joint_model(joint, assembly.options, is_driven), joint_part(joint) | {"source": "URDF"}
+    record = {"base": joint_record(joint), "numbers": joint_numbers(joint), "source": "URDF"}
+    data = joint_model(joint, assembly.options, is_driven), record
     templates = "joint/axis" if joint.type in MOTION_KINDS else f"joint/{joint.type}", "joint/record"
     return _element(assembly, "joint", joint.name, joint_title(joint), templates, data, note)
 

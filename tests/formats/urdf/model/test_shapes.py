@@ -16,7 +16,7 @@ from support.robots import any_number, origin, tree
 from urdfsync.domain import Import
 from urdfsync.formats.urdf.kinematics.poses import pose
 from urdfsync.formats.urdf.meshes.lookup import key
-from urdfsync.formats.urdf.model.shapes import GREY, link_model, link_shapes, standing_height
+from urdfsync.formats.urdf.model.shapes import GREY, DrawnShape, link_model, link_shapes, standing_height
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.robot import (
     Box,
@@ -51,7 +51,7 @@ def imported(points: list[list[float]]) -> Mapping[str, Import]:
 
 def shapes_of(
     *geometries: Geometry, imports: Mapping[str, Import] | None = None, **options: Any
-) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+) -> tuple[list[DrawnShape], list[DrawnShape]]:
     link = Link("l", visuals=tuple(map(Visual, geometries)), collisions=tuple(map(Collision, geometries)))
     return link_shapes(link, imports or {}, "Plant.Arm", Options(**options))
 
@@ -67,20 +67,20 @@ def test_colours_are_integers_that_tools_take(
 ) -> None:
     link = Link("l", visuals=(Visual(Sphere(1), name='a "b"', material=material),))
     ((visual,), _) = link_shapes(link, {}, "Arm", Options())
-    assert (visual["color"], visual["opacity"], visual["title"]) == (color, opacity, 'Visual 1: "a "b""')
+    assert (visual.color, visual.opacity, visual.title) == (color, opacity, 'Visual 1: "a "b""')
 
 
 @pytest.mark.parametrize(("base", "points", "names"), [
-    ("floating", POINTS, ["contact1 Box", "contact2 Points", "contact3 Sphere"]),
-    ("floating", [], ["contact1 Box", "contact3 Sphere"]),
+    ("floating", POINTS, ["collision1 Box", "collision2 Mesh", "collision3 Sphere"]),
+    ("floating", [], ["collision1 Box", "collision3 Sphere"]),
     ("fixed", POINTS, []),
 ])  # fmt: skip
 def test_every_collision_touches_the_ground_but_a_mesh_without_points(
     base: str, points: list[list[float]], names: list[str]
 ) -> None:
     visuals, collisions = shapes_of(Box((1, 1, 1)), MESH, Sphere(1), imports=imported(points), base=base)
-    contacts = link_model(visuals, collisions)["contacts"]
-    assert [f"{contact['component']} {contact['type']}" for contact in contacts] == names
+    model = link_model(visuals, collisions)
+    assert [f"{shape.component} {shape.type}" for shape in model.collisions if shape.touches] == names
 
 
 def body(name: str, *shapes: Geometry) -> Link:
