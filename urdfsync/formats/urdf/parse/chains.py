@@ -10,7 +10,6 @@ from msgspec.structs import replace
 from urdfsync.formats.urdf.parse.closures import Closures
 from urdfsync.formats.urdf.parse.fields import Reader, quoted
 from urdfsync.formats.urdf.robot import Dynamics, Joint, Link, Loop, Vector
-from urdfsync.formats.urdf.validate import Finding
 
 _DIRECTIONS: Mapping[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 _DRAKE = {"ball": "", "planar": "", "universal": "xy"}
@@ -36,7 +35,7 @@ def find_axes(reader: Reader, root: Element, closures: Closures) -> Mapping[str,
             _leave_axis_out(joints[name], "continuous" if letters else "fixed", "axis", "limit", "dynamics")
         else:
             message = f"there is no joint {quoted(name)}, whose type the file states"
-            reader.extend([Finding("unknown-reference", f"axes of joint {name}", message)])
+            reader.tell("unknown-reference", f"axes of joint {name}", message)
     return {name: letters for name, letters in axes.items() if letters}
 
 

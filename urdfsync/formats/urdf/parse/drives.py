@@ -350,7 +350,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: Sequence[DriveStatement])
     if joint.type not in MOTION_KINDS:
         if is_driven and joint.type == "ball":
             message = f"joint {joint.name!r} is a ball: its drive has no effect"
-            reader.extend([Finding("ball-not-driven", f"joint {joint.name}", message)])
+            reader.tell("ball-not-driven", f"joint {joint.name}", message)
         return msgspec.structs.replace(joint, actuated=is_driven or None)
     reader.used.update(drive.element for drive in drives if drive.element is not None)
     place = f"joint {joint.name} / mimic"
@@ -380,7 +380,7 @@ def _first(reader: Reader, field: str, drives: Iterable[DriveStatement]) -> Driv
             message = f"joint {first.joint!r} has two {_KINDS[field]} that differ: "
             message += f"that of {first.path} counts, that of {other.path} does not"
             hint = "correct one, or choose by `commands` in the configuration" if field == "command" else ""
-            reader.extend([Finding("drive-contradiction", other.path, message, hint)])
+            reader.tell("drive-contradiction", other.path, message, hint)
     return first
 
 
@@ -391,7 +391,7 @@ def _check_flags(reader: Reader, drives: Iterable[DriveStatement], *, follows: b
         if stated == ("false" if follows else "true"):
             fact = "follows another joint all the same" if follows else "has no <mimic>, and moves by itself"
             message = f"{drive.path} has mimic={quoted(stated)}, but joint {drive.joint!r} {fact}"
-            reader.extend([Finding("drive-contradiction", drive.path, message)])
+            reader.tell("drive-contradiction", drive.path, message)
 
 
 def _start_within_limits(reader: Reader, joint: Joint, drive: DriveStatement) -> float | None:
@@ -399,7 +399,7 @@ def _start_within_limits(reader: Reader, joint: Joint, drive: DriveStatement) ->
     (lower, upper), start = own_range(joint), drive.start
     if start is not None and drive.path and not lower - _SAME <= start <= upper + _SAME:
         message = f"joint {joint.name!r} begins at {start:g}, outside of its limits {lower:g} to {upper:g}"
-        reader.extend([Finding("bad-start", f"joint {joint.name} / start", f"{message}: the start is ignored")])
+        reader.tell("bad-start", f"joint {joint.name} / start", f"{message}: the start is ignored")
         return None
     return start
 
@@ -412,7 +412,7 @@ def _tell_held_starts(reader: Reader, joints: Iterable[Joint]) -> None:
             position = joint.mimic.multiplier * starts[joint.mimic.joint] + joint.mimic.offset
             if abs(position - joint.start) > _SAME:
                 message = f"joint {joint.name!r} can't begin at {joint.start:g}: the joint that it follows holds it at "
-                reader.extend([Finding("bad-start", f"joint {joint.name} / start", f"{message}{position:g}")])
+                reader.tell("bad-start", f"joint {joint.name} / start", f"{message}{position:g}")
 
 
 def _without_loose_gears(

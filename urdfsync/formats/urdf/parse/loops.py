@@ -114,55 +114,54 @@ def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Elem
 
 def read_loops(reader: Reader, root: Element, robot: Robot, options: Options, closures: Closures) -> tuple[Loop, ...]:
     """Return the loops of a robot. `robot` is a tree, with all parts but the loops. Faulty loops are left out."""
-    loops = list[Loop]()
-    elements = list(_find_loop_elements(root))
-    poses = link_poses(KinematicTree.of(robot), {}) if elements else {}
     links = {link.name for link in robot.links}
     ends = {joint.name: joint.child for joint in robot.joints if joint.name not in links}
-    names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
-    in_gazebo = {link.get("name") for part in root.iterfind("gazebo") for link in part.iterfind("link")} - links
-    paths = validate.element_paths("loop", [*names, *(loop.name for loop, _ in closures.loops)])
-    for element, name, path in zip(elements, names, paths, strict=False):
-        reader.place(element, path)
-        if element.tag == "joint":
-            loop = _read_joint(reader, element, path, name, poses, in_gazebo)
-        else:
-            reader.expect(element, path, ("name", "type") if element.tag == "loop_joint" else ("name",))
-            for part in element:
-                if part.tag == "axis":
-                    reader.expect(part, f"{path} / axis", ("xyz", "frame"))
-                elif part.tag not in _PARTS[element.tag]:
-                    reader.keep(part, path, _PARTS[element.tag], path, moves=True)
-            if element.tag == "loop_joint":
-                loop = _read_loop_joint(reader, element, path, name, poses)
-            else:
-                loop = _read_ball(reader, element, path, name)
-        if loop is not None and loop.parent and loop.child:  # reader.read reports a missing name
-            loops.append(loop)
-    for (loop, line), path in zip(closures.loops, paths[len(names) :], strict=True):
-        reader.put(path, line, closures.file)
-        loops.append(loop)
     # a loop may name a joint instead of the joint's child link: both have one frame
-    loops = [
+    stated = [
         replace(loop, parent=ends.get(loop.parent, loop.parent), child=ends.get(loop.child, loop.child))
-        for loop in loops
+        for loop in _stated_loops(reader, root, robot, closures)
     ]
     configured = configured_loops(options.loops)
     faulty = {finding.path for finding in validate.check_loops(configured, links)}
     paths = validate.element_paths("loop", (loop.name for loop in configured))
     # option_names reports faulty loops
     chosen = [loop for path, loop in zip(paths, configured, strict=True) if path not in faulty]
-    of_source = list[Loop]()
+    of_source = [*_without_rivals(reader, stated, configured), *_frames_by_name(reader, robot.links, configured)]
+    reader.extend(validate.check_loops(of_source, links))
+    return tuple(map(_unit, (*chosen, *of_source)))
+
+
+def _stated_loops(reader: Reader, root: Element, robot: Robot, closures: Closures) -> Iterator[Loop]:
+    """Yield the loops of the URDF, then those of the YAML."""
+    elements = list(_find_loop_elements(root))
+    poses = link_poses(KinematicTree.of(robot), {}) if elements else {}
+    names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
+    of_gazebo = {link.get("name") for part in root.iterfind("gazebo") for link in part.iterfind("link")}
+    paths = validate.element_paths("loop", [*names, *(loop.name for loop, _ in closures.loops)])
+    for element, name, path in zip(elements, names, paths, strict=False):
+        reader.place(element, path)
+        if element.tag == "loop_joint":
+            loop = _read_loop_joint(reader, element, path, name, poses)
+        elif element.tag == _BALL:
+            loop = _read_ball(reader, element, path, name)
+        else:
+            loop = _read_joint(reader, element, path, name, poses, of_gazebo - poses.keys())
+        if loop is not None and loop.parent and loop.child:  # reader.read reports a missing name
+            yield loop
+    for (loop, line), path in zip(closures.loops, paths[len(names) :], strict=True):
+        reader.put(path, line, closures.file)
+        yield loop
+
+
+def _without_rivals(reader: Reader, loops: Iterable[Loop], configured: Sequence[Loop]) -> Iterator[Loop]:
+    """Yield the loops that the configuration does not replace; report each loop that it has with other numbers."""
     for loop in map(_with_axes_of_its_kind, loops):
         rival = _find_rival(loop, configured)
         if rival is None:
-            of_source.append(loop)
+            yield loop
         elif _unit(rival) != _unit(loop):
             message = f"loop {loop.name!r} differs from `loops` in the configuration: the configuration counts"
-            reader.extend([validate.Finding("loop-contradiction", f"loop {loop.name}", message)])
-    of_source += _frames_by_name(reader, robot.links, configured)
-    reader.extend(validate.check_loops(of_source, links))
-    return tuple(map(_unit, (*chosen, *of_source)))
+            reader.tell("loop-contradiction", f"loop {loop.name}", message)
 
 
 def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
@@ -213,7 +212,18 @@ def _kind(reader: Reader, element: Element, path: str) -> LoopKind | None:
     return _KINDS.get(text)
 
 
+def _expect_parts(reader: Reader, element: Element, path: str, *attributes: str) -> None:
+    """Report unexpected attributes and parts of an element that closes a loop."""
+    reader.expect(element, path, ("name", *attributes))
+    for part in element:
+        if part.tag not in _PARTS[element.tag]:
+            reader.keep(part, path, _PARTS[element.tag], path, moves=True)
+        elif part.tag == "axis":
+            reader.expect(part, f"{path} / axis", ("xyz", "frame"))
+
+
 def _read_loop_joint(reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose]) -> Loop | None:
+    _expect_parts(reader, element, path, "type")
     ends = [child for child in element if child.tag in ("link1", "link2")]  # Isaac Sim's exporter writes link1 twice
     kind = _kind(reader, element, path)
     if not ends and {"parent", "child"} <= {part.tag for part in element}:
@@ -255,6 +265,7 @@ def _read_ends(reader: Reader, element: Element, path: str, poses: Mapping[str, 
 
 
 def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
+    _expect_parts(reader, element, path)
     frames = []
     for body, point in (_PARTS[_BALL][:2], _PARTS[_BALL][2:]):
         part = reader.find(element, body)
@@ -321,11 +332,11 @@ def _frames_by_name(reader: Reader, links: Sequence[Link], configured: Sequence[
                 other = f"{name}_{'2' if '1' in pair else '1'}"
                 message = f"link {end!r} closes no loop by its name: there is no link {other!r}"
                 hint = validate.perhaps(other, {link.name for link in links} - {end})
-                reader.extend([validate.Finding("loop-one-end", f"link {end}", message, hint)])
+                reader.tell("loop-one-end", f"link {end}", message, hint)
             continue
         loop = Loop(name, "ball", pair["1"], pair["2"])
         if _find_rival(loop, configured) is None:
             reader.lines.setdefault(f"loop {name}", reader.lines[f"link {pair['1']}"])
             message = f"links {pair['1']!r} and {pair['2']!r} close a loop by their names, as a ball"
-            reader.extend([validate.Finding("loop-by-name", f"loop {name}", message)])
+            reader.tell("loop-by-name", f"loop {name}", message)
             yield loop
