@@ -71,16 +71,16 @@ def test_colours_are_integers_that_tools_take(
 
 
 @pytest.mark.parametrize(("base", "points", "names"), [
-    ("floating", POINTS, ["collision1 Box", "collision2 Mesh", "collision3 Sphere"]),
-    ("floating", [], ["collision1 Box", "collision3 Sphere"]),
+    ("floating", POINTS, ["contact1 Box", "contact2 Points", "contact3 Sphere"]),
+    ("floating", [], ["contact1 Box", "contact3 Sphere"]),
     ("fixed", POINTS, []),
 ])  # fmt: skip
 def test_every_collision_touches_the_ground_but_a_mesh_without_points(
     base: str, points: list[list[float]], names: list[str]
 ) -> None:
     visuals, collisions = shapes_of(Box((1, 1, 1)), MESH, Sphere(1), imports=imported(points), base=base)
-    model = link_model(visuals, collisions)
-    assert [f"{shape.component} {shape.type}" for shape in model.collisions if shape.touches] == names
+    contacts = link_model(visuals, collisions).contacts
+    assert [f"{contact.component} {contact.type}" for contact in contacts] == names
 
 
 def body(name: str, *shapes: Geometry) -> Link:

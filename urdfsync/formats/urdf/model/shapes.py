@@ -41,13 +41,11 @@ class ModelShape(msgspec.Struct, frozen=True):
 
     component: str
     type: str
-    """The class in the library's `Records` and `Visualizers`; for a contact, in its `Contacts`, but of a mesh."""
+    """The class in the library's `Records` and `Visualizers`."""
     label: str
     is_collision: bool
     y: int
     """The height of the component in the link's diagram."""
-    touches: bool = False
-    """Whether the shape is a collision that can touch the ground: the model has a contact for it."""
 
 
 class DrawnShape(msgspec.Struct, frozen=True):
@@ -65,6 +63,19 @@ class DrawnShape(msgspec.Struct, frozen=True):
     """The lowest and the greatest coordinates in this file."""
     hull: Sequence[Sequence[float]] = ()
     """The outermost points of a mesh that can touch the ground."""
+    touches: bool = False
+    """Whether the shape is a collision that can touch the ground."""
+
+
+class ContactModel(msgspec.Struct, frozen=True):
+    """The contact of a collision with the ground in the model of a link."""
+
+    component: str
+    type: str
+    """The class in the library's `Contacts`."""
+    record: str
+    """The component of the collision."""
+    y: int
 
 
 class LinkModel(msgspec.Struct, frozen=True):
@@ -72,6 +83,7 @@ class LinkModel(msgspec.Struct, frozen=True):
 
     visuals: Sequence[ModelShape]
     collisions: Sequence[ModelShape]
+    contacts: Sequence[ContactModel]
     surface: Sequence[str]
     """The names of the numbers of contacts in the link's record."""
     top: int
@@ -96,10 +108,12 @@ def link_shapes(
     for number, collision in by_number(link.collisions if options.collisions else ()).items():
         for file in _files(collision.geometry, imports):
             model = _model(collision, number, 0, -_ROW * (len(collisions) + 1))
-            points = hull(collision.geometry, imports) if options.base == "floating" else ()
-            if options.base == "floating" and (points or not isinstance(collision.geometry, Mesh)):
-                model = msgspec.structs.replace(model, touches=True)
-            collisions.append(_drawn(collision, model, file, package, PINK, 0.5, points))
+            shape = _drawn(collision, model, file, package, PINK, 0.5)
+            if options.base == "floating":
+                points = hull(collision.geometry, imports)
+                touches = bool(points) or not isinstance(collision.geometry, Mesh)
+                shape = msgspec.structs.replace(shape, hull=points, touches=touches)
+            collisions.append(shape)
     return visuals, collisions
 
 
@@ -108,15 +122,26 @@ def link_model(
 ) -> LinkModel:
     """Return the structure of a link for its model.
 
-    From `contact`, the model needs only the names of the given numbers.
+    Each collision that can touch the ground has a contact. From `contact`, the model needs only the names of the given
+    numbers.
     """
-    models = [shape.model for shape in visuals], [shape.model for shape in collisions]
-    has_contacts = any(shape.touches for shape in models[1])
+    drawn, hidden = [shape.model for shape in visuals], [shape.model for shape in collisions]
+    contacts = [
+        ContactModel(
+            model.component.replace("collision", "contact"),
+            "Points" if model.type == "Mesh" else model.type,
+            model.component,
+            model.y,
+        )
+        for model in (shape.model for shape in collisions if shape.touches)
+    ]
     return LinkModel(
-        *models,
-        surface=list(msgspec.to_builtins(contact)) if contact and has_contacts else [],
-        top=max([100, *(shape.y + 20 for shape in models[0])]),
-        bottom=min([-100, *(shape.y - 20 for shape in models[1])]),
+        drawn,
+        hidden,
+        contacts,
+        list(msgspec.to_builtins(contact)) if contact and contacts else [],
+        top=max([100, *(shape.y + 20 for shape in drawn)]),
+        bottom=min([-100, *(shape.y - 20 for shape in hidden)]),
     )
 
 
@@ -206,8 +231,7 @@ def _drawn(
     package: str,
     color: Sequence[int],
     opacity: float,
-    points: Sequence[Sequence[float]] = (),
 ) -> DrawnShape:
     title = f'{model.label}: "{shape.name}"' if shape.name else model.label
     uri, bounds = (f"modelica://{package}/{file.target}", file.facts["bounds"]) if file else ("", ())
-    return DrawnShape(model, title, shape.origin, shape.geometry, color, opacity, uri, bounds, points)
+    return DrawnShape(model, title, shape.origin, shape.geometry, color, opacity, uri, bounds)
