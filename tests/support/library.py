@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-import msgspec
-
 from urdfsync.domain import Artifact, Import, Order, Role
 from urdfsync.formats.urdf.meshes.lookup import key
 from urdfsync.formats.urdf.model.joint import joint_model
@@ -89,7 +87,7 @@ def link_files(name: str, record: str, link: Link, note: str) -> Iterator[Artifa
             "contact": {},
         }
         yield Artifact(f"Links/{record}.mo", Role.RECORD, "link/record.mo.jinja", named | data, name)
-    data = msgspec.structs.asdict(link_model(visuals, collisions)) | {"note": f"{note} {RECORD_NOTE}"}
+    data = link_model(visuals, collisions) | {"note": f"{note} {RECORD_NOTE}"}
     yield Artifact(f"Links/{name}.mo", Role.MODEL, "link/model.mo.jinja", named | data, name)
 
 

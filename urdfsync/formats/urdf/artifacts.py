@@ -146,7 +146,7 @@ def _link(assembly: Assembly, link: Link, imports: Mapping[str, Import]) -> Iter
     shapes = {"visuals": list(map(shape_part, visuals)), "collisions": list(map(shape_part, collisions))}
     record = {"numbers": link_numbers(link.name, link.inertial), "contact": contact, **shapes}
     note = f"Rigid body, visuals and collisions of the URDF link <code>{html(link.name)}</code>."
-    model = msgspec.structs.asdict(link_model(visuals, collisions, link.contact))
+    model = link_model(visuals, collisions, link.contact)
     templates = "link/model", "link/record"
     return _element(assembly, "link", link.name, f'link "{link.name}"', templates, (model, record), note)
 

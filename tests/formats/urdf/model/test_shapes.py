@@ -79,8 +79,8 @@ def test_every_collision_touches_the_ground_but_a_mesh_without_points(
     base: str, points: list[list[float]], names: list[str]
 ) -> None:
     visuals, collisions = shapes_of(Box((1, 1, 1)), MESH, Sphere(1), imports=imported(points), base=base)
-    contacts = link_model(visuals, collisions).contacts
-    assert [f"{contact.component} {contact.type}" for contact in contacts] == names
+    contacts = link_model(visuals, collisions)["contacts"]
+    assert [f"{contact['component']} {contact['type']}" for contact in contacts] == names
 
 
 def body(name: str, *shapes: Geometry) -> Link:

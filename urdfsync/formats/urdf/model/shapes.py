@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import msgspec
 
@@ -67,29 +67,6 @@ class DrawnShape(msgspec.Struct, frozen=True):
     """Whether the shape is a collision that can touch the ground."""
 
 
-class ContactModel(msgspec.Struct, frozen=True):
-    """The contact of a collision with the ground in the model of a link."""
-
-    component: str
-    type: str
-    """The class in the library's `Contacts`."""
-    record: str
-    """The component of the collision."""
-    y: int
-
-
-class LinkModel(msgspec.Struct, frozen=True):
-    """The template data of the model of a link: no number of the URDF."""
-
-    visuals: Sequence[ModelShape]
-    collisions: Sequence[ModelShape]
-    contacts: Sequence[ContactModel]
-    surface: Sequence[str]
-    """The names of the numbers of contacts in the link's record."""
-    top: int
-    bottom: int
-
-
 def link_shapes(
     link: Link, imports: Mapping[str, Import], package: str, options: Options
 ) -> tuple[list[DrawnShape], list[DrawnShape]]:
@@ -119,7 +96,7 @@ def link_shapes(
 
 def link_model(
     visuals: Sequence[DrawnShape], collisions: Sequence[DrawnShape], contact: Contact | None = None
-) -> LinkModel:
+) -> dict[str, Any]:
     """Return the structure of a link for its model.
 
     Each collision that can touch the ground has a contact. From `contact`, the model needs only the names of the given
@@ -127,22 +104,22 @@ def link_model(
     """
     drawn, hidden = [shape.model for shape in visuals], [shape.model for shape in collisions]
     contacts = [
-        ContactModel(
-            model.component.replace("collision", "contact"),
-            "Points" if model.type == "Mesh" else model.type,
-            model.component,
-            model.y,
-        )
+        {
+            "component": model.component.replace("collision", "contact"),
+            "type": "Points" if model.type == "Mesh" else model.type,
+            "record": model.component,
+            "y": model.y,
+        }
         for model in (shape.model for shape in collisions if shape.touches)
     ]
-    return LinkModel(
-        drawn,
-        hidden,
-        contacts,
-        list(msgspec.to_builtins(contact)) if contact and contacts else [],
-        top=max([100, *(shape.y + 20 for shape in drawn)]),
-        bottom=min([-100, *(shape.y - 20 for shape in hidden)]),
-    )
+    return {
+        "visuals": drawn,
+        "collisions": hidden,
+        "contacts": contacts,
+        "surface": list(msgspec.to_builtins(contact)) if contact and contacts else [],
+        "top": max([100, *(shape.y + 20 for shape in drawn)]),
+        "bottom": min([-100, *(shape.y - 20 for shape in hidden)]),
+    }
 
 
 def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence[float]]:
