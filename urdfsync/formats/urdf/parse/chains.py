@@ -7,11 +7,12 @@ from xml.etree.ElementTree import Element
 
 from msgspec.structs import replace
 
+from urdfsync.formats.urdf.kinematics.poses import AXES
 from urdfsync.formats.urdf.parse.closures import Closures
 from urdfsync.formats.urdf.parse.fields import Reader, quoted
-from urdfsync.formats.urdf.robot import Dynamics, Joint, Link, Loop, Vector
+from urdfsync.formats.urdf.robot import Dynamics, Joint, Link, Loop
 
-_DIRECTIONS: Mapping[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+_DIRECTIONS = dict(zip("xyz", AXES, strict=True))
 _DRAKE = {"ball": "", "planar": "", "universal": "xy"}
 """Types of `<drake:joint>` with the axes of their chains, by Drake's parser of URDF and its class UniversalJoint."""
 
