@@ -23,7 +23,7 @@ import msgspec
 from msgspec.structs import replace
 
 from urdfsync.formats.urdf import validate
-from urdfsync.formats.urdf.kinematics.poses import Pose, across, angles, compose, inverse, link_poses, pose
+from urdfsync.formats.urdf.kinematics.poses import AXES, Pose, across, angles, compose, inverse, link_poses, pose
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.options import LoopFrame, LoopOption, Options
 from urdfsync.formats.urdf.parse.closures import Closures
@@ -57,6 +57,7 @@ _CONSTRAINS = re.compile("constraint|equality|coupl|weld|gear|tendon|spring")
 _CLOSING = re.compile(r"(closing_.+)_([12])")
 _DETACHABLE = ("parent_link", "child_link")
 _DIGITS = 12
+_X, _, _Z = AXES
 
 
 class _NameAttribute(msgspec.Struct):
@@ -155,7 +156,7 @@ def _stated_loops(reader: Reader, root: Element, robot: Robot, closures: Closure
 
 def _without_rivals(reader: Reader, loops: Iterable[Loop], configured: Sequence[Loop]) -> Iterator[Loop]:
     """Yield the loops that the configuration does not replace; report each loop that it has with other numbers."""
-    for loop in map(_with_axes_of_its_kind, loops):
+    for loop in loops:
         rival = _find_rival(loop, configured)
         if rival is None:
             yield loop
@@ -166,8 +167,7 @@ def _without_rivals(reader: Reader, loops: Iterable[Loop], configured: Sequence[
 
 def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
     """Return the loops of the option `loops`; their axes are not normalised."""
-    read = (_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops)
-    return list(map(_with_axes_of_its_kind, read))
+    return [_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops]
 
 
 def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
@@ -175,16 +175,14 @@ def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
     return next((other for other in configured if other.name == loop.name or _ends(other) == _ends(loop)), None)
 
 
-def _with_axes_of_its_kind(loop: Loop) -> Loop:
-    """Return a loop with default values for the axes that its kind lacks: sources fill these in differently."""
-    axis = loop.axis if loop.kind in ("revolute", "universal") else (0.0, 0.0, 1.0)
-    return replace(loop, axis=axis, child_axis=loop.child_axis if loop.kind == "universal" else (1.0, 0.0, 0.0))
-
-
-def _between(name: str, kind: LoopKind, frames: Iterable[str | LoopFrame], axis: Vector, child_axis: Vector) -> Loop:
+def _between(
+    name: str, kind: LoopKind, frames: Iterable[str | LoopFrame], axis: Vector = _Z, child_axis: Vector = _X
+) -> Loop:
+    """Return a loop between two frames, with default axes where its kind has none: sources fill these in differently."""
     parent, child = (LoopFrame(end) if isinstance(end, str) else end for end in frames)
     origins = Origin(parent.xyz, parent.rpy), Origin(child.xyz, child.rpy)
-    return Loop(name, kind, parent.link, child.link, *origins, axis, child_axis)
+    axes = (axis if kind in ("revolute", "universal") else _Z), (child_axis if kind == "universal" else _X)
+    return Loop(name, kind, parent.link, child.link, *origins, *axes)
 
 
 def _ends(loop: Loop) -> frozenset[tuple[str, Origin]]:
@@ -238,7 +236,7 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str, pos
     if (frame := element.find("axis[@frame]")) is not None and frame.get("frame") != "parent":
         message = f"{path} has its <axis> in the frame {quoted(frame.get('frame', ''))}"
         reader.add(element, "loop-joint", message, 'write the axis in the frame of the parent: frame="parent"')
-    axis = _vector(reader, element, "axis@xyz", path) or (1.0, 0.0, 0.0)
+    axis = _vector(reader, element, "axis@xyz", path) or _X
     return kind and _between(name, kind, frames, axis, _second_axis(axis))
 
 
@@ -274,7 +272,7 @@ def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop |
             return None
         place = _vector(reader, element, f"{point}@value", path) or (0.0, 0.0, 0.0)
         frames.append(LoopFrame(reader.read(part, path, _NameAttribute, path).name, place))
-    return _between(name, "ball", frames, (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
+    return _between(name, "ball", frames)
 
 
 def _read_joint(
@@ -301,14 +299,15 @@ def _read_joint(
             reader.add(element, "loop-joint", message, hint)
             kind = None
     numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6
-    axis = _vector(reader, element, "axis/xyz", path) or (0.0, 0.0, 1.0)
+    axis = _vector(reader, element, "axis/xyz", path) or _Z
     second = _vector(reader, element, "axis2/xyz", path)
     if kind is None or parent not in poses or child not in poses:
         known = kind is None or not (parent and child)
         return None if known else Loop(name, kind or "ball", parent, child)  # validate reports a missing link
-    child_origin = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
-    origin = _origin(compose(inverse(poses[parent]), compose(poses[child], pose(child_origin))))
-    return Loop(name, kind, parent, child, origin, child_origin, axis, second or _second_axis(axis))
+    own = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
+    origin = _origin(compose(inverse(poses[parent]), compose(poses[child], pose(own))))
+    frames = LoopFrame(parent, origin.xyz, origin.rpy), LoopFrame(child, own.xyz, own.rpy)
+    return _between(name, kind, frames, axis, second or _second_axis(axis))
 
 
 def _origin(of: Pose) -> Origin:
