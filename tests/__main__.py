@@ -1,10 +1,13 @@
-"""All checks of the project: `python -m tests [--long] [--tests] [pytest arguments]`.
+"""All checks of the project: `python -m tests [--long|--all] [--part N/M] [--tests] [pytest arguments]`.
 
-`--long` adds the tests that take more than a few seconds, as in CI. `--tests`, for a further Python, leaves out the
-linter, and the tests whose result does not depend on the Python. Two options check nothing: `--renew` writes the golden
-files anew, which templates and library write (tests/support/golden.py); `--map [ROOM]` prints what each module of
-urdfsync holds, by the first line of its docstring. `--windows FOLDER` runs tests
-with the Windows Python that FOLDER/python starts (support/windows.py), or those that further arguments of pytest name.
+`--long` adds the tests that take more than a few seconds, as in CI; `--all` adds the large ones, too. `--part 2/4` runs
+a quarter of what one of the two adds. `--tests`, for a further Python, leaves out the linter and the tests whose result
+does not depend on the Python.
+
+Three options check nothing of this machine: `--renew` writes the golden files anew, which templates and library write
+(tests/support/golden.py), and the forms and projects of tests/kept; `--map [ROOM]` prints what each module of urdfsync
+holds, by the first line of its docstring; `--windows FOLDER` runs tests with the Windows Python that FOLDER/python
+starts (support/windows.py), or those that further arguments of pytest name.
 """
 
 import ast
@@ -29,7 +32,8 @@ QUICK = {"tests": [*PYTEST, "not slow and not large"]}
 ONE_MORE = {"tests": [*PYTEST, "not slow and not large and not once"]}
 # in one run with the other tests: each process takes 13 s to find all tests
 LONG = {"tests": [*PYTEST, "not large"]}
-OPTIONS = ("--long", "--tests")
+ALL = {"tests": [*PYTEST, ""]}
+OPTIONS = ("--long", "--all", "--tests")
 # one thread, large pieces of memory: rumoca takes a quarter of its time for locks and for freeing memory
 COMPILER = {"RAYON_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "1", "MALLOC_TOP_PAD_": str(2**26)}
 
@@ -56,7 +60,7 @@ def main() -> int:
     if "--tests" in sys.argv:
         checks = EXAMPLES | ONE_MORE
     else:
-        checks = STATIC | EXAMPLES | (LONG if "--long" in sys.argv else QUICK)
+        checks = STATIC | EXAMPLES | (ALL if "--all" in sys.argv else LONG if "--long" in sys.argv else QUICK)
     for name, (module, *arguments) in checks.items():
         print(f"== {name}", flush=True)  # noqa: T201
         extra = given if module == "pytest" else []

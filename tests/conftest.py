@@ -70,18 +70,8 @@ if sys.platform == "win32":
             raise OSError("no links")
         pytest.skip("Windows makes symbolic links for administrators alone, and no pipes in folders")
 
-    @pytest.fixture(autouse=True)
-    def _no_pools(monkeypatch: pytest.MonkeyPatch) -> None:
-        """Wine loses the empty messages by which Python wakes a pool of processes: these would wait for ever."""
-        import ctypes
-
-        if hasattr(ctypes.windll.ntdll, "wine_get_version"):
-            monkeypatch.setattr("urdfsync.common.processes.machine.cores", lambda: 1)
-            monkeypatch.setattr("urdfsync.common.processes.workers.ProcessPoolExecutor", _no_pool)
-
-    def _no_pool(*_: object) -> None:
-        pytest.skip("Wine has no pools of processes")
-
+    # the texts of tests have the same bytes on each system; some tests write other line ends themselves
+    Path.write_text = functools.partialmethod(Path.write_text, newline="\n")  # type: ignore[assignment,method-assign]
     Path.symlink_to = os.symlink = os.mkfifo = _skip  # type: ignore[method-assign]
 
 
@@ -299,8 +289,8 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option of CI that runs only a part of the slow tests."""
-    parser.addoption("--part", metavar="N/M", default="1/1", help="run the N-th of M parts of the tests marked slow")
+    """Add the option that runs only a part of the long tests."""
+    parser.addoption("--part", metavar="N/M", default="1/1", help="run the N-th of M parts of the slow and large tests")
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)  # before `-m` reads the marks
@@ -318,14 +308,15 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         cases[test] += 1
     yield
     number, parts = map(int, config.getoption("part").split("/"))
-    all_slow = [item for item in items if item.get_closest_marker("slow")]
-    slow = [item for item in all_slow if zlib.crc32(item.nodeid.encode()) % parts == number - 1]
-    config.hook.pytest_deselected(items=[item for item in all_slow if item not in slow])
-    quick = [item for item in items if not item.get_closest_marker("slow")]
+    long = [item for item in items if item.get_closest_marker("slow") or item.get_closest_marker("large")]
+    part = [item for item in long if zlib.crc32(item.nodeid.encode()) % parts == number - 1]
+    of_all, others = set(long), set(long) - set(part)
+    quick = [item for item in items if item not in of_all]
+    config.hook.pytest_deselected(items=[item for item in long if item in others])
     pieces: list[list[pytest.Item]] = [[] for _ in range(int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))]
-    for _, tests in itertools.groupby(slow, key=lambda item: item.path):
+    for _, tests in itertools.groupby(part, key=lambda item: item.path):
         min(pieces, key=len).extend(tests)
-    size = (len(slow) + len(quick)) // len(pieces)
+    size = (len(part) + len(quick)) // len(pieces)
     for piece in pieces:
         room = max(0, size - len(piece))
         piece += quick[:room]
@@ -338,7 +329,7 @@ _SAME = tuple(f"tests/{name}" for name in (
     *("engine/", "merge/", "modelica/", "output/", "formats/urdf/", "domain/test_comparison", "domain/test_matching"),
     *(f"analysis/{name}/" for name in ("pages", "patches", "simulation", "versions")),
     *("formats/table/test_catalogue", "formats/table/test_units", "test_forged_states", "test_hostile_templates"),
-    *("test_ignored", "test_loops", "test_renumbered", "test_templates", "test_verdicts"),
+    *("test_ignored", "test_loops", "test_renumbered", "test_templates"),
     *(f"analysis/identification/test_{name}" for name in ("excite", "fit", "records", "run", "signals")),
     # other formats and checks, but for their processes and for rumoca
     *("formats/mjcf/", "formats/sdf/", "watch/test_checks", "watch/test_report", "watch/test_view"),
@@ -346,7 +337,7 @@ _SAME = tuple(f"tests/{name}" for name in (
     *(f"analysis/checks/test_{name}" for name in ("afterbuild", "fingerprint", "names", "report", "robot")),
     "analysis/checks/test_texts",
     # git's merges
-    *("test_edits_meet_exports", "test_merge", "test_unite"),
+    *("test_edits_meet_exports", "test_merge"),
     "test_unmerged",
     # texts of the project itself
     *("test_corpus_page", "test_docs", "test_domains_page", "common/test_spelling", "test_urdf_page"),

@@ -40,10 +40,14 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def call(program: Path, *arguments: str) -> int:
+def run(program: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "PYTHONPATH": str(program), "PYTHONSAFEPATH": "1"}
     command = [sys.executable, "-m", "urdfsync", *arguments]
-    return subprocess.run(command, env=environment, capture_output=True, check=False).returncode
+    return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+
+def call(program: Path, *arguments: str) -> int:
+    return run(program, *arguments).returncode
 
 
 @NEEDS_GIT
@@ -96,3 +100,46 @@ def test_edits_follow_when_the_program_gives_an_element_another_identifier(
     assert "Real mine = m;" in (links / f"{new}.mo").read_text()
     assert f"Real mine = f{new[1:]}.m;" in robot.read_text()
     assert len([*links.iterdir()]) == 6, "no orphans: two models, two records, package.mo and its order"
+
+
+@NEEDS_GIT
+@pytest.mark.slow
+def test_two_versions_in_a_team(program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The new version brings edits along and asks where it must; the old one writes nothing any more, and says why."""
+    repository = Repository(tmp_path / "project", monkeypatch)
+    monkeypatch.chdir(repository.folder)
+    Path("arm.urdf").write_text(ELBOW_ARM)
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    assert call(ROOT, "build") == 0
+    links = Path("modelica/Arm/Links")
+    edit(links / "Fore.mo", "\nequation", "\n  Real mine = m;\n\nequation")
+    edit(links / "ForeParameters.mo", "2.5", "2.6")
+    assert call(ROOT, "build", "--check") == 0
+    repository.commit()
+    name, old, new = CHANGES["template"]
+    newer = {program / "urdfsync/common/version.py": ('"0.1.0"', '"0.2.0"'), program / name: (old, new)}
+    for file, words in newer.items():
+        edit(file, *words)
+    try:
+        assert call(program, "build", "--check") == 3, "both changed the record"
+        assert call(program, "build") == 3
+        assert call(program, "resolve", "--all", "--merge") == 0
+        repository.commit()
+        files = {file: file.read_bytes() for file in Path().rglob("*") if file.is_file() and ".git" not in file.parts}
+        edit(Path("arm.urdf"), 'effort="5"', 'effort="6"')
+        for command in (["build"], ["build", "--check"], ["status"], ["hook", "check"], ["resolve", "--all", "--take"]):
+            refused = run(ROOT, *command)
+            assert refused.returncode == 2, command
+            assert (
+                "urdfsync 0.2.0 wrote this state, and this is 0.1.0, which is older; update urdfsync" in refused.stderr
+            )
+        edit(Path("arm.urdf"), 'effort="6"', 'effort="5"')
+        assert all(file.read_bytes() == content for file, content in files.items() if "deps" not in file.parts)
+        assert call(program, "build", "--check") == 0
+    finally:
+        for file, (before, after) in newer.items():
+            edit(file, after, before)
+    text = (links / "ForeParameters.mo").read_text()
+    assert "All numbers of" in text
+    assert "2.6" in text
+    assert "Real mine = m;" in (links / "Fore.mo").read_text()

@@ -9,16 +9,16 @@ from __future__ import annotations
 import collections
 import os
 import secrets
-import select
 import shutil
-import signal
+import subprocess
+import sys
 import time
 from pathlib import Path
 from random import Random
 
 import pytest
 from support import crashes
-from support.crashes import Operation, contents, run
+from support.crashes import contents, run
 
 from urdfsync.engine.result import Result
 from urdfsync.project.state.transaction import find_leftovers
@@ -27,49 +27,58 @@ KILLS = int(os.environ.get("URDFSYNC_KILLS", "20"))
 SEED = secrets.randbelow(10**9) if "URDFSYNC_KILLS" in os.environ else 20
 SAME = 10
 """The number of kills of one project with one change."""
+BUILD = """
+import os, pathlib, sys
+from support import crashes
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system"),
-]
+def tell(operation):
+    if operation.number == 1:
+        print(flush=True)
+
+os.fsync = os.sync = lambda *_: None
+print(flush=True)
+with crashes.before_each(tell):
+    crashes.run(pathlib.Path(sys.argv[1]))
+print(flush=True)
+"""
+"""Builds a project, and prints a line when it begins, before its first file operation, and at its end."""
+
+pytestmark = pytest.mark.slow
 
 
-def build_in_child(project: Path) -> tuple[int, int]:
-    """Build in another process; return the process id, and a pipe that gets a byte at the first file operation."""
-    reader, writer = os.pipe()
+def build_in_child(project: Path) -> subprocess.Popen[bytes]:
+    """Begin to build in another process."""
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    child = subprocess.Popen([sys.executable, "-c", BUILD, project], stdout=subprocess.PIPE, env=environment)
+    wait_for_line(child)
+    return child
 
-    def tell(operation: Operation) -> None:
-        if operation.number == 1:
-            os.write(writer, b".")
 
-    child = crashes.forked(project, tell)
-    os.close(writer)
-    return child, reader
+def wait_for_line(child: subprocess.Popen[bytes]) -> float:
+    """Return the time of the next line."""
+    assert child.stdout
+    child.stdout.readline()
+    return time.monotonic()
 
 
 def duration(project: Path) -> tuple[float, float]:
     """Seconds of an undisturbed build in a process of its own, and from its first operation on."""
-    started = time.monotonic()
-    child, pipe = build_in_child(project)
-    os.read(pipe, 1)
-    writing = time.monotonic()
-    os.close(pipe)
-    os.waitpid(child, 0)
-    return time.monotonic() - started, time.monotonic() - writing
+    with build_in_child(project) as child:
+        started, writing, end = time.monotonic(), wait_for_line(child), wait_for_line(child)
+    assert child.returncode == 0
+    return end - started, end - writing
 
 
 def kill(project: Path, seconds: tuple[float, float], random: Random) -> None:
     """Build, and kill the build at a random time: half of the times count from its start, half from its first write."""
     whole, writing = seconds
-    child, pipe = build_in_child(project)
-    if random.random() < 0.5:
-        time.sleep(random.uniform(0, whole))
-    else:
-        select.select([pipe], [], [], 60)
-        time.sleep(random.uniform(0, writing))
-    os.close(pipe)
-    os.kill(child, signal.SIGKILL)
-    os.waitpid(child, 0)
+    with build_in_child(project) as child:
+        if random.random() < 0.5:
+            time.sleep(random.uniform(0, whole))
+        else:
+            wait_for_line(child)
+            time.sleep(random.uniform(0, writing))
+        child.kill()  # as the task manager of Windows does, too
 
 
 def conflicts(result: Result) -> set[str]:

@@ -37,7 +37,6 @@ before is.
 from __future__ import annotations
 
 import contextlib
-import os
 import re
 import shlex
 import shutil
@@ -125,7 +124,7 @@ class Scenario:
 
     def says(self, rest: str) -> None:
         text = rest.strip().removeprefix("! ").replace("@", f"{self._package}/")
-        is_printed = " ".join(text.split()) in self._printed.words.replace(os.sep, "/")
+        is_printed = " ".join(text.split()) in self._printed.words
         assert is_printed is not rest.strip().startswith("! "), "printed:" if is_printed else "not printed, but:"
 
     def again(self, _: str) -> None:
@@ -151,7 +150,7 @@ class Scenario:
         Path(self._source).write_text(robot_of(links, are_legs=True))
 
     def configure(self, line: str) -> None:
-        with Path("urdfsync.toml").open("a") as file:
+        with Path("urdfsync.toml").open("a", newline="\n") as file:
             file.write(f"{line}\n")
 
     def config(self, rest: str) -> None:
@@ -203,12 +202,17 @@ class Scenario:
 
     def delete(self, file: str) -> None:
         path = self.path(file)
-        shutil.rmtree(path) if path.is_dir() else path.unlink()
+        if path.is_dir():
+            for each in path.rglob("*"):
+                each.chmod(0o700)  # Windows deletes no read-only files, as those of git are
+            shutil.rmtree(path)
+        else:
+            path.unlink()
 
     def move(self, rest: str) -> None:
         old, new = map(self.path, rest.split())
         new.parent.mkdir(parents=True, exist_ok=True)
-        old.rename(new)
+        old.replace(new)
 
     def copy(self, rest: str) -> None:
         shutil.copy(*map(self.path, rest.split()))
@@ -243,7 +247,9 @@ class Scenario:
         assert self.path(file).exists()
 
     def gone(self, file: str) -> None:
-        assert not self.path(file).exists()
+        path = self.path(file)
+        listed = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
+        assert path.name not in listed, "by case, too"
 
     def order(self, rest: str) -> None:
         file, *names = rest.split()

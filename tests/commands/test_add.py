@@ -20,10 +20,11 @@ def test_a_robot_joins(project: Path, execute: Execute) -> None:
     file = project / "urdfsync.toml"
     before = f"# mine\n{file.read_text().rstrip()}"  # without an end of the last line
     file.write_text(before)
-    (project / "Ladder.json").write_text((project / "ladder.json").read_text())
-    assert execute(*ADD, "Ladder.json").lines == [
+    (project / "new").mkdir()
+    (project / "new/Ladder.json").write_text((project / "ladder.json").read_text())
+    assert execute(*ADD, "new/Ladder.json").lines == [
         "urdfsync.toml extended",
-        "  ladder2: Ladder.json becomes package Ladder2",
+        "  ladder2: new/Ladder.json becomes package Ladder2",
         "    ground = true  guessed: a node is named ground",
         "Look it over, then run `urdfsync build`.",
     ]

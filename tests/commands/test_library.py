@@ -22,7 +22,7 @@ def test_library(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     screen = Terminal()
     monkeypatch.setattr(sys, "stdout", screen)
     assert cli.main(["library"]) == 0
-    assert screen.getvalue() == f"{told['folder']}\n{told['line']}\n"
+    assert screen.getvalue() == f"{Path(told['folder'])}\n{told['line']}\n"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")

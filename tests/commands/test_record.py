@@ -139,7 +139,7 @@ def test_a_link_stays_a_link(execute: Execute, folder: Path) -> None:
     ],
 )
 def test_mistakes_are_one_line(arguments: list[object], said: str, folder: Path, execute: Execute) -> None:
-    found = [line for line in execute("record", *arguments, code=2).err.splitlines() if "warning" not in line]
+    found = [line for line in execute("record", *arguments, code=2).errors if "warning" not in line]
     assert len(found) == 1
     assert found[0].startswith(said)
     assert not list(folder.iterdir())

@@ -179,5 +179,5 @@ def test_a_configuration_elsewhere(
         if line.startswith("    urdfsync resolve")
     ]
     command = line.split()[1:]
-    assert command == ["resolve", str(Path("project") / MODEL), "--merge", "--config", "project/urdfsync.toml"]
+    assert command == ["resolve", f"project/{MODEL}", "--merge", "--config", "project/urdfsync.toml"]
     assert cli.main(command) == 0

@@ -15,20 +15,20 @@ from support.daemon import LIMIT, REPOSITORY, Start, holds, ladder, stopped
 
 from urdfsync.commands import cli
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-
 QUEUE = Path("/proc/sys/fs/inotify/max_queued_events")
 SETPRIV = "setpriv"
 ROBOT = '[robots.{0}]\nsource = "{1}"\npackage = "{0}"\ndomain = "rcnetwork"\n'
 
 Capture = pytest.CaptureFixture[str]
 
+pytestmark = pytest.mark.posix("signals end a daemon; there, only a console sends some")
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 0), (signal.SIGHUP, 0)])
-def test_signals_end_it(start: Start, number: signal.Signals, code: int) -> None:
-    watch = start(before=[sys.executable, "-c", HEEDS, number.name])
-    assert watch.stop(number) == code
-    assert watch.events[-1]["signal"] == number.name
+
+@pytest.mark.parametrize(("name", "code"), [("SIGINT", 130), ("SIGTERM", 0), ("SIGHUP", 0)])
+def test_signals_end_it(start: Start, name: str, code: int) -> None:
+    watch = start(before=[sys.executable, "-c", HEEDS, name])
+    assert watch.stop(signal.Signals[name]) == code
+    assert watch.events[-1]["signal"] == name
     assert watch.errors == ""
     assert cli.main(["build", "--check", "--quiet"]) == 0
 

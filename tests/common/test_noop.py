@@ -99,24 +99,28 @@ def test_findings_are_counted_once_a_build_has_told_them(folder: Path, capsys: C
     assert saved(*BUILD) is not None
 
 
+USERS = "another user, who may not read all that", "a user of other groups"
 SURROUNDINGS: dict[str, Callable[[pytest.MonkeyPatch], object]] = {
     "paths look different from here": lambda patch: patch.chdir("robots"),
     "folders of packages": lambda patch: patch.setenv("ROS_PACKAGE_PATH", str(Path.cwd())),
     "folders of libraries": lambda patch: patch.setenv("MODELICAPATH", str(Path.cwd())),
     "another urdfsync": lambda patch: patch.setattr(program, "_identities", {(): "another"}),
-    "another user, who may not read all that": lambda patch: patch.setattr(os, "geteuid", lambda: 12345, raising=False),
-    "a user of other groups": lambda patch: patch.setattr(os, "getgroups", lambda: [12345], raising=False),
+    USERS[0]: lambda patch: patch.setattr(os, "geteuid", lambda: 12345, raising=False),
+    USERS[1]: lambda patch: patch.setattr(os, "getgroups", lambda: [12345], raising=False),
 }
 
 
+@pytest.mark.parametrize("name", [
+    pytest.param(name, marks=[pytest.mark.posix("its users have folders of their own")] * (name in USERS))
+    for name in SURROUNDINGS
+])  # fmt: skip
 def test_what_is_remembered_belongs_to_the_folder_the_environment_and_the_program(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
+    folder: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
     save(*BUILD)
-    for name, change in SURROUNDINGS.items():
-        with monkeypatch.context() as patch:
-            change(patch)
-            assert saved(*BUILD) is None, name
+    with monkeypatch.context() as patch:
+        SURROUNDINGS[name](patch)
+        assert saved(*BUILD) is None
     assert saved(*BUILD) is not None
 
 
@@ -267,7 +271,7 @@ def test_what_becomes_of_a_source_mesh_is_told(folder: Path, command: list[str],
     capsys.readouterr()
     cli.main([*command, "--verbose"])
     said = capsys.readouterr()
-    assert words in said.out + said.err
+    assert words in (said.out + said.err).replace(os.sep, "/")
     assert cli.main(["build", "--check", "-q"]) == (not name.startswith(("deleted", "no")) and command is not BUILD)
 
 
@@ -375,6 +379,7 @@ def test_a_linked_folder_gets_no_record(folder: Path) -> None:
     assert list(elsewhere.iterdir()) == []
 
 
+@pytest.mark.posix("`st_ctime` is no change time there; tests/common/test_system.py has the same for it")
 def test_nothing_is_remembered_where_the_time_of_a_change_can_be_set(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -505,7 +510,7 @@ def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
 
 def imported(*arguments: str) -> tuple[set[str], str]:
     """What Python imports, and what it prints."""
-    variables = {**os.environ, "PYTHONPATH": str(Path(cli.__file__).parents[1])}
+    variables = {**os.environ, "PYTHONPATH": str(Path(cli.__file__).parents[2])}
     command = [sys.executable, "-X", "importtime", *arguments]
     done = subprocess.run(command, env=variables, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -525,6 +530,7 @@ def test_nothing_heavy_is_imported(folder: Path) -> None:
     ours = {f"urdfsync.common.dependencies.{name}" for name in ("facts", "localfile", "places", "program", "memory")}
     ours |= {
         "urdfsync",
+        "urdfsync.common",
         "urdfsync.common.noop",
         "urdfsync.common.dependencies",
         "urdfsync.common.streams",
@@ -591,7 +597,7 @@ def test_it_looks_the_same_on_a_terminal(folder: Path, variables: dict[str, str]
 
 
 def _on_terminal(code: str, variables: dict[str, str]) -> str:
-    paths = {"PYTHONPATH": str(Path(cli.__file__).parents[1]), "TERM": "xterm", "PYTHONUTF8": "1"}
+    paths = {"PYTHONPATH": str(Path(cli.__file__).parents[2]), "TERM": "xterm", "PYTHONUTF8": "1"}
     code_of, said = print_on_terminal([sys.executable, "-c", code, *BUILD], {**paths, **variables})
     assert code_of == 0, said
     return said

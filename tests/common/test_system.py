@@ -7,6 +7,7 @@ import shutil
 import stat
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -304,6 +305,20 @@ OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
 
 @NEEDS_GIT
+def test_a_hook_judges_a_commit_in_its_clone(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    execute("build")
+    repository = Repository(project, monkeypatch)
+    repository.commit()
+    execute("hook", "check")
+    resistor(220)
+    repository.git("add", "-A")
+    assert "out of step" in execute("hook", "check", code=1).err
+    execute("build")
+    repository.git("add", "-A")
+    execute("hook", "check")
+
+
+@NEEDS_GIT
 def test_a_clone_with_other_line_ends_is_in_step_and_keeps_its_state(
     tmp_path: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -345,11 +360,33 @@ def test_a_name_that_windows_refuses_gets_one_line(folder: Path, execute: Execut
     error = execute("init", name, code=2).err
     assert len(error.splitlines()) == 1
     assert "error: " in error
+    assert "[internal]" not in error
     Path("urdfsync.toml").write_text(f'[robots.arm]\nsource = "{name}"\npackage = "Arm"\n')
     error = execute("build", code=2).err
     assert error.startswith("arm: 1 error, nothing was changed\n")
     assert len(error.splitlines()) == 2
     assert not Path("modelica").exists()
+
+
+@pytest.mark.windows
+def test_sources_and_outputs_may_be_on_another_drive(folder: Path, execute: Execute) -> None:
+    drives = [f"{letter}:\\" for letter in "CDZ" if Path(f"{letter}:\\").is_dir() and folder.drive != f"{letter}:"]
+    if not drives:
+        pytest.skip("there is one drive")
+    with tempfile.TemporaryDirectory(dir=drives[0]) as place:
+        other = Path(place)
+        (other / "arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
+        execute("init", other / "arm.urdf")
+        assert f'source = "{(other / "arm.urdf").as_posix()}"' in Path("urdfsync.toml").read_text()
+        places = f'source = "{other.as_posix()}/arm.urdf"\noutput = "{other.as_posix()}"\n'
+        Path("urdfsync.toml").write_text(f'[robots.arm]\n{places}package = "Arm"\n')
+        execute("build", "--trust")
+        assert (other / "Arm" / "Arm.mo").is_file()
+        edit(str(other / "arm.urdf"), "<link", '<link name="tool"/><joint name="j" type="fixed"><parent link="base"/>'
+             '<child link="tool"/></joint><link')  # fmt: skip
+        execute("diff", code=1)
+        execute("build", "--trust")
+        execute("build", "--check", "--trust")
 
 
 # --- a command after the other, as a user runs them -----------------------------------------------------------------

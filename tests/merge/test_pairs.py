@@ -84,12 +84,12 @@ def test_the_time_grows_with_the_number_of_things_that_both_sides_replaced(state
         assert time.thread_time() - begin < 0.5
     finally:
         gc.enable()
-    assert [part.key for part in mine.parts] == [part.key for part in generated.parts]
+    assert [child.key for child in mine.children] == [child.key for child in generated.children]
 
 
 def body(statements: str) -> SyntaxTree:
     tree = read_tree(f"model A\n{statements}\nend A;\n")
-    part = tree.find("body") if tree else None
-    assert part
-    assert isinstance(part.node, SyntaxTree)
-    return part.node
+    child = tree.find("body") if tree else None
+    assert child
+    assert isinstance(child.node, SyntaxTree)
+    return child.node

@@ -121,7 +121,6 @@ def moves(q: Array) -> bool:
     return bool((np.ptp(q, axis=0) > 0.05).all())
 
 
-@pytest.mark.large  # of many robots
 def test_what_a_bench_changes_is_part_of_the_robot(modelica_library: Path, tmp_path: Path) -> None:
     """Mass, centre and inertia of a link, and damping, axis and origin of joints, all at once; or a link.
 

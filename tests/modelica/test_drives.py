@@ -57,7 +57,6 @@ def simulate_run(
     return [series.values[value] for value in values]
 
 
-@pytest.mark.large  # `check` compares it, see test_seen_faults
 def test_joints_move_as_the_source_says(modelica_library: Path, tmp_path: Path) -> None:
     """A caster that is only measured swings as a pendulum does, a wheel has the speed that is given."""
     package = generate(ROBOT.encode(), Target("Bot", "Bot"), start={"lift": 0.25})

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import pinocchio as pin
 import pytest
 from support import corpus, generic
 from support.modelica import Array, Run, bench, simulate
@@ -95,7 +96,7 @@ class Functions:
 
     def __init__(self, content: bytes) -> None:
         self.robot = generic.prepare(content)
-        self._pin, self._model = self.robot.reference.pin, self.robot.reference.model
+        self._model = self.robot.reference.multibody.model
         self._model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         skeleton = self.robot.package.skeleton
         self.links = [link.name for link in skeleton.links]
@@ -105,7 +106,7 @@ class Functions:
 
     def expected(self, moved: float) -> Mapping[str, Array]:
         """What Pinocchio says of each function, in the configuration at this time."""
-        pin, model, data = self._pin, self._model, self._model.createData()
+        model, data = self._model, self._model.createData()
         # configuration and velocity, the base at rest at the origin; `order` is where the joints are in the latter
         q, v, order = pin.neutral(model), np.zeros(model.nv), []
         numbers = np.arange(1, len(self.joints) + 1)
@@ -196,7 +197,7 @@ def test_functions_agree_with_pinocchio_for_robots_of_the_corpus(
     corpus: Path, modelica_library: Path, tmp_path: Path, file: str
 ) -> None:
     """Files without inertias get made-up ones, for both sides."""
-    content = completion.completed_for_pinocchio((corpus / file).read_bytes()).content
+    content = completion.completed_for_reference((corpus / file).read_bytes()).content
     found = read_robot(content, file).robot
     if found is None or obstacles(found.joints):
         pytest.skip("a faulty file, or planar and floating joints")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
+import pinocchio as pin
 import pytest
 from support import generic, physics
 from support.cases import sampled
@@ -17,6 +18,7 @@ from support.urdfs import joint, link, links, mimic, robot
 from urdfsync.domain import Target
 from urdfsync.formats.urdf.kinematics.poses import start_positions
 from urdfsync.formats.urdf.physics import motion
+from urdfsync.formats.urdf.second.dynamics import mechanism_efforts
 
 pytestmark = pytest.mark.slow
 
@@ -240,7 +242,6 @@ PULLS = {"wheel": "ArticulatedRobot", "sensor": "GenericRobot", "plate": "Generi
 """A link behind a moving joint, one behind a fixed joint of another body, and one that does not move."""
 
 
-@pytest.mark.large  # the other tests of this file move the same equations
 def test_a_force_at_the_tool_frame_accelerates_the_robot_as_pinocchio_says(
     modelica_library: Path, tmp_path: Path
 ) -> None:
@@ -261,10 +262,11 @@ def test_a_force_at_the_tool_frame_accelerates_the_robot_as_pinocchio_says(
 def accelerations(own: generic.Robot, link: str) -> Array:
     """Of the axes at rest at their start, with the Jacobian of the link."""
     reference = own.reference
-    pin, model = reference.pin, reference.model
+    model = reference.multibody.model
     state = generic.at_rest(own, np.zeros(len(reference.axes)), np.zeros(len(reference.axes)))
     data = model.createData()
-    bias = pin.nonLinearEffects(model, data, state.q, np.zeros(model.nv))
+    springs = mechanism_efforts(reference.dynamics, state.positions)
+    bias = pin.nonLinearEffects(model, data, state.q, np.zeros(model.nv)) + springs
     frame = model.getFrameId(link, pin.BODY)
     jacobian = pin.computeFrameJacobian(model, data, state.q, frame, pin.LOCAL_WORLD_ALIGNED)[:3]
     return generic.forward(reference, state, bias - jacobian.T @ np.array(FORCE))
@@ -301,7 +303,7 @@ def dropped() -> tuple[Array, Array]:
         assert text.count(old) == 1
         text = text.replace(old, new)
     own = generic.prepare(text.encode())
-    own.reference.model.gravity.linear = np.array([0, 0, -GRAVITY])
+    own.reference.set_gravity(GRAVITY)
     positions = start_positions(own.skeleton)
     start = [motion.Course(positions[name], 0.0, 0.0) for name in own.reference.axes]
     end = generic.free_motion(own, start, MOMENT, 2000)

@@ -232,7 +232,7 @@ def test_a_rotor_behind_a_gear_counts_as_the_armature_of_pinocchio(modelica_libr
     names, courses = [each.name for each in axes], [motion.axis_course(each) for each in axes]
     assert names == ["shoulder", "elbow", "slide"]
     reference = Reference(read(GEARED.encode(), "robot.urdf"), names)
-    model = reference.model
+    model = reference.multibody.model
     for name, inertia in {"shoulder": 3.0, "elbow": 0.7, "slide": 3.2, "press": 3.4}.items():
         model.armature[model.joints[model.getJointId(name)].idx_v] = inertia
     state = reference.state(courses)
@@ -286,7 +286,6 @@ CART = robot(
 )
 
 
-@pytest.mark.large  # `check` compares casters
 def test_a_caster_turns_by_itself_in_test(modelica_library: Path, tmp_path: Path) -> None:
     """Its mass lies beside its axis: it falls with m*g*l/(I + m*l^2), while the sweep of Test moves the wheel."""
     package = generate(CART.encode(), Target("Cart", "Cart"))

@@ -133,7 +133,7 @@ def test_an_arm_under_gravity_holds_still_or_creeps(tool: str, modelica_library:
     found = simulate(modelica_library, [package.write(tmp_path) for package in packages], tasks, tool=tool)
     stiff, brush = ([span(series, value) for value in values] for series in found[1:])
     assert max(*stiff, *brush) < 1e-9
-    model = read(ARM.encode(), "arm.urdf").model
+    model = read(ARM.encode(), "arm.urdf").multibody.model
     gravity = np.abs(pin.computeGeneralizedGravity(model, model.createData(), pin.neutral(model)))[
         6:
     ]  # behind its free root

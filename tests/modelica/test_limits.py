@@ -49,7 +49,7 @@ ROBOT = robot(
     link("base"),
     *(balanced(name) for name in ("arm", "wheel", "sledge", "flap", "disc", "block")),
     f'<link name="finger"><inertial><mass value="{FINGER}"/></inertial></link>',
-    joint("my elbow", "revolute", "base", "arm", axis="0 0 1", inside=[LIMITS], **LEVEL),
+    joint("my_elbow", "revolute", "base", "arm", axis="0 0 1", inside=[LIMITS], **LEVEL),
     joint("roll", "continuous", "base", "wheel", axis="0 0 1", inside=[LIMITS], **LEVEL),
     joint("rail", "prismatic", "base", "sledge", axis="1 0 0", inside=[LIMITS], **LEVEL),
     joint("spin", "continuous", "base", "disc", axis="0 0 1", inside=[f'<limit acceleration="{SPEED_UP}"/>'], **LEVEL),
@@ -64,8 +64,8 @@ AXES = {"elbow": "my_elbowAxis"} | {name: f"{name}Axis" for name in ("lid", "rol
 """Each drive, and the flange of the robot that it moves."""
 
 PASSING: Mapping[str, tuple[Mapping[str, float], str]] = {
-    "lower": ({"elbow.a0": LOWER - 1e-3}, "my_elbow (joint my elbow) is below its lower position limit"),
-    "upper": ({"elbow.a0": UPPER + 1e-3}, "my_elbow (joint my elbow) is above its upper position limit"),
+    "lower": ({"elbow.a0": LOWER - 1e-3}, "my_elbow (joint my_elbow) is below its lower position limit"),
+    "upper": ({"elbow.a0": UPPER + 1e-3}, "my_elbow (joint my_elbow) is above its upper position limit"),
     "velocity": ({"roll.a1": 1.01 * VELOCITY}, "roll (joint roll) is faster than its velocity limit"),
     "backward": ({"roll.a1": -1.01 * VELOCITY}, "roll (joint roll) is faster than its velocity limit"),
     "effort": ({"rail.a2": 1.01 * EFFORT / INERTIA}, "rail (joint rail) is driven above its effort limit"),
@@ -134,7 +134,6 @@ def driven(robot: str, axes: Mapping[str, str], runs: Sequence[Run], package: st
     return bench("\n    ".join(body), runs, packages=[package], classes=DRIVES + classes)
 
 
-@pytest.mark.large  # `check` provokes each limit, see test_seen_faults
 def test_passing_a_limit_is_noticed_and_nothing_else(modelica_library: Path, tmp_path: Path) -> None:
     """If it is an error; warnings, and limits that are off, do not stop the simulation."""
     packages = [
@@ -169,7 +168,6 @@ def test_passing_a_limit_is_noticed_and_nothing_else(modelica_library: Path, tmp
         assert found[1].strip() == f"Bench.robot{between}{joint_message}"
 
 
-@pytest.mark.large  # `check` provokes each limit, see test_seen_faults
 def test_later_passings_are_told_from_the_results(modelica_library: Path, tmp_path: Path) -> None:
     """Speed, acceleration and deceleration of the wheel of a robot in either approach."""
     brake = f'<limit velocity="{VELOCITY}" effort="{EFFORT}" acceleration="4" deceleration="{SLOW_DOWN}"/>'

@@ -143,7 +143,6 @@ def source(own: generic.Robot, task: Task) -> str:
     return text.replace("  model Bench\n", f"{classes}\n  model Bench\n", 1)
 
 
-@pytest.mark.large  # `check` compares it, see test_seen_faults
 def test_free_motion_agrees_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
     own = generic.prepare(CRANE.encode(), "Crane")
     start = [START] * len(own.reference.axes)

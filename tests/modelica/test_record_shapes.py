@@ -85,7 +85,6 @@ def values(shape: str) -> list[str]:
     return [*vectors, *matrix, *(f"{shape}.{name}" for name in NUMBERS)]
 
 
-@pytest.mark.large  # golden texts have the places
 def test_all_shapes_are_where_the_package_approach_has_them(modelica_library: Path, tmp_path: Path) -> None:
     source = tmp_path / "robot.urdf"
     source.write_text(SHAPES)

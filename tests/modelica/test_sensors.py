@@ -63,7 +63,8 @@ def expected(instant: motion.Instant) -> Array:
     axes = motion.driven_axes(tree)
     reference = Reference(read(content, "arm.urdf"), [each.name for each in axes])
     courses = [motion.axis_courses(each, 0.0)[instant] for each in axes]
-    model, state = reference.model, reference.state(courses, [each[instant] for each in motion.base_courses()])
+    model = reference.multibody.model
+    state = reference.state(courses, [each[instant] for each in motion.base_courses()])
     hand = model.frames[model.getFrameId("hand", pin.BODY)]
     place = pin.SE3(pin.rpy.rpyToMatrix(0.4, -0.5, 0.6), np.array([0.1, 0.2, -0.3]))
     imu = model.addFrame(pin.Frame("imu", hand.parentJoint, hand.placement * place, pin.OP_FRAME))
@@ -84,7 +85,6 @@ def expected(instant: motion.Instant) -> Array:
     return np.concatenate([acceleration, velocity, acceleration, velocity, *wrenches])
 
 
-@pytest.mark.large  # `check` compares them, see test_seen_faults
 def test_sensors_show_what_pinocchio_says_in_motion(modelica_library: Path, tmp_path: Path) -> None:
     """The base and all joints move; Pinocchio's wrenches are those of the parent on the child, in the child's axes."""
     case = physics.prepare(ARM.encode(), "Arm").only("motion")

@@ -81,10 +81,10 @@ def test_every_byte_is_in_the_tree(ending: str) -> None:
 def written(tree: SyntaxTree) -> str:
     """The text of a tree by the texts of its innermost parts."""
     pieces = [tree.opening]
-    for number, part in enumerate(tree.parts, start=1):
-        inner = written(part.node) if isinstance(part.node, SyntaxTree) else part.node.text
-        separator = tree.separator if number < len(tree.parts) else ""
-        pieces += [part.before, inner, part.after, separator, part.remark]
+    for number, child in enumerate(tree.children, start=1):
+        inner = written(child.node) if isinstance(child.node, SyntaxTree) else child.node.text
+        separator = tree.separator if number < len(tree.children) else ""
+        pieces += [child.before, inner, child.after, separator, child.remark]
     return "".join((*pieces, tree.closing))
 
 
@@ -139,7 +139,7 @@ def test_things_have_keys() -> None:
         "equation\n  connect(b.c, a[1]);\n  der(x) = 1;\n  a + b = c;\n  when d then\n    e = 1;\n  end when;\n"
         "initial equation\n  x = 1;\n  x = y;\nalgorithm\n  x := 1;\nequation\nannotation (Icon);"
     )
-    assert [part.key for part in body.parts] == [
+    assert [child.key for child in body.children] == [
         "import SI", "import Modelica . Math . *", "extends .B.C", "component a, b", "class M",
         "section equation 1", "connect a[1] b.c", "equation der ( x )", "equation a + b = c", "when d",
         "section initial equation 1", "initial equation equation x = 1.0", "initial equation equation x = y",

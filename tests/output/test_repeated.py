@@ -45,6 +45,14 @@ def test_what_was_mended_is_said_in_full_when_it_is_back(execute: Execute) -> No
     assert "axis" in execute("build").err
 
 
+def test_what_a_quiet_build_hides_is_not_told(execute: Execute) -> None:
+    write(axis="0 0 1")
+    assert execute("build", "--quiet").err == ""
+    write()
+    assert execute("build", "--quiet").err == ""
+    assert "axis" in execute("build").err
+
+
 def test_what_a_dry_run_says_is_not_remembered(execute: Execute) -> None:
     write(axis="0 0 3")
     for command in (["build", "--dry-run"], ["build", "--check"], ["status"], ["diff"]):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import re
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -19,17 +21,17 @@ class Printed(NamedTuple):
     @property
     def lines(self) -> list[str]:
         """The lines of the output."""
-        return self.out.splitlines()
+        return _with_slashes(self.out).splitlines()
 
     @property
     def errors(self) -> list[str]:
         """The lines of the error stream."""
-        return self.err.splitlines()
+        return _with_slashes(self.err).splitlines()
 
     @property
     def words(self) -> str:
         """Both streams without the line breaks that a terminal's width adds."""
-        return " ".join((self.out + self.err).split())
+        return " ".join(_with_slashes(self.out + self.err).split())
 
     @property
     def json(self) -> Any:
@@ -39,6 +41,11 @@ class Printed(NamedTuple):
         if command := document.get("command"):
             assert is_described(document, command)
         return document
+
+
+def _with_slashes(text: str) -> str:
+    """A text with paths as tests write them, on Windows, too."""
+    return text if os.sep == "/" else re.sub(r"\\(?=[\w.])", "/", text)
 
 
 class Terminal:

@@ -11,6 +11,7 @@ import re
 from collections.abc import Sequence
 
 import numpy as np
+import pinocchio as pin
 
 from support.modelica import URDFSYNC, Array, Run, Task, bench
 from support.packages import Package, generate
@@ -18,7 +19,7 @@ from support.urdfs import dynamics, every_number, joint, link, links, mimic, rob
 from urdfsync.domain import Target
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.physics import motion
-from urdfsync.formats.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.formats.urdf.physics.completion import completed_for_reference
 from urdfsync.formats.urdf.physics.motion import Course
 from urdfsync.formats.urdf.physics.reference import Configuration, Reference, read
 from urdfsync.formats.urdf.second.dynamics import mechanism_efforts
@@ -120,7 +121,7 @@ def prepare(content: bytes, name: str = "Bot") -> Robot:
     """A robot that Pinocchio can read."""
     package = generate(content, Target(name, name), approach=("record",))
     axes = [joint.name for joint in motion.driven_axes(package.skeleton)]
-    return Robot(package, Reference(read(completed_for_pinocchio(content).content, "robot.urdf"), axes))
+    return Robot(package, Reference(read(completed_for_reference(content).content, "robot.urdf"), axes))
 
 
 def free_task(
@@ -160,7 +161,7 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
 
     The acceleration z solves (Gᵀ·H·G)·z = -Gᵀ·(C + losses) for base and axes without drives.
     """
-    reference, pin, model = robot.reference, robot.reference.pin, robot.reference.model
+    reference, model = robot.reference, robot.reference.multibody.model
     p, speeds, _ = np.array([*start, (0, 0, 0)]).T[:, :-1]
     state = at_rest(robot, p, speeds)
     q, v, free = state.q, state.v, reference.projection
@@ -212,13 +213,13 @@ def forward(reference: Reference, state: Configuration, load: Array) -> Array:
 
 def mass_matrix(reference: Reference, q: Array) -> Array:
     """The inertia matrix of all joints; Pinocchio gives only the upper half."""
-    upper = np.triu(reference.pin.crba(reference.model, reference.model.createData(), q))
+    upper = np.triu(pin.crba(reference.multibody.model, reference.multibody.model.createData(), q))
     return np.asarray(upper + np.triu(upper, 1).T)
 
 
 def link_place(robot: Robot, p: Array, link: str) -> Array:
     """The pose of a link's frame, with the base at the origin."""
-    pin, model = robot.reference.pin, robot.reference.model
+    model = robot.reference.multibody.model
     data = model.createData()
     pin.framesForwardKinematics(model, data, at_rest(robot, p, np.zeros(len(p))).q)
     return np.array(data.oMf[model.getFrameId(link, pin.BODY)].translation)

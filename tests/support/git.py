@@ -4,14 +4,9 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
-
-if TYPE_CHECKING:
-    from support.commands import Execute
 
 NEEDS_GIT = pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 
@@ -58,17 +53,3 @@ def make_repository_of_files(folder: Path) -> None:
     (folder / "HEAD").write_text("ref: refs/heads/main\n")
     settings = f'bare = false\nworktree = "{folder}"\nfsmonitor = "touch {folder}/fsmonitor; false"\n'
     (folder / "config").write_text(f"[core]\nrepositoryformatversion = 0\n{settings}")
-
-
-def built_arm(
-    project: Path, write_source: Callable[[], object], execute: Execute, monkeypatch: pytest.MonkeyPatch
-) -> Repository:
-    """A repository in a new folder, the working folder, with the robot `arm`, built and committed."""
-    project.mkdir()
-    monkeypatch.chdir(project)
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    write_source()
-    execute("build")
-    repository = Repository(project, monkeypatch)
-    repository.commit()
-    return repository

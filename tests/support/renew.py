@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from support import kept
 from support.corpus import REPOSITORY
 from support.golden import expected, of_variants, on_disk, pieces
 from support.marks import lines_shown
@@ -23,6 +24,7 @@ def renew() -> None:
         else:
             continue
         print(file.relative_to(REPOSITORY))  # noqa: T201
+    kept.renew(lambda place: print(place.relative_to(REPOSITORY)))  # noqa: T201
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from pathlib import Path
 from urdfsync.api import build_and_check
 from urdfsync.commands import arguments
 from urdfsync.common.files import shown
-from urdfsync.engine.result import Result, exit_code
+from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console, StyledLine, line
 
@@ -52,7 +52,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
     arguments.remember(configured, console)
     console.count_robots()
     console.tell(_next_steps(results))
-    return console.end(exit_code(results, args.check))
+    code = exit_code(results, args.check)
+    is_late = code is Exit.OUT_OF_STEP and any(result.writes for result in results)
+    if args.check and is_late and not console.is_document:
+        console.print([line(("out of step: run `urdfsync build`, then commit what it writes", ""))])
+    return console.end(code)
 
 
 def _next_steps(results: Sequence[Result]) -> Iterator[StyledLine]:

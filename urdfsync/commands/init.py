@@ -17,7 +17,7 @@ import tomli_w
 from urdfsync.commands import arguments, merge_driver
 from urdfsync.common import system
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError
-from urdfsync.common.files import Tree, put, shown
+from urdfsync.common.files import Tree, put, relative, shown
 from urdfsync.domain import Domain, Version, registry
 from urdfsync.domain.advice import Proposal
 from urdfsync.engine.judgements import judge
@@ -28,6 +28,7 @@ from urdfsync.output.console import Console, line
 from urdfsync.project import config
 from urdfsync.project.config import schema
 from urdfsync.project.config.load import in_words
+from urdfsync.project.git.unmerged import NO_DRIVER
 
 _HEADER = f"""\
 #:schema {config.STATE_FOLDER}/{schema.SCHEMA_FILE}
@@ -100,11 +101,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         write_templates(file.parent, guesses)
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     if is_clone and not (is_asked or installs):
-        message, hint = (
-            "git merges models line by line in this clone",
-            "for elements, `urdfsync merge-driver --install`",
-        )
-        warnings.append(Diagnostic(Severity.NOTE, "no-merge-driver", message, hint=hint))
+        warnings.append(NO_DRIVER)
     return show_guesses(console, file, "written", guesses, warnings)
 
 
@@ -167,7 +164,7 @@ def _guess(
     domain: Domain, source: Path, given: Mapping[str, str], root: Path, known: Sequence[Guess]
 ) -> tuple[Guess, Sequence[Diagnostic]]:
     """Return a robot for a source, under free names; also warnings. Raises SourceError, ConfigError."""
-    path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
+    path = source if source.is_absolute() and root not in source.parents else Path(relative(source, root))
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError.of("source-name", message, shown(source), hint=hint)

@@ -15,6 +15,7 @@ from urdfsync.common.spelling import counted
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, line
 from urdfsync.project import git
+from urdfsync.project.git.unmerged import has_driver
 
 _MARKER_SIZE = 7
 """The default length of markers."""
@@ -80,15 +81,7 @@ def can_install(folder: Path) -> bool:
         git.run("-C", str(folder), "rev-parse", "--show-toplevel")
     except git.GitError:
         return False
-    return not (_is_named(folder) and _has_settings(folder))
-
-
-def _has_settings(folder: Path) -> bool:
-    """Return whether git's settings of a clone name the command."""
-    try:
-        return bool(git.run("-C", str(folder), "config", "--get", "merge.urdfsync.driver"))
-    except git.GitError:  # git has no such setting
-        return False
+    return not (_is_named(folder) and has_driver(folder))
 
 
 def _is_named(folder: Path) -> bool:
@@ -101,7 +94,7 @@ def install(folder: Path, console: Console) -> None:
 
     Raises UrdfsyncError if writing fails.
     """
-    driver = _DRIVER.format(python=shlex.quote(sys.executable).replace("%", "%%"))
+    driver = _DRIVER.format(python=shlex.quote(Path(sys.executable).as_posix()).replace("%", "%%"))
     inside, file = ("-C", str(folder)), folder / ".gitattributes"
     try:
         top = git.run(*inside, "rev-parse", "--show-toplevel").removesuffix("\n")
@@ -110,7 +103,7 @@ def install(folder: Path, console: Console) -> None:
         is_named = _is_named(folder)
     except git.GitError as error:
         raise UrdfsyncError.of("git", str(error), hint="run it in a clone") from None
-    console.tell([line((f"git merges with urdfsync in {top}", ""))])
+    console.tell([line((f"git merges with urdfsync in {Path(top)}", ""))])
     if not is_named:
         try:
             old = file.read_bytes() if os.path.lexists(file) else b""

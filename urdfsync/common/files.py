@@ -46,10 +46,15 @@ def shown(path: str | Path) -> str:
     inside = os.path.join(current, "")  # noqa: PTH118
     if os.path.normcase(text).startswith(os.path.normcase(inside)):
         return revision + text[len(inside) :]
+    return revision + (min(relative(text, current), text, key=len) if os.path.isabs(text) else text)  # noqa: PTH117
+
+
+def relative(path: str | Path, folder: str | Path) -> str:
+    """Return a path from a folder; an absolute path if it is on another drive of Windows."""
     try:
-        return revision + (min(os.path.relpath(text), text, key=len) if os.path.isabs(text) else text)  # noqa: PTH117
-    except ValueError:  # on another drive
-        return text
+        return os.path.relpath(path, folder)
+    except ValueError:
+        return os.path.abspath(path)  # noqa: PTH100
 
 
 def digest(content: bytes) -> str:
@@ -144,8 +149,9 @@ def placed(prefix: str, key: str) -> str:
 
     This is faster than pathlib for thousands of paths: hardly any path contains `.` or `..`.
     """
-    path = prefix + key
-    return os.path.normpath(path) if ".." in key or os.sep != "/" else path
+    if ".." in key or os.sep != "/":
+        return os.path.normpath(os.path.join(prefix, key))  # noqa: PTH118 - on Windows, the key may have a drive
+    return prefix + key
 
 
 class Tree:

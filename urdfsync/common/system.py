@@ -57,6 +57,14 @@ def find_program(name: str, folder: str | os.PathLike[str] = "", path: str | Non
     return None
 
 
+def program_files(pattern: str) -> list[str]:
+    """Return the paths below Windows' folder of programs that match a pattern, those of the newest version first."""
+    import glob  # takes 1 ms, as below, which most commands save
+
+    folder = os.environ.get("PROGRAMFILES")  # other systems have no such variable
+    return sorted(glob.glob(os.path.join(glob.escape(folder), pattern)), reverse=True) if folder else []
+
+
 def command(words: Sequence[str], folder: str | os.PathLike[str] = "") -> list[str]:
     """Return a command with the absolute path of its program. Raises FileNotFoundError if there is no such program."""
     program = find_program(words[0], folder)
@@ -67,7 +75,7 @@ def command(words: Sequence[str], folder: str | os.PathLike[str] = "") -> list[s
 
 def split_words(line: str) -> list[str]:
     """Return the words of a command line. Raises ValueError. On Windows, a backslash belongs to a path."""
-    import shlex  # takes 1 ms, as below, which most commands save
+    import shlex
 
     if not IS_WINDOWS:
         return shlex.split(line)

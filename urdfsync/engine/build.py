@@ -69,7 +69,7 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
             built = known.get(robot.name) or builder.build(robot)
             notes = config.without_ignored([*([] if count else read_stray_states(config)), *builder.notes])
             builder.notes = []
-            findings = (*notes, *robot.without_ignored((*built.warnings, *built.outlook.diagnostics)))
+            findings = (*notes, *robot.without_ignored(built.outlook.diagnostics))
             others = {"diagnostics": findings, "dry": options.dry, "reads": built.reads, **built.failure}
             yield Result.of(config, robot, built.outlook, **others)
 
@@ -94,8 +94,6 @@ class _Built(NamedTuple):
     outlook: Outlook
     reads: Dependencies
     """All that the build has read; written files have their new facts."""
-    warnings: Sequence[Diagnostic] = ()
-    """Warnings about the output folder."""
     failure: Mapping[str, Any] = {}
     """Fields of the result of a failed build."""
 
@@ -129,10 +127,9 @@ class _Builder:
         self._reads = Reads()
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
-            if untrusted and not self._options.dry:
+            if untrusted:
                 raise ConfigError(untrusted)  # noqa: TRY301 - the `except` below reports it
-            warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
-            return self._plan_and_write(robot)._replace(warnings=warnings)
+            return self._plan_and_write(robot)
         except Exception as error:  # noqa: BLE001 - other robots go on: each build reads all from the disk
             findings = findings_of(error)
             failure = {

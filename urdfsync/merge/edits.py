@@ -21,7 +21,7 @@ from urdfsync.modelica.tree import (
 )
 
 _ITEM = re.compile(r" #\d+$")
-"""The number at the end of the key of a thing without a name."""
+"""The number at the end of the key of a node without a name."""
 _DOCUMENTATION = "the Documentation"
 """The name of the element for edits of a documentation."""
 
@@ -92,21 +92,21 @@ def _differences(
     ):
         yield path, old, new
         return
-    keys = [[part.key for part in tree.parts] for tree in (old, new)]
+    keys = [[child.key for child in tree.children] for tree in (old, new)]
     if old.kind is TreeKind.ARRAY and sorted(keys[0]) == sorted(keys[1]):  # in another order
         yield path, old, new
         return
     if sorted(old.signature) == sorted(new.signature) and old.signature != new.signature:
         yield (*path, "order"), old, new
-    for part in new.parts:
-        before = old.find(part.key)
+    for child in new.children:
+        before = old.find(child.key)
         if before:
-            yield from _differences((*path, part.key), before.node, part.node)
-        elif not is_section(part.key):
-            yield (*path, part.key), None, part.node
-    for part in old.parts:
-        if not new.find(part.key) and not is_section(part.key):
-            yield (*path, part.key), part.node, None
+            yield from _differences((*path, child.key), before.node, child.node)
+        elif not is_section(child.key):
+            yield (*path, child.key), None, child.node
+    for child in old.children:
+        if not new.find(child.key) and not is_section(child.key):
+            yield (*path, child.key), child.node, None
 
 
 def in_words(edits: Sequence[Edit]) -> list[tuple[str, str]]:

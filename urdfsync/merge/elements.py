@@ -1,10 +1,10 @@
-"""Three-way merge of classes: applies the changes from base to generated to the user's text, thing by thing.
+"""Three-way merge of classes: applies the changes from base to generated to the user's text, node by node.
 
-A thing is an element, an equation, a modifier, or a part of these (`urdfsync.modelica.tree`).
+A node is an element, an equation, a modifier, or an expression in one of these (`urdfsync.modelica.tree`).
 
-- A change, an addition or a removal by one side is taken. If both sides add things, all stay, the user's first.
-- A thing that both sides changed is merged part by part; a part that the sides changed differently is a contradiction.
-- Things stand in the generated order. A thing that the user added or moved stands behind its predecessor in his text.
+- A change, an addition or a removal by one side is taken. If both sides add nodes, all stay, the user's first.
+- A node that both sides changed is merged child by child. A child that they changed differently is a contradiction.
+- Nodes stand in the generated order. A node that the user added or moved stands behind its predecessor in his text.
 - Arrays, and the inputs and outputs of a function, are sequences (`urdfsync.merge.lines`).
 - Where the user changed blanks or comments, his blanks and comments stay.
 - If the user changed a number, rounding of this number by the export is no change.
@@ -30,9 +30,9 @@ from urdfsync.merge.lines import Contradiction, Piece, merge_order, merge_sequen
 from urdfsync.merge.pairs import pair
 from urdfsync.modelica.tree import (
     LAYOUT,
+    Child,
     Leaf,
     Node,
-    Part,
     SyntaxTree,
     TreeKind,
     as_sum,
@@ -49,7 +49,7 @@ _ROLES = (
     "within prefixes word head type name sizes connect equation import external components arguments sign expression "
     "value condition constraint description annotation definition body end ;"
 ).split()
-"""The roles of an element's parts, in order."""
+"""The roles of an element's children, in order."""
 _COMMENT = re.compile(r"//[^\n]*+|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _BLOCKS = frozenset({"if", "for", "when"})
 _MOVABLE = frozenset({"arguments", "annotation"})
@@ -70,7 +70,7 @@ def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree, *, is
 
 
 def _merge(path: ElementPath, base: Node | None, mine: Node, generated: Node, users_layout: Layout) -> list[Piece]:
-    """Merge a thing that exists on both sides."""
+    """Merge a node that exists on both sides."""
     if base and base.text == mine.text and not users_layout:
         return [generated.text]
     is_two_people, key = users_layout is None, path[-1] if path else ""
@@ -86,9 +86,9 @@ def _merge(path: ElementPath, base: Node | None, mine: Node, generated: Node, us
         base, mine, generated = base and as_sum(base), as_sum(mine), as_sum(generated)
     if isinstance(mine, SyntaxTree) and isinstance(generated, SyntaxTree) and mine.kind is generated.kind:
         if isinstance(base, SyntaxTree) and base.kind is mine.kind:
-            return _merge_parts(path, base, mine, generated, users_layout)
+            return _merge_children(path, base, mine, generated, users_layout)
         if not base and mine.kind in (TreeKind.LIST, TreeKind.BODY):
-            return _merge_parts(path, None, mine, generated, users_layout)
+            return _merge_children(path, None, mine, generated, users_layout)
     if is_picture and isinstance(mine, Leaf) and isinstance(generated, Leaf):
         return [mine.text]
     return _merge_whole(path, base, mine, generated)
@@ -97,7 +97,7 @@ def _merge(path: ElementPath, base: Node | None, mine: Node, generated: Node, us
 def _merge_statement(
     path: ElementPath, base: Node | None, mine: Node, other: Node, users_layout: Layout
 ) -> list[Piece]:
-    """Merge one part of a class between two people, with comments: `_merge` would keep only the comments of `mine`."""
+    """Merge one child of a class between two people, with comments: `_merge` would keep only the comments of `mine`."""
     merged = _merge_comments(base.text if base else "", mine.text, other.text)
     if merged is None:
         return [_contradiction(path, base, mine, other)]
@@ -118,12 +118,12 @@ def _merge_comments(base: str, mine: str, other: str) -> str | None:
 
 
 def _has_body(node: Node) -> bool:
-    """Whether a thing is a class or a body."""
+    """Whether a node is a class or a body."""
     return isinstance(node, SyntaxTree) and (node.kind is TreeKind.BODY or node.find("body") is not None)
 
 
 def _merge_whole(path: ElementPath, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
-    """Merge a thing without parts: take one side's text, or merge blocks, algorithms and strings by lines."""
+    """Merge a node without children: take one side's text, or merge blocks, algorithms and strings by lines."""
     is_users = base is None or not is_same(base, mine)
     has_lines = all("\n" in node.text for node in (mine, generated)) and (not is_users or _has_lines(path, generated))
     if base and has_lines and "\n" in base.text:
@@ -178,7 +178,7 @@ def _is_rounding(old: Node, new: Node) -> bool:
 
 
 class _Item(msgspec.Struct, eq=False):
-    """A part of the merged text."""
+    """A piece of the merged text with a key."""
 
     key: str
     before: str
@@ -188,7 +188,7 @@ class _Item(msgspec.Struct, eq=False):
 
 
 class _Versions(NamedTuple):
-    """The three versions of a thing that has parts, with the keys that lead to the thing."""
+    """The three versions of a node that has children, with the keys that lead to the node."""
 
     path: ElementPath
     base: SyntaxTree
@@ -213,30 +213,30 @@ class _Versions(NamedTuple):
 
     @property
     def is_picture(self) -> bool:
-        """Whether the thing is a part of a diagram or icon that the user has changed."""
+        """Whether the node belongs to a diagram or icon that the user has changed."""
         return bool(self.users_layout and self.users_layout & PICTURES.intersection(self.path))
 
 
-def _merge_parts(
+def _merge_children(
     path: ElementPath, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: Layout
 ) -> list[Piece]:
-    """Merge a thing that has parts."""
+    """Merge a node that has children."""
     trees = base or SyntaxTree(mine.kind, ()), mine, generated
     if mine.kind is TreeKind.BODY:
         users_layout = None if users_layout is None else find_users_layout(*trees[:2])
         trees = pair(*trees) if base else trees
     versions = _Versions(path, *trees, users_layout)
-    items, notes = dict[str, _Item](), ""  # notes: comments of the user from removed parts, for the next item
-    for part in versions.mine.parts:
-        if _is_removed(versions, part):
-            notes += _remaining_notes(part, versions.base.find(part.key))
+    items, notes = dict[str, _Item](), ""  # notes: comments of the user from removed children, for the next item
+    for child in versions.mine.children:
+        if _is_removed(versions, child):
+            notes += _remaining_notes(child, versions.base.find(child.key))
             continue
-        items[part.key] = item = _merge_part(versions, part)
+        items[child.key] = item = _merge_child(versions, child)
         item.before, notes = notes + item.before, ""
     arranged = arrange(*versions[2:4], users_layout) if mine.kind is TreeKind.BODY and users_layout else {}
-    for part in versions.generated.parts:
-        if part.key not in items and not _was_removed(versions, part):
-            items[part.key] = _added_part(versions, part, arranged.get(part.key, part.node.text))
+    for child in versions.generated.children:
+        if child.key not in items and not _was_removed(versions, child):
+            items[child.key] = _added_child(versions, child, arranged.get(child.key, child.node.text))
     has_sequence = mine.kind is TreeKind.BODY or (mine.kind is TreeKind.ARRAY and PICTURES.isdisjoint(path))
     sequence = _sequence(versions.trees) if has_sequence else []
     order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(versions.trees, items)
@@ -248,53 +248,53 @@ def _merge_parts(
     return _text_of(versions.trees, [items[key] for key in order], notes, closing)
 
 
-def _is_removed(versions: _Versions, part: Part) -> bool:
-    """Whether the other side removed a part that the user has not changed."""
+def _is_removed(versions: _Versions, child: Child) -> bool:
+    """Whether the other side removed a child that the user has not changed."""
     _, base, mine, generated, users_layout = versions
-    if is_section(part.key) or generated.find(part.key) or not base.find(part.key):
+    if is_section(child.key) or generated.find(child.key) or not base.find(child.key):
         return False
     is_graphic = versions.is_picture and mine.kind is TreeKind.ARRAY
-    return is_graphic or _is_unchanged(part.key, base, mine, users_layout)
+    return is_graphic or _is_unchanged(child.key, base, mine, users_layout)
 
 
-def _was_removed(versions: _Versions, part: Part) -> bool:
-    """Whether the user removed a generated part that the export has not changed."""
-    is_layout = versions.is_picture or (part.key in LAYOUT and not versions.is_two_people)
-    if is_section(part.key) or not versions.base.find(part.key):
+def _was_removed(versions: _Versions, child: Child) -> bool:
+    """Whether the user removed a generated child that the export has not changed."""
+    is_layout = versions.is_picture or (child.key in LAYOUT and not versions.is_two_people)
+    if is_section(child.key) or not versions.base.find(child.key):
         return False
-    return is_layout or _is_unchanged(part.key, versions.base, versions.generated, versions.users_layout)
+    return is_layout or _is_unchanged(child.key, versions.base, versions.generated, versions.users_layout)
 
 
-def _merge_part(versions: _Versions, part: Part) -> _Item:
-    """Merge a part that the user's version has."""
+def _merge_child(versions: _Versions, child: Child) -> _Item:
+    """Merge a child that the user's version has."""
     path, base, mine, generated, users_layout = versions
-    old, new, here = base.find(part.key), generated.find(part.key), (*path, part.key)
-    pieces: list[Piece] = [part.node.text]
-    if new and not is_section(part.key):
-        is_statement = versions.has_statements and not any(map(_has_body, (part.node, new.node)))
+    old, new, here = base.find(child.key), generated.find(child.key), (*path, child.key)
+    pieces: list[Piece] = [child.node.text]
+    if new and not is_section(child.key):
+        is_statement = versions.has_statements and not any(map(_has_body, (child.node, new.node)))
         merge = _merge_statement if is_statement else _merge
-        pieces = merge(here, old.node if old else None, part.node, new.node, users_layout)
-    elif old and not is_section(part.key):
-        if part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
-            pieces = _merge(here, old.node, part.node, old.node.with_parts(()), users_layout)
-        elif not versions.is_picture and part.key not in (users_layout or ()):
-            pieces = [_contradiction(here, old.node, part.node, None)]
+        pieces = merge(here, old.node if old else None, child.node, new.node, users_layout)
+    elif old and not is_section(child.key):
+        if child.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(child.node, SyntaxTree):
+            pieces = _merge(here, old.node, child.node, old.node.with_children(()), users_layout)
+        elif not versions.is_picture and child.key not in (users_layout or ()):
+            pieces = [_contradiction(here, old.node, child.node, None)]
     # inside of an element, keep the user's blanks: they depend on each other
-    blanks = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
+    blanks = _blanks(old, child, new if mine.kind is TreeKind.BODY else None)
     if versions.has_statements and new:
-        blanks, pieces = _merge_around(here, old, part, new, pieces)
+        blanks, pieces = _merge_around(here, old, child, new, pieces)
     before, after, remark = blanks
     if mine.separator:  # it stands before a comment to the end of the line
         remark = _joined(_take_last_notes(pieces), remark)
-    return _Item(part.key, before, pieces or [part.node.text], after, remark)
+    return _Item(child.key, before, pieces or [child.node.text], after, remark)
 
 
-def _added_part(versions: _Versions, part: Part, text: str) -> _Item:
-    """Return a generated part that the user's version lacks; `text` has its place in the user's diagram."""
+def _added_child(versions: _Versions, child: Child, text: str) -> _Item:
+    """Return a generated child that the user's version lacks; `text` has its place in the user's diagram."""
     pieces: list[Piece] = [text]
-    if (old := versions.base.find(part.key)) and not is_section(part.key):
-        pieces = [_contradiction((*versions.path, part.key), old.node, None, part.node)]
-    return _Item(part.key, part.before, pieces, part.after, part.remark)
+    if (old := versions.base.find(child.key)) and not is_section(child.key):
+        pieces = [_contradiction((*versions.path, child.key), old.node, None, child.node)]
+    return _Item(child.key, child.before, pieces, child.after, child.remark)
 
 
 def _merge_closing(versions: _Versions) -> list[Piece]:
@@ -307,7 +307,7 @@ def _merge_closing(versions: _Versions) -> list[Piece]:
 def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
     """Merge an ordered sequence by keys; None if both sides changed the same place."""
     kind = trees[1].kind
-    keys = [tree.signature if kind is TreeKind.BODY else [part.key for part in tree.parts] for tree in trees]
+    keys = [tree.signature if kind is TreeKind.BODY else [child.key for child in tree.children] for tree in trees]
     base, mine, generated = keys
     if mine == base or generated in (base, mine):
         return generated if mine == base else mine
@@ -317,7 +317,7 @@ def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
 
 
 def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree, users_layout: Layout) -> bool:
-    """Whether one side has a thing of base, and the thing's section, unchanged.
+    """Whether one side has a node of base, and the node's section, unchanged.
 
     Layout and comments count only between two people.
     """
@@ -329,40 +329,40 @@ def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree, users_layout: La
     return is_same(old.node, new.node, layout=is_two_people) and not is_commented
 
 
-def _with_blanks(part: Part | None) -> str:
-    """Return a part with the blanks and comments around it."""
-    return f"{part.before}{part.node.text}{part.after}{part.remark}" if part else ""
+def _with_blanks(child: Child | None) -> str:
+    """Return a child with the blanks and comments around it."""
+    return f"{child.before}{child.node.text}{child.after}{child.remark}" if child else ""
 
 
 def _merge_around(
-    path: ElementPath, base: Part | None, mine: Part, other: Part, pieces: list[Piece]
+    path: ElementPath, base: Child | None, mine: Child, other: Child, pieces: list[Piece]
 ) -> tuple[Sequence[str], list[Piece]]:
-    """Merge the comments around a part between two people; comments that both changed make the part a contradiction."""
+    """Merge the comments around a child between two people; comments that both changed are a contradiction."""
     before = _merge_comments(base.before if base else "", mine.before, other.before)
     remark = _merge_comments(base.remark if base else "", mine.remark, other.remark)
     if before is None or remark is None:
-        texts = [_with_blanks(part) for part in (base, mine, other)]
+        texts = [_with_blanks(child) for child in (base, mine, other)]
         return ("", "", ""), _contradiction_of_lines(path, texts)
     return (before, mine.after, remark), pieces
 
 
-def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[str]:
-    """Return the blanks and comments around a part and its separator: the user's if changed, else the generated."""
+def _blanks(base: Child | None, mine: Child, generated: Child | None) -> Sequence[str]:
+    """Return the blanks and comments around a child and its separator: the user's if changed, else the generated."""
     own = mine.before, mine.after, mine.remark
     is_changed = not (base and generated) or own != (base.before, base.after, base.remark)
     return own if is_changed or not generated else (generated.before, generated.after, generated.remark)
 
 
-def _remaining_notes(part: Part, old: Part | None) -> str:
-    """Return the user's comments at a removed thing, each with a line break or blank before."""
+def _remaining_notes(child: Child, old: Child | None) -> str:
+    """Return the user's comments at a removed node, each with a line break or blank before."""
     had = comments(_with_blanks(old))
-    lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", part.before)), " ")
-    notes = [note for note in comments(_with_blanks(part)) if note not in had]
+    lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", child.before)), " ")
+    notes = [note for note in comments(_with_blanks(child)) if note not in had]
     return "".join(f"{lead}{note}" for note in notes)
 
 
 def _take_last_notes(pieces: list[Piece]) -> str:
-    """Remove the comments at the end of a merged thing, if the last one ends its line; return them."""
+    """Remove the comments at the end of a merged node, if the last one ends its line; return them."""
     first = len(pieces)
     while first > 1 and isinstance(last := pieces[first - 1], str) and not _COMMENT.sub("", last).strip():
         first -= 1
@@ -377,7 +377,7 @@ def _take_last_notes(pieces: list[Piece]) -> str:
 
 
 def _order(trees: Sequence[SyntaxTree], keys: Iterable[str]) -> list[str]:
-    """Return the keys of the merged parts in order, section by section."""
+    """Return the keys of the merged children in order, section by section."""
     if trees[1].kind is TreeKind.SLOTS:
         return sorted(keys, key=_ROLES.index)
     homes = {key: _home(key, trees) for key in keys}
@@ -390,7 +390,7 @@ def _order(trees: Sequence[SyntaxTree], keys: Iterable[str]) -> list[str]:
 
 
 def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
-    """Return the section of a merged part: the user's section, unless only the export moved the part."""
+    """Return the section of a merged child: the user's section, unless only the export moved the child."""
     old, own, new = (tree.sections.get(key) for tree in trees)
     if own is None or new is None:
         return own if new is None and own is not None else new or ""
@@ -402,9 +402,9 @@ def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
 
 
 def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str, end: list[Piece]) -> list[Piece]:
-    """Return the text of the merged things, with blanks and separators; `end` is the merged closing."""
+    """Return the text of the merged nodes, with blanks and separators; `end` is the merged closing."""
     base, mine, generated = trees
-    empty = _empty_sections([[part.key for part in tree.parts] for tree in (mine, generated)], items)
+    empty = _empty_sections([[child.key for child in tree.children] for tree in (mine, generated)], items)
     items = [item for item in items if item.key not in empty or comments(item.before + item.remark)]
     if mine.separator:
         _space_items(mine, items)
@@ -450,20 +450,20 @@ def append_blanks(pieces: list[Piece], blanks: str) -> None:
 
 def _empty_sections(sides: Sequence[Sequence[str]], items: Sequence[_Item]) -> set[str]:
     """Return the keys of sections that are empty in the merge, but not in the two sides."""
-    return _sections_without_parts([item.key for item in items]).difference(*map(_sections_without_parts, sides))
+    return _sections_without_children([item.key for item in items]).difference(*map(_sections_without_children, sides))
 
 
-def _sections_without_parts(keys: Sequence[str]) -> set[str]:
+def _sections_without_children(keys: Sequence[str]) -> set[str]:
     pairs = itertools.pairwise((*keys, "annotation"))
     return {key for key, after in pairs if is_section(key) and (is_section(after) or after == "annotation")}
 
 
 def _space_items(mine: SyntaxTree, items: Sequence[_Item]) -> None:
     """Give the items of a merged list the blanks between items of the user's list."""
-    usual = next((part.before for part in mine.parts[1:] if not part.before.strip()), None)
-    between = (part.after for part in mine.parts[:-1] if part.after.isspace())
+    usual = next((child.before for child in mine.children[1:] if not child.before.strip()), None)
+    between = (child.after for child in mine.children[:-1] if child.after.isspace())
     behind = next(between, "" if mine.separator == "," else " ")
-    first = re.findall(r"\s*", mine.parts[0].before)[0] if mine.parts else ""
+    first = re.findall(r"\s*", mine.children[0].before)[0] if mine.children else ""
     for number, item in enumerate(items):
         if not mine.find(item.key):
             like_others = item.before or " " if usual is None else usual
@@ -471,7 +471,7 @@ def _space_items(mine: SyntaxTree, items: Sequence[_Item]) -> None:
             item.after = behind
         elif not number and item.before.isspace():
             item.before = first
-        elif number and item.key == mine.parts[0].key and not item.before[:1].isspace():
+        elif number and item.key == mine.children[0].key and not item.before[:1].isspace():
             item.before = (" " if usual is None else usual) + item.before
         if number < len(items) - 1 and not item.after:
             item.after = behind

@@ -1,6 +1,6 @@
-"""Finds places for new things in a diagram that the user has arranged.
+"""Finds places for new nodes in a diagram that the user has arranged.
 
-A new thing is placed relative to its neighbour, as in the generated diagram, or at the nearest free place. A new line
+A new node is placed relative to its neighbour, as in the generated diagram, or at the nearest free place. A new line
 goes from one end to the other with a bend in the middle. Lengths are in units of the diagram; a place or a shift is a
 complex number.
 """
@@ -15,7 +15,7 @@ from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from urdfsync.modelica.tree import Node, Part, SyntaxTree, is_same
+from urdfsync.modelica.tree import Child, Node, SyntaxTree, is_same
 
 PICTURES = frozenset({"Icon", "Diagram"})
 """Annotations with graphics: new graphics of the export are added even to a layout that stays."""
@@ -27,7 +27,7 @@ _STEP = 20.0
 _REACH = 40
 """The greatest number of steps from the wanted place to a candidate."""
 _MOST_COMPARISONS = 1_000_000
-"""The greatest number of comparisons of two boxes, in about a second. Further new things may overlap other things."""
+"""The greatest number of comparisons of two boxes, in about a second. Further new nodes may overlap other nodes."""
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 _PLACEMENTS = {
     place: re.compile(rf"\b{place}\s*\(((?:[^()]|\([^()]*\))*)\)") for place in ("transformation", "iconTransformation")
@@ -39,15 +39,15 @@ Rectangle: TypeAlias = tuple[complex, complex]
 
 
 def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
-    """Return the annotations with the user's layout: all of the diagram or icon in which the user moved a thing.
+    """Return the annotations with the user's layout: all of the diagram or icon in which the user moved a node.
 
-    A thing that the user added does not count as moved.
+    A node that the user added does not count as moved.
     """
     moved: set[str] = set()
-    for part in base.parts:
-        other = mine.find(part.key)
-        if other and part.node.text != other.node.text:
-            moved.update(key for key in _DIAGRAM | _ICON if _is_moved(key, part.node, other.node))
+    for child in base.children:
+        other = mine.find(child.key)
+        if other and child.node.text != other.node.text:
+            moved.update(key for key in _DIAGRAM | _ICON if _is_moved(key, child.node, other.node))
     return frozenset().union(*(layer for layer in (_DIAGRAM, _ICON) if not layer.isdisjoint(moved)))
 
 
@@ -62,28 +62,28 @@ def _has_all(mine: Node, base: Node) -> bool:
     """Whether all graphics of base are unchanged."""
     if not (isinstance(mine, SyntaxTree) and isinstance(base, SyntaxTree)):
         return is_same(mine, base)
-    pairs = ((mine.find(part.key), part) for part in base.parts)
-    return all(own is not None and _has_all(own.node, part.node) for own, part in pairs)
+    pairs = ((mine.find(child.key), child) for child in base.children)
+    return all(own is not None and _has_all(own.node, child.node) for own, child in pairs)
 
 
 def arrange(mine: SyntaxTree, generated: SyntaxTree, users_layout: Collection[str]) -> dict[str, str]:
-    """Return the parts of a generated body that `mine` lacks, by key: texts with places that fit into `mine`.
+    """Return the children of a generated body that `mine` lacks, by key: texts with places that fit into `mine`.
 
     `users_layout` has the annotations with the user's layout.
     """
-    lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
+    lines = {child.key: ends for child in generated.children if (ends := _ends(child))}
     shifts = {place: _shifts(mine, generated, lines, place) for place in _PLACEMENTS if place in users_layout}
     texts: dict[str, str] = {}
-    for part in generated.parts:
-        if mine.find(part.key):
+    for child in generated.children:
+        if mine.find(child.key):
             continue
-        text = part.node.text
-        if part.key in lines and "Line" in users_layout:
-            start, end = (shifts["transformation"].get(key, 0) for key in lines[part.key])
+        text = child.node.text
+        if child.key in lines and "Line" in users_layout:
+            start, end = (shifts["transformation"].get(key, 0) for key in lines[child.key])
             text = _rerouted(text, start, end)
         for place, ways in shifts.items():
-            text = _moved(text, place, ways.get(part.key, 0))
-        texts[part.key] = text
+            text = _moved(text, place, ways.get(child.key, 0))
+        texts[child.key] = text
     return texts
 
 
@@ -94,8 +94,8 @@ def _shifts(
 
     Components that `mine` lacks get a free place.
     """
-    boxes = {part.key: box for part in mine.parts if (box := _box(part, place))}
-    planned = {part.key: box for part in generated.parts if (box := _box(part, place))}
+    boxes = {child.key: box for child in mine.children if (box := _box(child, place))}
+    planned = {child.key: box for child in generated.children if (box := _box(child, place))}
     shifts = {key: sum(boxes[key]) / 2 - sum(planned[key]) / 2 for key in planned.keys() & boxes.keys()}
     neighbours = defaultdict[str, list[str]](list)
     for first, second in lines.values():
@@ -104,7 +104,7 @@ def _shifts(
     comparisons, previous = _MOST_COMPARISONS, ""
     for key, (low, high) in planned.items():
         if not mine.find(key):
-            # shift a new part like a connected part, else like the part before
+            # shift a new child like a connected child, else like the child before
             neighbour = next((other for other in neighbours[key] if other != key and other in shifts), previous)
             wanted = shifts.get(neighbour, 0)
             shifts[key] = wanted
@@ -141,8 +141,8 @@ def _inside(node: Node, keys: Sequence[str]) -> Node | None:
     for key in keys:
         arguments = inner.find("arguments") if isinstance(inner, SyntaxTree) else None
         holder = arguments.node if arguments and key != keys[0] else inner
-        part = holder.find(key) if isinstance(holder, SyntaxTree) else None
-        inner = part.node if part else None
+        child = holder.find(key) if isinstance(holder, SyntaxTree) else None
+        inner = child.node if child else None
     return inner
 
 
@@ -159,10 +159,10 @@ def _arrays(text: str, place: str) -> Iterator[re.Match[str] | None]:
         yield _ARRAYS[key].search(text, *placement.span(1)) if placement else None
 
 
-def _box(part: Part, place: str) -> Rectangle | None:
+def _box(child: Child, place: str) -> Rectangle | None:
     """Return the place of a component in the diagram or in the icon; None without a place."""
-    corners, origins = map(_points, _arrays(part.node.text, place))
-    if len(corners) != 2 or not part.key.startswith("component "):
+    corners, origins = map(_points, _arrays(child.node.text, place))
+    if len(corners) != 2 or not child.key.startswith("component "):
         return None
     xs, ys = sorted(corner.real for corner in corners), sorted(corner.imag for corner in corners)
     box = [complex(xs[0], ys[0]) + sum(origins), complex(xs[1], ys[1]) + sum(origins)]
@@ -171,10 +171,10 @@ def _box(part: Part, place: str) -> Rectangle | None:
     return box[0], box[1]
 
 
-def _ends(part: Part) -> tuple[str, str] | None:
+def _ends(child: Child) -> tuple[str, str] | None:
     """Return the keys of the components that a line connects."""
-    connectors = re.findall(r"([\w']+)[\w.\[\]']*", part.node.text.partition(")")[0])[1:]
-    if not part.key.startswith("connect ") or len(connectors) != 2:
+    connectors = re.findall(r"([\w']+)[\w.\[\]']*", child.node.text.partition(")")[0])[1:]
+    if not child.key.startswith("connect ") or len(connectors) != 2:
         return None
     return f"component {connectors[0]}", f"component {connectors[1]}"
 

@@ -11,10 +11,10 @@ from typing import NamedTuple, TypeAlias
 
 
 class Contradiction(NamedTuple):
-    """A thing with different texts on the two sides; the text is empty on a side without the thing."""
+    """A node with different texts on the two sides; the text is empty on a side without the node."""
 
     path: tuple[str, ...]
-    """The keys that lead to the thing, from the outermost thing to this thing; empty for lines."""
+    """The keys that lead to the node, from the outermost node to this node; empty for lines."""
     base: str
     mine: str
     generated: str
@@ -60,7 +60,7 @@ def merge_lines(base: str, mine: str, generated: str) -> list[Piece]:
     pieces: list[Piece] = []
     place = 0
     for region in find_regions(old, own, new):
-        texts = ["".join(lines[part]) for lines, part in zip((old, own, new), region[:3], strict=True)]
+        texts = ["".join(lines[child]) for lines, child in zip((old, own, new), region[:3], strict=True)]
         if not region.is_generated or texts[1] == texts[2]:
             continue
         pieces.append("".join(written[place : region.mine.start]))
@@ -77,7 +77,7 @@ def merge_whole_lines(base: str, mine: str, generated: str) -> str | None:
 
 
 def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str] | None:
-    """Merge sequences without repeated things; None if both sides changed one place, or moved a thing differently."""
+    """Merge sequences without repeated nodes; None if both sides changed one place, or moved a node differently."""
     merged: list[str] = []
     place = 0
     for region in find_regions(base, mine, generated):

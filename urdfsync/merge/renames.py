@@ -7,7 +7,7 @@ from collections.abc import Hashable, Iterator, Mapping, Sequence
 
 from urdfsync.modelica.lexer import Token, is_name, lex
 from urdfsync.modelica.names import LIBRARY
-from urdfsync.modelica.tree import Part, SyntaxTree, words_of
+from urdfsync.modelica.tree import Child, SyntaxTree, words_of
 
 _COMPONENT = "component "
 _MODIFIER = "("
@@ -72,8 +72,8 @@ def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int
 def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
     """Return the components that the user renamed, as new names by old names: unique pairs that differ only in name."""
     old, new, others = (_components(tree) for tree in (base, mine, generated))
-    removed = {name: _likeness(part, name) for name, part in old.items() if name not in new}
-    added = {name: _likeness(part, name) for name, part in new.items() if name not in old and name not in others}
+    removed = {name: _likeness(child, name) for name, child in old.items() if name not in new}
+    added = {name: _likeness(child, name) for name, child in new.items() if name not in old and name not in others}
     counts = Counter(removed.values()), Counter(added.values())
     by_likeness = {likeness: name for name, likeness in added.items()}
     return {
@@ -83,17 +83,17 @@ def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> d
     }
 
 
-def _components(file: SyntaxTree) -> dict[str, Part]:
+def _components(file: SyntaxTree) -> dict[str, Child]:
     """Return the components of a class by their names."""
     body = file.find("body")
-    parts = body.node.parts if body and isinstance(body.node, SyntaxTree) else ()
-    return {part.key.removeprefix(_COMPONENT): part for part in parts if part.key.startswith(_COMPONENT)}
+    children = body.node.children if body and isinstance(body.node, SyntaxTree) else ()
+    return {child.key.removeprefix(_COMPONENT): child for child in children if child.key.startswith(_COMPONENT)}
 
 
-def _likeness(part: Part, name: str) -> Hashable:
+def _likeness(child: Child, name: str) -> Hashable:
     """Return a value that is equal for two components if only their names and layouts differ."""
-    parts = part.node.parts if isinstance(part.node, SyntaxTree) else ()
-    texts = (inner.node.text for inner in parts if inner.key != "annotation")
+    children = child.node.children if isinstance(child.node, SyntaxTree) else ()
+    texts = (inner.node.text for inner in children if inner.key != "annotation")
     return tuple("" if word == name else word for text in texts for word in words_of(text))
 
 

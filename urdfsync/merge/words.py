@@ -1,4 +1,4 @@
-"""Describes things in a class, and contradictions, in words."""
+"""Describes elements of a class, and contradictions, in words."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _LONGEST = 60
 _BLANK = re.compile(r'("(?:[^"\\]|\\.)*+(?:"|\\?\Z))| (?=[,)\]])|(?<=[(\[]) |(?<=\w) (?=[(\[])', re.DOTALL)
 """A blank between the words of a key that no user writes; a string stays."""
 _SILENT = frozenset("body value expression definition import components".split())
-"""Parts that sentences do not name, since they contain things with names."""
+"""Parts that sentences do not name, since they contain elements with names."""
 _ROLES = {
     "annotation": "annotation",
     "arguments": "modifiers",

@@ -1,8 +1,8 @@
-"""A class as a tree of things: elements, equations, modifiers. The tree keeps every byte.
+"""A class as a tree of nodes: elements, equations, modifiers. The tree keeps every byte.
 
-A thing's key is the same in all versions of the class: a component's or modifier's name, or an equation's words.
-Blanks and comments stand between things, and belong to no thing. At first, only the name of an element or equation is
-read; the parts of most are never needed.
+A node's key is the same in all versions of the class: a component's or modifier's name, or an equation's words.
+Blanks and comments stand between nodes, and belong to no node. At first, only the name of an element or equation is
+read; the children of most are never needed.
 """
 
 from __future__ import annotations
@@ -39,21 +39,21 @@ _LONGEST_INTEGER = 20
 _GEOMETRY = frozenset({"extent", "points", "origin", "rotation"})
 """Arguments that contain places of graphics."""
 _TAIL = frozenset({"external", "annotation"})
-"""Keys of the parts at the end of a class, after all sections."""
+"""Keys of the children at the end of a class, after all sections."""
 
 Words: TypeAlias = tuple[str | float, ...]
 """The tokens of a text without blanks and comments; numbers are values. Integers stay integers."""
 
 
 class UnreadableError(Exception):
-    """An element or equation has a syntax error, or two parts of one name."""
+    """An element or equation has a syntax error, or two children of one name."""
 
 
 class TreeKind(Enum):
-    """The arrangement of a tree's parts."""
+    """The arrangement of a tree's children."""
 
     SLOTS = "slots"
-    """Parts with roles, such as `type`, in a fixed order; parts may be missing."""
+    """Children with roles, such as `type`, in a fixed order; children may be missing."""
     BODY = "body"
     """Elements and equations, and the words that begin sections."""
     LIST = "list"
@@ -81,12 +81,12 @@ class Leaf:
 
 
 class SyntaxTree:
-    """A thing with parts."""
+    """A node with children."""
 
     def __init__(
         self,
         kind: TreeKind,
-        parts: Sequence[Part],
+        children: Sequence[Child],
         opening: str = "",
         closing: str = "",
         *,
@@ -97,42 +97,42 @@ class SyntaxTree:
         `is_function` marks the body of a function: the order of its inputs and outputs counts.
         """
         self.kind, self.opening, self.closing, self.is_function = kind, opening, closing, is_function
-        self._parts = parts
+        self._children = children
 
     @property
-    def parts(self) -> Sequence[Part]:
-        """The parts in the order of the text. Raises UnreadableError."""
-        return self._parts
+    def children(self) -> Sequence[Child]:
+        """The children in the order of the text. Raises UnreadableError."""
+        return self._children
 
-    def with_parts(self, parts: Sequence[Part]) -> SyntaxTree:
-        """Return the same tree with other parts."""
-        return SyntaxTree(self.kind, parts, self.opening, self.closing, is_function=self.is_function)
+    def with_children(self, children: Sequence[Child]) -> SyntaxTree:
+        """Return the same tree with other children."""
+        return SyntaxTree(self.kind, children, self.opening, self.closing, is_function=self.is_function)
 
     @property
     def separator(self) -> str:
-        """The sign between two parts."""
+        """The sign between two children."""
         return _SEPARATORS.get(self.kind, "")
 
     @cached_property
     def text(self) -> str:
         """The text of the tree, byte for byte."""
-        separators = [*(len(self.parts) - 1) * [self.separator], ""]
+        separators = [*(len(self.children) - 1) * [self.separator], ""]
         inner = (
-            f"{part.before}{part.node.text}{part.after}{separator}{part.remark}"
-            for part, separator in zip(self.parts, separators, strict=False)
+            f"{child.before}{child.node.text}{child.after}{separator}{child.remark}"
+            for child, separator in zip(self.children, separators, strict=False)
         )
         return "".join((self.opening, *inner, self.closing))
 
     @cached_property
     def sections(self) -> dict[str, str]:
-        """The key of each part's section, by the part's key; empty before the first section, and in a list.
+        """The key of each child's section, by the child's key; empty before the first section, and in a list.
 
-        The parts at the end of a class are in the section `tail`.
+        The children at the end of a class are in the section `tail`.
         """
         section, sections = "", dict[str, str]()
-        for part in self.parts:
-            section = part.key if is_section(part.key) else section
-            sections[part.key] = section
+        for child in self.children:
+            section = child.key if is_section(child.key) else section
+            sections[child.key] = section
         if self.kind is TreeKind.BODY:
             sections |= dict.fromkeys(itertools.takewhile(_TAIL.__contains__, reversed(sections)), "tail")
         return sections
@@ -140,34 +140,34 @@ class SyntaxTree:
     @property
     def signature(self) -> list[str]:
         """The keys of the inputs and outputs of a function, in order."""
-        return [part.key for part in self.parts if self.is_function and not _PASSED.isdisjoint(_type_words(part))]
+        return [child.key for child in self.children if self.is_function and not _PASSED.isdisjoint(_type_words(child))]
 
-    def find(self, key: str) -> Part | None:
-        """Return the part with this key."""
+    def find(self, key: str) -> Child | None:
+        """Return the child with this key."""
         return self._by_key.get(key)
 
     @cached_property
-    def _by_key(self) -> dict[str, Part]:
-        return {part.key: part for part in self.parts}
+    def _by_key(self) -> dict[str, Child]:
+        return {child.key: child for child in self.children}
 
     def says(self, *, layout: bool) -> list[tuple[str, str, Node]]:
-        """Return the parts with their keys; without `layout`, sorted, and without layout and section words."""
+        """Return the children with their keys; without `layout`, sorted, and without layout and section words."""
         if layout:
-            return [(part.key, "", part.node) for part in self.parts]
-        parts = [
-            (part.key, section_name(self.sections[part.key]), part.node)
-            for part in self.parts
+            return [(child.key, "", child.node) for child in self.children]
+        children = [
+            (child.key, section_name(self.sections[child.key]), child.node)
+            for child in self.children
             if not (
-                (self.kind is TreeKind.LIST and part.key in LAYOUT)
-                or (part.key == "annotation" and is_empty(part.node))
-                or is_section(part.key)
+                (self.kind is TreeKind.LIST and child.key in LAYOUT)
+                or (child.key == "annotation" and is_empty(child.node))
+                or is_section(child.key)
             )
         ]
-        return parts if self.kind is TreeKind.ARRAY else sorted(parts, key=lambda part: part[:2])
+        return children if self.kind is TreeKind.ARRAY else sorted(children, key=lambda child: child[:2])
 
 
 class Statement(SyntaxTree):
-    """An element or equation with its semicolon; its parts are read when they are needed."""
+    """An element or equation with its semicolon; its children are read when they are needed."""
 
     def __init__(self, text: str, *, is_equation: bool) -> None:
         super().__init__(TreeKind.SLOTS, ())
@@ -175,61 +175,62 @@ class Statement(SyntaxTree):
         self._is_equation = is_equation
 
     @cached_property
-    def parts(self) -> Sequence[Part]:
-        """The parts in the order of the text. Raises UnreadableError."""
+    def children(self) -> Sequence[Child]:
+        """The children in the order of the text. Raises UnreadableError."""
         return _TreeReader(self.text, {}).statement(is_equation=self._is_equation)
 
 
 Node: TypeAlias = Leaf | SyntaxTree
 
 
-class Part(msgspec.Struct, frozen=True, eq=False):
-    """A thing at its place in a tree."""
+class Child(msgspec.Struct, frozen=True, eq=False):
+    """A node at its place in a tree."""
 
     key: str
     before: str
-    """Blanks and comments before the thing."""
+    """Blanks and comments before the node."""
     node: Node
     after: str = ""
-    """Blanks and comments between the thing and the separator."""
+    """Blanks and comments between the node and the separator."""
     remark: str = ""
-    """A comment at the end of the thing's line, after the separator if there is one."""
+    """A comment at the end of the node's line, after the separator if there is one."""
 
 
 def is_same(node: Node, other: Node, *, layout: bool = True) -> bool:
-    """Whether two things have the same meaning; without `layout`, layout and order do not count."""
+    """Whether two nodes have the same meaning; without `layout`, layout and order do not count."""
     if node is other or node.text == other.text:
         return True
     if isinstance(node, Leaf) or isinstance(other, Leaf):
         return isinstance(node, Leaf) and isinstance(other, Leaf) and node.words == other.words
-    parts, other_parts = node.says(layout=layout), other.says(layout=layout)
+    children, other_children = node.says(layout=layout), other.says(layout=layout)
     return (
         node.kind is other.kind
-        and [part[:2] for part in parts] == [part[:2] for part in other_parts]
+        and [child[:2] for child in children] == [child[:2] for child in other_children]
         and all(
-            is_same(part[2], other_part[2], layout=layout) for part, other_part in zip(parts, other_parts, strict=True)
+            is_same(child[2], other_child[2], layout=layout)
+            for child, other_child in zip(children, other_children, strict=True)
         )
     )
 
 
 def is_section(key: str) -> bool:
-    """Whether a part of a body is the first word of a section."""
+    """Whether a child of a body is the first word of a section."""
     return key.startswith("section ")
 
 
-def is_equation(part: Part) -> bool:
-    """Whether a part of a body is an equation, but no connection."""
-    return _EQUATION.match(part.key) is not None
+def is_equation(child: Child) -> bool:
+    """Whether a child of a body is an equation, but no connection."""
+    return _EQUATION.match(child.key) is not None
 
 
 def section_name(section: str) -> str:
-    """Return the name of a section without its number; parts before the first section are public."""
+    """Return the name of a section without its number; children before the first section are public."""
     return section.rpartition(" ")[0] or section or "section public"
 
 
 def is_empty(node: Node) -> bool:
     """Whether an annotation contains only layout."""
-    return isinstance(node, SyntaxTree) and all(part.key in LAYOUT for part in node.parts)
+    return isinstance(node, SyntaxTree) and all(child.key in LAYOUT for child in node.children)
 
 
 def comments(text: str) -> list[str]:
@@ -244,23 +245,23 @@ def comments(text: str) -> list[str]:
 
 def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
     """Key equations for a variable by all their words, in all versions, if one version has several of them."""
-    counts = [Counter(_variable(part) for part in tree.parts) for tree in trees]
+    counts = [Counter(_variable(child) for child in tree.children) for tree in trees]
     several = {name for names in counts for name, count in names.items() if name and count > 1}
-    return tuple(tree.with_parts(list(_keyed(tree.parts, several))) if several else tree for tree in trees)
+    return tuple(tree.with_children(list(_keyed(tree.children, several))) if several else tree for tree in trees)
 
 
-def _variable(part: Part) -> str:
+def _variable(child: Child) -> str:
     """Return the variable that can be the key of an equation; empty if there is none."""
-    return part.key.partition(" = ")[0] if is_equation(part) else ""
+    return child.key.partition(" = ")[0] if is_equation(child) else ""
 
 
-def _keyed(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
-    for part in parts:
-        if _variable(part) in variables and isinstance(part.node, SyntaxTree):
-            kind = INITIAL if part.key.startswith(INITIAL) else ""
-            words = _said(words_of(part.node.parts[0].node.text))
-            part = msgspec.structs.replace(part, key=f"{kind}equation {words}")
-        yield part
+def _keyed(children: Sequence[Child], variables: Collection[str]) -> Iterator[Child]:
+    for child in children:
+        if _variable(child) in variables and isinstance(child.node, SyntaxTree):
+            kind = INITIAL if child.key.startswith(INITIAL) else ""
+            words = _said(words_of(child.node.children[0].node.text))
+            child = msgspec.structs.replace(child, key=f"{kind}equation {words}")
+        yield child
 
 
 def as_sum(node: Node) -> Node:
@@ -269,7 +270,7 @@ def as_sum(node: Node) -> Node:
         not isinstance(word, str) or not (is_name(word) or word == ".") for word in node.words
     ):
         return node
-    return SyntaxTree(TreeKind.SUM, _numbered([Part("", "", node)]))
+    return SyntaxTree(TreeKind.SUM, _numbered([Child("", "", node)]))
 
 
 def words_of(text: str) -> Words:
@@ -294,12 +295,12 @@ def _said(words: Words) -> str:
     return " ".join(word if isinstance(word, str) else str(float(word)) for word in words)
 
 
-def _type_words(part: Part) -> Words:
+def _type_words(child: Child) -> Words:
     """Return the prefixes and the type in a declaration of components; empty for anything else."""
-    if not (isinstance(part.node, SyntaxTree) and part.key.startswith("component ")):
+    if not (isinstance(child.node, SyntaxTree) and child.key.startswith("component ")):
         return ()
-    type_part = part.node.find("type") or part.node.find("components")
-    return type_part.node.words if type_part and isinstance(type_part.node, Leaf) else ()
+    type_child = child.node.find("type") or child.node.find("components")
+    return type_child.node.words if type_child and isinstance(type_child.node, Leaf) else ()
 
 
 def _drawn(words: Words) -> Words:
@@ -315,22 +316,22 @@ def _drawn(words: Words) -> Words:
     return tuple(drawn)
 
 
-def _numbered(parts: Sequence[Part]) -> list[Part]:
+def _numbered(children: Sequence[Child]) -> list[Child]:
     """Return items or terms with their words, except places in the diagram, as keys; equal keys get a number."""
     seen = Counter[str]()
     numbered = []
-    for part in parts:
-        words = _said(_drawn(words_of(part.node.text)))
+    for child in children:
+        words = _said(_drawn(words_of(child.node.text)))
         seen[words] += 1
-        numbered.append(msgspec.structs.replace(part, key=f"{words} #{seen[words]}"))
+        numbered.append(msgspec.structs.replace(child, key=f"{words} #{seen[words]}"))
     return numbered
 
 
 class Span(NamedTuple):
-    """A part of a text: the tokens from number `start` up to the token before `stop`."""
+    """A piece of a text: the tokens from number `start` up to the token before `stop`."""
 
     key: str
-    """The part's role in the thing around it, such as `type`, or the name of a modifier."""
+    """The child's role in the node around it, such as `type`, or the name of a modifier."""
     start: int
     stop: int
     inner: Sequence[Span] = ()
@@ -341,7 +342,7 @@ class Span(NamedTuple):
 class KnownStatement(NamedTuple):
     """An element or equation that an earlier text contained, too."""
 
-    part: Part
+    child: Child
     names: Sequence[tuple[str, str]]
     """Names that the statement takes, each with the fault for a second statement with this name."""
 
@@ -351,7 +352,7 @@ KnownStatements: TypeAlias = dict[tuple[str, str], KnownStatement]
 
 
 def read_tree(text: str, statements: KnownStatements | None = None) -> SyntaxTree | None:
-    """Read a text of one class; None for a syntax error, several classes, or two things of one name.
+    """Read a text of one class; None for a syntax error, several classes, or two nodes of one name.
 
     Known `statements` are not read again, and new ones are added.
     """
@@ -372,23 +373,23 @@ class _OpenBody:
         self.mark = mark
         """The number of spans before the present element or equation."""
         self.end = end
-        """The place in the text up to which `parts` reaches."""
-        self.parts: list[Part] = []
+        """The place in the text up to which `children` reaches."""
+        self.children: list[Child] = []
         self.section = ""
         """The first words of the present section, such as `initial equation`."""
         self.sections = Counter[str]()
         self.names: list[tuple[str, str]] = []
         """Names that the present element or equation takes, each with the fault for a repetition."""
 
-    def add(self, part: Part, text: str, stop: int) -> None:
-        """Add a part that ends at this place in the text, and the comment after the part."""
+    def add(self, child: Child, text: str, stop: int) -> None:
+        """Add a child that ends at this place in the text, and the comment after the child."""
         remark = _remark_at(text, stop)
-        self.parts.append(msgspec.structs.replace(part, remark=remark) if remark else part)
+        self.children.append(msgspec.structs.replace(child, remark=remark) if remark else child)
         self.end = stop + len(remark)
 
 
 class _TreeReader(Parser):
-    """Makes the tree while parsing: the hooks of the parser note the extent of each part."""
+    """Makes the tree while parsing: the hooks of the parser note the extent of each child."""
 
     def __init__(self, text: str, statements: KnownStatements, *, reads_all: bool = False) -> None:
         super().__init__(text)
@@ -405,17 +406,17 @@ class _TreeReader(Parser):
             stored = self.read()
             if stored.faults or len(stored.classes) != 1:
                 return None
-            parts = self._slots(self._spans).parts
-            return SyntaxTree(TreeKind.SLOTS, parts, closing=self.text[self._end :])
+            children = self._slots(self._spans).children
+            return SyntaxTree(TreeKind.SLOTS, children, closing=self.text[self._end :])
         except UnreadableError:
             return None
 
-    def statement(self, *, is_equation: bool) -> Sequence[Part]:
+    def statement(self, *, is_equation: bool) -> Sequence[Child]:
         """Read one element or equation. Raises UnreadableError."""
         self._each(self._equation if is_equation else self._element, set())
         if self.faults or self.endless or self.word:
             raise UnreadableError
-        return self._slots(self._spans).parts
+        return self._slots(self._spans).children
 
     # --- hooks of the parser --------------------------------------------------------------------------------------
 
@@ -435,7 +436,7 @@ class _TreeReader(Parser):
         super()._composition()
         if not self._reads_all and not self.faults:
             is_function = self.open[-1].kind.endswith("function")
-            (tree,) = key_by_whole_equation(SyntaxTree(TreeKind.BODY, self._body.parts, is_function=is_function))
+            (tree,) = key_by_whole_equation(SyntaxTree(TreeKind.BODY, self._body.children, is_function=is_function))
             self._spans.append(Span("body", self.at, self.at, (), _with_unique_keys(tree)))
         self._body = around
 
@@ -448,12 +449,12 @@ class _TreeReader(Parser):
                 break
             for key, reason in statement.names:
                 if key in self._seen:
-                    line = self.line_at(body.end + len(statement.part.before))
+                    line = self.line_at(body.end + len(statement.child.before))
                     self.faults.append(Fault(reason, line, is_repetition=True))
                 self._seen.add(key)
-            body.add(statement.part, self.text, match.end())
+            body.add(statement.child, self.text, match.end())
             self.position = body.end
-            if statement.part.key == "annotation":
+            if statement.child.key == "annotation":
                 self._expect_end()
         body.names = []
         return self.word
@@ -486,24 +487,24 @@ class _TreeReader(Parser):
         if words[-1] in SECTIONS:
             body.section = " ".join(words)
             body.sections[body.section] += 1
-            part = Part(f"section {body.section} {body.sections[body.section]}", before, Leaf(own_text))
+            child = Child(f"section {body.section} {body.sections[body.section]}", before, Leaf(own_text))
         elif body.section.endswith("algorithm") and words[0] not in _TAIL:
-            previous = body.parts.pop()
+            previous = body.children.pop()
             if is_section(previous.key):
-                body.parts.append(previous)
-                part = Part(f"statements of {previous.key.partition(' ')[2]}", before, Leaf(own_text))
-            else:  # all statements of an algorithm section are one part
+                body.children.append(previous)
+                child = Child(f"statements of {previous.key.partition(' ')[2]}", before, Leaf(own_text))
+            else:  # all statements of an algorithm section are one child
                 own_text = f"{previous.node.text}{previous.remark}{before}{own_text}"
-                part = Part(previous.key, previous.before, Leaf(own_text))
+                child = Child(previous.key, previous.before, Leaf(own_text))
         elif self.faults or not body.skips:
-            part = Part("", before, Leaf(own_text))
+            child = Child("", before, Leaf(own_text))
         else:
             node = Statement(own_text, is_equation=body.section.endswith("equation") and words[0] not in _TAIL)
-            part = Part(self._key(self._spans[body.mark :]), before, node)
+            child = Child(self._key(self._spans[body.mark :]), before, node)
             if words.index(";") == len(words) - 1:
-                self._statements[body.section, before + own_text] = KnownStatement(part, body.names)
+                self._statements[body.section, before + own_text] = KnownStatement(child, body.names)
         del self._spans[body.mark :]
-        body.add(part, text, stop)
+        body.add(child, text, stop)
 
     def _key(self, spans: Sequence[Span]) -> str:
         """Return the key of an element or equation; it is the same in other versions of the class."""
@@ -535,7 +536,7 @@ class _TreeReader(Parser):
         """Return the two connectors of a `connect(a, b)`, in alphabetical order."""
         return sorted("".join(self.words[end.start : end.stop]) for end in connection.inner)
 
-    # --- the parts --------------------------------------------------------------------------------------------------
+    # --- the children -----------------------------------------------------------------------------------------------
 
     def _stop(self, at: int) -> int:
         """Return the end of the token before this token's number."""
@@ -554,51 +555,51 @@ class _TreeReader(Parser):
         return text
 
     def _slots(self, spans: Sequence[Span]) -> SyntaxTree:
-        """Return a tree of parts with roles. Raises UnreadableError if two parts have the same role."""
+        """Return a tree of children with roles. Raises UnreadableError if two children have the same role."""
         return _with_unique_keys(SyntaxTree(TreeKind.SLOTS, [self._slot(span) for span in spans]))
 
-    def _slot(self, span: Span) -> Part:
-        """Return a part of an element; the span's key is the part's role."""
+    def _slot(self, span: Span) -> Child:
+        """Return a child of an element; the span's key is the child's role."""
         if span.body:
             self._end += len(span.body.text)
-            return Part("body", "", span.body)
+            return Child("body", "", span.body)
         before = self._blanks(span.start)
         if span.key in ("value", "constraint"):
-            return Part(span.key, before, self._slots(span.inner))
+            return Child(span.key, before, self._slots(span.inner))
         if span.key in ("arguments", "annotation"):
-            return Part(span.key, before, self._listed(span))
+            return Child(span.key, before, self._listed(span))
         if span.key == "expression":
-            return Part(span.key, before, self._expressed(span))
+            return Child(span.key, before, self._expressed(span))
         words = tuple(self._ends(span)) if span.key == "connect" else None
-        return Part(span.key, before, Leaf(self._said(span.stop), words))
+        return Child(span.key, before, Leaf(self._said(span.stop), words))
 
     def _listed(self, span: Span) -> Node:
         """Return modifiers in parentheses; `annotation` stands before them."""
-        begin, parts = self._end, list[Part]()
+        begin, children = self._end, list[Child]()
         opening = self._said(span.start + 1 + (span.key == "annotation"))
         for item in span.inner:
             before = self._blanks(item.start)
             is_whole = not item.inner or any(inner.key == "head" for inner in item.inner)
             node = Leaf(self._said(item.stop)) if is_whole else self._slots(item.inner)
-            parts.append(self._separated(Part(item.key, before, node), item.stop, ","))
+            children.append(self._separated(Child(item.key, before, node), item.stop, ","))
         closing = self.text[self._end : self._stop(span.stop)]
         self._end += len(closing)
-        if len({part.key for part in parts}) < len(parts):  # such as `choice`
+        if len({child.key for child in children}) < len(children):  # such as `choice`
             return Leaf(self.text[begin : self._end])
-        return SyntaxTree(TreeKind.LIST, parts, opening, closing)
+        return SyntaxTree(TreeKind.LIST, children, opening, closing)
 
-    def _separated(self, part: Part, at: int, separator: str) -> Part:
-        """Return a part with the blanks before its separator, and the comment after the separator."""
+    def _separated(self, child: Child, at: int, separator: str) -> Child:
+        """Return a child with the blanks before its separator, and the comment after the separator."""
         after = ""
         if self.words[at] == separator:
             after = self._blanks(at)
             self._said(at + 1)
         remark = _remark_at(self.text, self._end)
         self._end += len(remark)
-        return msgspec.structs.replace(part, after=after, remark=remark)
+        return msgspec.structs.replace(child, after=after, remark=remark)
 
     def _expressed(self, span: Span) -> Node:
-        """Return an expression: a sum or an array of named things, or a leaf."""
+        """Return an expression: a sum or an array of named nodes, or a leaf."""
         depth, operators, items, terms = 0, set[str](), [span.start], [span.start]
         for at in range(span.start, span.stop):
             word = self.words[at]
@@ -622,16 +623,16 @@ class _TreeReader(Parser):
 
     def _sequence(self, kind: TreeKind, starts: Sequence[int], span: Span) -> SyntaxTree:
         """Return a sum or an array; each item begins at one of these tokens."""
-        parts, has_bracket = list[Part](), kind is TreeKind.ARRAY
+        children, has_bracket = list[Child](), kind is TreeKind.ARRAY
         opening = self._said(span.start + 1) if has_bracket else ""
         separators = [*(start - 1 for start in starts[1:]), span.stop - has_bracket]
         for start, stop in zip(starts, separators, strict=True):
-            part = Part("", self._blanks(start), Leaf(self._said(stop)))
+            child = Child("", self._blanks(start), Leaf(self._said(stop)))
             is_last = stop == separators[-1] and not has_bracket
-            parts.append(part if is_last else self._separated(part, stop, "," if has_bracket else "+"))
+            children.append(child if is_last else self._separated(child, stop, "," if has_bracket else "+"))
         closing = self.text[self._end : self._stop(span.stop)] if has_bracket else ""
         self._end += len(closing)
-        return SyntaxTree(kind, _numbered(parts), opening, closing)
+        return SyntaxTree(kind, _numbered(children), opening, closing)
 
 
 def _remark_at(text: str, place: int) -> str:
@@ -641,7 +642,7 @@ def _remark_at(text: str, place: int) -> str:
 
 
 def _with_unique_keys(tree: SyntaxTree) -> SyntaxTree:
-    """Return a tree of these parts. Raises UnreadableError if two parts have the same key. Raises UnreadableError."""
-    if len({part.key for part in tree.parts}) < len(tree.parts):
+    """Return a tree of these children. Raises UnreadableError if two children have the same key."""
+    if len({child.key for child in tree.children}) < len(tree.children):
         raise UnreadableError
     return tree

@@ -25,8 +25,8 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
         console.repeated_findings.append(len(repeated))
     elif repeated and not console.quiet:
         console.print([line((f"{result.robot}: {still(repeated)}", "dim"))], error=True)
-    if not console.quiet:
-        note(result, before, diagnostics)
+    known = [finding for finding in diagnostics if finding_key(finding) in before]
+    note(result, before, known if console.quiet else diagnostics)
 
 
 def findings_told(result: Result) -> set[str]:

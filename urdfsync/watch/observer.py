@@ -6,6 +6,7 @@ import contextlib
 import errno
 import logging
 import os
+import sys
 import warnings
 from pathlib import Path
 from queue import SimpleQueue
@@ -32,11 +33,10 @@ _EVENTS: list[type[events.FileSystemEvent]] = [
     events.DirDeletedEvent,
     events.DirMovedEvent,
 ]
-_HINTS = {
-    errno.ENOSPC: "raise the limit with `sysctl fs.inotify.max_user_watches=524288`",
-    errno.EMFILE: "raise the limit with `sysctl fs.inotify.max_user_instances=512`",
-    errno.EACCES: "check the permissions of the folder",
-}
+_HINTS = {errno.EACCES: "check the permissions of the folder"}
+if sys.platform == "linux":
+    _HINTS[errno.ENOSPC] = "raise the limit with `sysctl fs.inotify.max_user_watches=524288`"
+    _HINTS[errno.EMFILE] = "raise the limit with `sysctl fs.inotify.max_user_instances=512`"
 
 
 # watchdog warns of lost events, but the next rescan finds all changes

@@ -26,7 +26,7 @@ PACKAGE = 'package %s\n  annotation (\n    uses(Complex(version="9.9")),\n    ve
 @pytest.fixture(autouse=True)
 def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A home with nothing in it, and no libraries of the system."""
-    for name in ("MODELICAPATH", "OPENMODELICALIBRARY", "OPENMODELICAHOME", "APPDATA"):
+    for name in ("MODELICAPATH", "OPENMODELICALIBRARY", "OPENMODELICAHOME", "APPDATA", "PROGRAMFILES"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.setenv("USERPROFILE", str(tmp_path / "home"))
@@ -67,6 +67,16 @@ def test_modelicapath_comes_first_then_openmodelicas_folders(
     others = whole(home / ".openmodelica" / "libraries", "4.2.0")
     assert find_standard_library()["Modelica"] == others / "Modelica 4.2.0"
     monkeypatch.setenv("MODELICAPATH", os.pathsep.join([str(tmp_path / "absent"), str(mine)]))
+    assert find_standard_library()["Modelica"] == mine / "Modelica 4.1.0"
+
+
+def test_libraries_of_programs_for_windows_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PROGRAMFILES", str(tmp_path / "Program Files [64]"))
+    dymola = whole(tmp_path / "Program Files [64]" / "Dymola 2025x" / "Modelica" / "Library", "4.1.0")
+    whole(tmp_path / "Program Files [64]" / "Dymola 2023" / "Modelica" / "Library", "4.2.0")
+    assert find_standard_library()["Modelica"] == dymola / "Modelica 4.1.0"
+    mine = whole(tmp_path / "AppData" / ".openmodelica" / "libraries", "4.1.0")
+    monkeypatch.setenv("APPDATA", str(tmp_path / "AppData"))
     assert find_standard_library()["Modelica"] == mine / "Modelica 4.1.0"
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import pty
 import select
 import shutil
 import subprocess
@@ -171,6 +170,8 @@ def shell(name: str) -> str:
 
 def typed(arguments: list[str], setup: str, line: str) -> str:
     """What the command gets, if somebody types a line into an interactive shell."""
+    import pty  # which Windows lacks
+
     process, terminal = pty.fork()
     if process == 0:
         os.execvp(arguments[0], arguments)

@@ -25,7 +25,7 @@ def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
     Path("step.csv").mkdir()
     assert said(run()) == [
         "ladder.json:3: warning: table `step.csv` not found; left out; "
-        "add the folder that holds it to `package_paths` [table-not-found]"
+        "put it there, or name the folder where this path begins in the robot's `package_paths` [table-not-found]"
     ]
     assert not (project / LADDER / "Resources").exists()
     assert "SignalVoltage" not in (project / LADDER / "Ladder.mo").read_text()
@@ -170,10 +170,10 @@ def test_a_file_that_cant_be_converted_is_told(project: Path, before: bool, bad:
     [
         (
             "package://ladder_data/step.csv",
-            "put it into the package `ladder_data`, or add the folder around it to `package_paths`",
+            "put it into the package `ladder_data`, or name the folder around that in the robot's `package_paths`",
         ),
         ("modelica://Ladder.Data/step.csv", "put the folder that holds the library `Ladder` on MODELICAPATH"),
-        ("tables/step.csv", "add the folder that holds it to `package_paths`"),
+        ("tables/step.csv", "put it there, or name the folder where this path begins in the robot's `package_paths`"),
         ("file:///opt/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
         ("D:/tables/step.csv", "put it there, or let the source refer to it by a package or a relative path"),
         ("HTTPS://host/step.csv", "urdfsync downloads no files: download it, and let the source refer to your copy"),
@@ -251,9 +251,11 @@ def test_missing_meshes_are_one_warning_for_each_package(workspace: Path) -> Non
 
     warnings = [
         "warning: 6 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) not found; left out; "
-        "put it into the package `six_axis_arm`, or add the folder around it to `package_paths` [mesh-not-found]",
+        "put it into the package `six_axis_arm`, or name the folder around that in the robot's `package_paths` "
+        "[mesh-not-found]",
         "warning: mesh `package://turntable/carousel.obj` not found; left out; "
-        "put it into the package `turntable`, or add the folder around it to `package_paths` [mesh-not-found]",
+        "put it into the package `turntable`, or name the folder around that in the robot's `package_paths` "
+        "[mesh-not-found]",
     ]
     assert told() == warnings
     source.write_text(source.read_text().replace('<mass value="', '<mass value="1'))
@@ -268,7 +270,7 @@ def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(w
     (workspace / "ws/src/six_axis_arm").rename(workspace / "ws/src/arm-main")
     edit(workspace / "urdfsync.toml", "ws/src/six_axis_arm/", "ws/src/arm-main/")
     (found,) = crashes.run(workspace).diagnostics
-    assert (found.severity, found.code) == (Severity.WARNING, "mesh-guessed")
+    assert (found.severity, found.code) == (Severity.NOTE, "mesh-guessed")
     assert found.message == (
         "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder "
         "with another name than the package `six_axis_arm`"

@@ -47,17 +47,6 @@ def conflict(project: Path) -> str:
     return C2
 
 
-def test_a_renewed_import_keeps_its_own_facts_when_its_source_goes(conflict: str) -> None:
-    table = Path("step.csv")
-    assert Path(MANIFEST).read_text().count("source_hash") == 1
-    table.write_text(table.read_text().rstrip("\n") + "\n99,5\n")
-    assert kinds(run())[f"{LADDER}/Resources/step.txt"] is Reason.UPDATE
-    assert Path(MANIFEST).read_text().count("source_hash") == 2
-    table.unlink()
-    run(choices={conflict: Choice.TAKE})
-    assert '"Voltage over time, 5 rows"' in Path(f"{LADDER}/Ladder.mo").read_text()
-
-
 def test_a_base_is_rendered_with_the_import_that_it_was_written_with(conflict: str) -> None:
     table, whole = Path("step.csv"), f"{LADDER}/Ladder.mo"
     table.write_text(table.read_text().rstrip("\n") + "\n99,5\n")

@@ -99,6 +99,7 @@ MISTAKES = {
     'output = ""': '`output` must be a path, not "" [wrong-value]',
     "ground = 1": "`ground` must be true or false, not 1 [wrong-value]",
     "x = ": "invalid value; put strings into quotes [toml-syntax]",
+    'x = "C:\\Users"': ":10 invalid hex value; write paths with `/`, or in single quotes [toml-syntax]",
     'class = "2nd"': "'2nd' can't be the class of a robot model; set `class` to a name that begins with a capital and "
     "is not reserved by Modelica or urdfsync [modelica-name]",
 }

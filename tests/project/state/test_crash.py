@@ -95,7 +95,7 @@ def moved(project: Path) -> Path:
 def elsewhere(project: Path) -> Path:
     """A network with an edited file whose text is the same in the other folder that its package has now."""
     run(project)
-    edit(project / LADDER / "Elements/C1.mo", "end C1;", "// mine\nend C1;")
+    edit(project / LADDER / "Elements/C1.mo", "equation", "// mine\nequation")
     configure('output = "lib"\n')
     return project
 

@@ -14,6 +14,7 @@ import msgspec
 
 from urdfsync.analysis.checks.cache import UserCache, cache_errors, digest
 from urdfsync.analysis.checks.contents import RESOURCES, content_hash, package_texts
+from urdfsync.common import system
 from urdfsync.common.dependencies.facts import read_unrecorded
 from urdfsync.common.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
@@ -69,7 +70,7 @@ def find_standard_library(configured: Path | None = None) -> Mapping[str, Path]:
 
 
 def library_folders() -> list[Path]:
-    """Return the folders of libraries, each once: those on MODELICAPATH, then those of OpenModelica."""
+    """Return the folders of libraries, each once: those on MODELICAPATH, then those of OpenModelica and Dymola."""
 
     def paths(name: str) -> list[Path]:
         return [Path(folder) for folder in os.environ.get(name, "").split(os.pathsep) if folder]
@@ -78,6 +79,8 @@ def library_folders() -> list[Path]:
     own = [home / ".openmodelica" / "libraries" for home in homes]
     installed = [path / "lib" / "omlibrary" for path in paths("OPENMODELICAHOME")]
     installed += [Path("/usr/lib/omlibrary"), Path("/opt/openmodelica/lib/omlibrary")]
+    for pattern in ("OpenModelica*/lib/omlibrary", "Dymola*/Modelica/Library"):
+        installed += map(Path, system.program_files(pattern))
     return list(dict.fromkeys([*paths("MODELICAPATH"), *paths("OPENMODELICALIBRARY"), *own, *installed]))
 
 

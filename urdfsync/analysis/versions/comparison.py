@@ -15,7 +15,7 @@ from typing import NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError, findings_of
-from urdfsync.common.files import shown
+from urdfsync.common.files import relative, shown
 from urdfsync.domain import ChangeClass, ChangeKind, Domain, Lookup, Reading, Target, Version, registry
 from urdfsync.domain import comparison as changes
 from urdfsync.domain.changes import Effect
@@ -265,7 +265,7 @@ def _with_version(
     is_pair: bool,
 ) -> Comparison:
     """Compare a source with another version; `result` is that of a dry run."""
-    if result.failed:
+    if result.failed and result.changes is None:  # an export that is refused has changes
         return Comparison(result, shown(robot.source), against)
     former, now = _read_both(robot, against, config, options, folder, is_pair=is_pair)
     domain, name = registry.domain(robot.domain), shown(robot.source)
@@ -284,7 +284,8 @@ def _with_version(
     judged = [*judge(domain, new, now.reading, now.text.name, old, differences)]
     judged += find_jumps(domain, new, now.reading, now.text.name, old, differences.renames)
     findings = [*(now.text.locate(finding) for finding in judged if finding.is_new), *findings]
-    findings += [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
+    errors = [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
+    findings = [*(one for one in findings if one.code not in {error.code for error in errors}), *errors]
     files, effects = dict[str, ChangeKind](), tuple[Effect, ...]()
     if differences.changes or _is_reordered(old, new):
         templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
@@ -292,7 +293,7 @@ def _with_version(
         if domain.describe is None:
             differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
         for path, kind in _differing_files(packages, (old, new)):
-            files[Path(os.path.relpath(result.folder / path, result.root)).as_posix()] = kind
+            files[Path(relative(result.folder / path, result.root)).as_posix()] = kind
         effects = _effects(domain, old, new, differences, robot)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(findings))
     news = differences if differences.changes else None

@@ -99,21 +99,13 @@ class _Choices:
         if action.reason is Reason.ORPHAN:
             self._add(action, self._stamped(action, inputs.files.read_on_disk(key), None), Reason.KEEP, Choice.KEEP)
             return True
-        if not (action.is_conflict or conflict):
+        if not action.is_conflict:
             return False
         base, content = action.generated, inputs.files.read(key)
         if action.reason is Reason.ASKED:  # the user says that the part is the same: later exports still merge
             base = inputs.last.base_of(key, action.role) or base
         if conflict and action.origin:
-            from urdfsync.merge.renames import rename, without_clashes  # imports the parser
-            from urdfsync.modelica.layout import with_within
-
-            # the file gets new names only when it moves
-            names = {new: old for old, new in without_clashes(self._decision.names, conflict.mine).items()}
-            package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
-            former = known_base(with_within(rename(conflict.generated, "", names)[0], package))
-            self.settled.texts.update(former)
-            base = next(iter(former))
+            base = self._former_base(action, conflict)
         if markers := find_markers((content or b"").decode(errors="replace")):
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
@@ -131,22 +123,25 @@ class _Choices:
             return True
         if action.mine is None or not (action.is_conflict or action.reason in _EDITED):
             return False
+        base, mine = action.generated, inputs.files.read_on_disk(key) or b""
+        conflict = self._decision.disputed.get(action.path)
         if action.generated is None:  # a class of the user's own: its text with new names is proposed
-            conflict = self._decision.disputed.get(action.path)
             text = conflict.merged(None) if conflict else None
             content = None if text is None else encode(text)
+        elif conflict and action.origin:
+            base = self._former_base(action, conflict)
+            content = with_line_ends(encode(self._with_former_names(action, conflict, conflict.generated)), mine)
         else:
-            mine = inputs.files.read_on_disk(key) or b""
             content = self._generation.content(inputs.folder.path(action.path), action.role, mine)
         if content is None:
             return False
-        self._add(action, self._stamped(action, content, action.generated), Reason.UPDATE, Choice.TAKE)
+        self._add(action, self._stamped(action, content, base), Reason.UPDATE, Choice.TAKE)
         return True
 
     def _merge(self, action: Action, chosen: UsersChoice) -> bool:
         """Take a merge of both sides, or the text that the user has edited."""
         conflict, key = self._decision.disputed.get(action.path), action.origin or action.path
-        if conflict is None:
+        if conflict is None or action.reason is Reason.MOVE:
             return False
         text = chosen.text if chosen.choice is Choice.EDIT else conflict.merged(chosen.choice)
         if text is None:
@@ -154,9 +149,28 @@ class _Choices:
         base = action.generated
         if conflict.is_of_branches:  # the text was merged with no generated one: the build does that next
             base = self._inputs.last.base_of(key, action.role) or base
+        elif action.origin:
+            base, text = self._former_base(action, conflict), self._with_former_names(action, conflict, text)
         reason = Reason.KEEP if text == conflict.mine else Reason.MERGE
         self._add(action, self._stamped(action, encode(text), base), reason, chosen.choice)
         return True
+
+    def _with_former_names(self, action: Action, conflict: Conflict, text: str) -> str:
+        """Return a text for the present path of a file that moves: other conflicts may keep the file there."""
+        from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+        from urdfsync.modelica.layout import with_within
+
+        last, key = self._inputs.last, action.origin or action.path
+        names = {new: old for old, new in without_clashes(self._decision.names, conflict.mine).items()}
+        return with_within(
+            rename(text, "", names)[0], ".".join((last.target.package, *class_parts(last.folder.path(key))))
+        )
+
+    def _former_base(self, action: Action, conflict: Conflict) -> str:
+        """Return the hash of the generated text as it would be at the present path of a file that moves."""
+        former = known_base(self._with_former_names(action, conflict, conflict.generated))
+        self.settled.texts.update(former)
+        return next(iter(former))
 
     def _stamped(self, action: Action, content: bytes | None, base: str | None) -> bytes | None:
         """Return the content with the stamp of the action's file; without a base, the text becomes the user's own."""

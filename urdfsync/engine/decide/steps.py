@@ -30,6 +30,7 @@ from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.markers import find_markers
+from urdfsync.project import git
 
 
 def decide_package(inputs: Inputs, generation: Generation) -> Decision:
@@ -102,8 +103,10 @@ def _refuse_markers(files: PackageFiles, decision: Decision) -> None:
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *marked)):
         found = find_markers(files.text(key) or "")
         if found and key not in told:
-            message, hint = "unresolved merge markers", "settle them in the file, then build again"
             file = shown(files.path(key))
+            message, hint = "unresolved merge markers", "settle them in the file, then build again"
+            if git.find_top(files.path(key).parent):  # it was added to the index with its markers
+                hint = f"settle them in the file, or bring git's conflict back: `git checkout -m {file}`; then build"
             errors.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, found[0][1], hint=hint))
     if errors:
         raise OutputError(*errors)

@@ -15,7 +15,7 @@ from urdfsync.common import files
 from urdfsync.common.dependencies import reads
 from urdfsync.common.dependencies.facts import NOTHING, is_young
 from urdfsync.common.diagnostics import OutputError
-from urdfsync.common.files import Tree, digest, normalised, placed, shown
+from urdfsync.common.files import Tree, digest, normalised, placed, relative, shown
 from urdfsync.domain import Role
 from urdfsync.modelica.stamp import Stamp, split
 from urdfsync.project.config import Config, RobotConfig
@@ -274,7 +274,7 @@ class PackageFiles:
 
 def key_of(path: Path, root: Path) -> str:
     """Return the key of a file; `root` is the configuration's folder."""
-    return Path(os.path.relpath(path, root)).as_posix()
+    return Path(relative(path, root)).as_posix()
 
 
 def bare_hash(content: bytes) -> str:

@@ -34,8 +34,8 @@ _HINTS = {
     # for an absolute path, no search path can help
     r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
     _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
-    "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder around it to `package_paths`",
-    "": "add the folder that holds it to `package_paths`",
+    "[a-z]+://([^/]+)/": "put it into the package `{}`, or name the folder around that in the robot's `package_paths`",
+    "": "put it there, or name the folder where this path begins in the robot's `package_paths`",
 }
 """Hints for a missing file by the beginning of its URI; the first match counts."""
 
@@ -130,9 +130,9 @@ def import_files(
     for (noun, package), alike in guessed.items():
         be = "is" if len(alike) == 1 else "are"
         message = f"{_named(alike)} {be} taken from a folder with another name than the package `{package}`"
-        hint = "rename the folder, or add the right package's folder to `package_paths`"
+        hint = "if they are the wrong ones, name the right package's folder in the robot's `package_paths`"
         line = min(dependency.line for dependency in alike)
-        result.diagnostics.append(Diagnostic(Severity.WARNING, f"{noun}-guessed", message, source, line, hint=hint))
+        result.diagnostics.append(Diagnostic(Severity.NOTE, f"{noun}-guessed", message, source, line, hint=hint))
     return result
 
 

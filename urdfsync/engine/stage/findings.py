@@ -39,7 +39,9 @@ from urdfsync.engine.inspect.package_files import text_hash
 from urdfsync.engine.inspect.users_files import read_saved_facts
 from urdfsync.engine.judgements import find_jumps, judge
 from urdfsync.modelica.files import text_of
+from urdfsync.modelica.markers import find_markers
 from urdfsync.modelica.stamp import split
+from urdfsync.project.git.unmerged import NO_DRIVER, has_driver
 from urdfsync.project.state.notes import Use
 
 if TYPE_CHECKING:
@@ -152,7 +154,11 @@ def _unmerged(inputs: Inputs, reads: Reads) -> Iterator[Diagnostic]:
             found.add(path)
     for path in sorted(found):
         message, hint = "git has not merged this file", "if its text is right now, `git add` it"
+        if find_markers(inputs.users_text(Path(path))):
+            hint = "settle its conflict, as `urdfsync status` says, then `git add` it"
         yield Diagnostic(Severity.WARNING, UNMERGED, message, shown(Path(path)), hint=hint)
+    if any(path.endswith(".mo") for path in found) and not has_driver(inputs.config.root):
+        yield NO_DRIVER
 
 
 def _look_left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:

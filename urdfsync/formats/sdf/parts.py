@@ -6,6 +6,7 @@ import os
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
+from urdfsync.common.files import relative
 from urdfsync.formats.sdf.document import SdfDocument
 from urdfsync.formats.sdf.frames import Frame
 from urdfsync.formats.sdf.inertia import automatic_inertia, shape_sizes
@@ -100,7 +101,7 @@ def _filename(document: SdfDocument, mesh: Element) -> str:
     folder, source = (os.path.dirname(file) for file in (document.places[mesh][0], document.source))  # noqa: PTH120
     if not uri or "://" in uri or folder == source:
         return uri
-    return os.path.relpath(os.path.join(folder, uri), source).replace(os.sep, "/")  # noqa: PTH118
+    return relative(os.path.join(folder, uri), source).replace(os.sep, "/")  # noqa: PTH118
 
 
 def _color(document: SdfDocument, visual: Element) -> tuple[float, ...]:

@@ -50,6 +50,8 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
                 message, hint = "a key is set twice", "remove one of the two"
             elif message == "invalid value":
                 hint = "put strings into quotes"
+            elif "\\" in text.split("\n")[line - 1]:
+                hint = "write paths with `/`, or in single quotes"
     except ValueError:  # from int(), which refuses to read thousands of digits
         message = "a number has too many digits"
     raise error(Diagnostic(Severity.ERROR, "toml-syntax", message, file, line, column, hint))

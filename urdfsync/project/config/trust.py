@@ -58,6 +58,7 @@ def _find_untrusted(config: Config, message: str, line: int, code: str = "untrus
     import platformdirs  # takes 6 ms, and few configurations write outside of their folder
 
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
+    entry = f'`folders = ["{config.root.as_posix()}"]`'
     try:
         text = reads.read_file(file).decode()
         folders = msgspec.convert(tomlfile.parse(text, str(file), ConfigError), _Trusted).folders
@@ -65,9 +66,9 @@ def _find_untrusted(config: Config, message: str, line: int, code: str = "untrus
         folders = []
     except (OSError, UnicodeDecodeError, msgspec.ValidationError) as error:
         message = f"the file of trusted folders can't be used: {error}"
-        hint = 'write `folders = ["/home/me/robots"]`, in UTF-8'
+        hint = f"write {entry}, in UTF-8"
         raise ConfigError.of("trusted-folders", message, str(file), hint=hint) from None
     if os.path.realpath(config.root) in {os.path.realpath(Path(folder).expanduser()) for folder in folders}:
         return None
-    hint = f'if you trust this configuration, use --trust, or write `folders = ["{config.root}"]` into {file}'
+    hint = f"if you trust this configuration, use --trust, or write {entry} into {file}"
     return Diagnostic(Severity.ERROR, code, message, shown(config.file), line, hint=hint)

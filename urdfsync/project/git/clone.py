@@ -21,7 +21,7 @@ import msgspec
 from urdfsync.common.dependencies import localfile
 from urdfsync.common.dependencies.places import Clone
 from urdfsync.common.diagnostics import SourceError
-from urdfsync.common.files import digest
+from urdfsync.common.files import digest, relative
 from urdfsync.project.git import GitError, Repository, hook, list_paths, run
 from urdfsync.project.state.lock import Lock
 
@@ -120,8 +120,8 @@ def _prepare(clone: str, objects: str) -> None:
     Path(clone, ".git/index.lock").unlink(missing_ok=True)  # git was killed
     borrowed = Path(clone, ".git/objects/info/alternates")
     borrowed.parent.mkdir(exist_ok=True)
-    # relative, so that the user can move the repository
-    borrowed.write_text(f"{os.path.relpath(objects, f'{clone}/.git/objects')}\n", errors="surrogateescape")
+    # relative, so that the user can move the repository; as bytes, since git takes no other line ends
+    borrowed.write_bytes(os.fsencode(relative(objects, f"{clone}/.git/objects").replace(os.sep, "/") + "\n"))
 
 
 def _find_head() -> str | None:

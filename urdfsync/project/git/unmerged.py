@@ -8,7 +8,16 @@ from pathlib import Path
 
 from urdfsync.common.dependencies import reads
 from urdfsync.common.dependencies.places import is_clone, place
+from urdfsync.common.diagnostics import Diagnostic, Severity
+from urdfsync.common.files import placed
 from urdfsync.project import git
+
+NO_DRIVER = Diagnostic(
+    Severity.NOTE,
+    "no-merge-driver",
+    "git merges models line by line in this clone",
+    hint="for elements, `urdfsync merge-driver --install`",
+)
 
 
 def find_unmerged(folders: Iterable[Path]) -> set[str]:
@@ -16,10 +25,22 @@ def find_unmerged(folders: Iterable[Path]) -> set[str]:
     if is_clone():  # a commit has no unmerged files
         return set()
     tops = {top for folder in folders if (top := git.find_top(os.path.realpath(folder)))}
-    found = {f"{top}/{path}" for top in tops for path in reads.find_unmerged(find_git_folder(top) / "index")}
+    found = {
+        placed(os.path.join(top, ""), path)  # noqa: PTH118 - a text
+        for top in tops
+        for path in reads.find_unmerged(find_git_folder(top) / "index")
+    }
     if found:
         reads.cannot_record()  # their versions are in git's objects
     return found
+
+
+def has_driver(folder: Path) -> bool:
+    """Return whether git's settings of the clone around a folder name urdfsync's merge driver."""
+    try:
+        return bool(git.run("-C", str(folder), "config", "--get", "merge.urdfsync.driver"))
+    except git.GitError:  # git has no such setting
+        return False
 
 
 def find_git_folder(top: str) -> Path:

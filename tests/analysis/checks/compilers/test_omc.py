@@ -295,6 +295,15 @@ def test_another_omc_is_another_state(tmp_path: Path, monkeypatch: pytest.Monkey
     assert len({tuple(one) for one in found}) == 7
 
 
+def test_an_omc_where_windows_has_programs_is_found_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path / "path"))
+    monkeypatch.setenv("PROGRAMFILES", str(tmp_path))
+    assert omc.program("") is None
+    for folder in ("OpenModelica1.26.3-64bit/bin", "OpenModelica1.27.0-64bit/bin", "path"):
+        fake_omc.install(tmp_path / folder, {})
+        assert Path(omc.program("") or "").parent == tmp_path / folder
+
+
 def test_an_omc_that_does_not_say_its_version_has_no_state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
     fake_omc.install(tmp_path / "bin", {"getVersion": ""})

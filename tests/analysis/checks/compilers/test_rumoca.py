@@ -154,12 +154,12 @@ def test_the_search_path_of_the_user_has_no_say(tmp_path: Path, monkeypatch: pyt
 
 
 def test_each_compiler_needs_its_own_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shutil.which", lambda name, path=None: None)
+    monkeypatch.setattr("urdfsync.common.system.find_program", lambda name, *_, **__: None)
     missing = find_missing(Tool("omc"))
     assert find_missing(Tool("rumoca")) is None
     assert missing is not None
     assert "`omc` is not on the PATH" in missing.message
-    monkeypatch.setattr("shutil.which", lambda name, path=None: name)
+    monkeypatch.setattr("urdfsync.common.system.find_program", lambda name, *_, **__: name)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "rumoca" else name)
     missing = find_missing(Tool("rumoca"))
     assert find_missing(Tool("omc")) is None

@@ -17,7 +17,7 @@ from urdfsync.formats.urdf.domain import DOMAIN
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.parse.source import RobotReading, read_robot
 from urdfsync.formats.urdf.physics import reference
-from urdfsync.formats.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.formats.urdf.physics.completion import completed_for_reference
 from urdfsync.formats.urdf.robot import Dynamics, Joint, Limit, Motor, Transmission
 from urdfsync.formats.urdf.second.companions import read_companions
 from urdfsync.formats.urdf.second.reading import read_again
@@ -87,7 +87,7 @@ def test_the_second_reader_and_pinocchio_have_the_same_numbers() -> None:
     assert again.number("transmission.rotorInertia") == pytest.approx(6e-8)
     assert again.values["limits.effort"][1:] == (2, "motors.csv")
     stated = read_companions([catalogue()], options)
-    completed = completed_for_pinocchio(content, companions=stated).content
+    completed = completed_for_reference(content, companions=stated).content
     found = reference.read(completed, "a.urdf", rows=stated.rows)
     assert found.rotors.diagonal().max() == pytest.approx(4.5e-7 * (1000 * math.pi) ** 2)
     assert joints(read(urdf=completed)) == joints(read())

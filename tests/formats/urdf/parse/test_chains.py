@@ -9,7 +9,7 @@ from support.urdfs import dynamics, joint, limit, links, parsed, robot
 
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.parse.source import read_robot
-from urdfsync.formats.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.formats.urdf.physics.completion import completed_for_reference
 from urdfsync.formats.urdf.robot import Dynamics, Joint, Robot
 
 LOSSES = '<dynamics damping="0.5"/>'
@@ -33,7 +33,7 @@ def test_a_ball_is_read_in_each_spelling(text: str) -> None:
     (found,) = parsed(text).joints
     assert (found.type, found.dynamics, parsed(PLAIN).joints) == ("ball", Dynamics(0.5), (found,))
     assert differences(text.encode()) == []
-    assert parsed(completed_for_pinocchio(text.encode()).content.decode()).joints == (found,)
+    assert parsed(completed_for_reference(text.encode()).content.decode()).joints == (found,)
 
 
 def test_a_universal_joint_of_drake_turns_about_x_of_the_parent_then_about_y() -> None:
@@ -45,7 +45,7 @@ def test_a_universal_joint_of_drake_turns_about_x_of_the_parent_then_about_y() -
     ]
     assert (first.parent, first.child, second.parent, second.child) == ("base", "j_x", "j_x", "arm")
     assert differences(text.encode()) == []
-    assert plain(parsed(completed_for_pinocchio(text.encode()).content.decode())) == [first, second]
+    assert plain(parsed(completed_for_reference(text.encode()).content.decode())) == [first, second]
 
 
 def test_a_planar_joint_of_drake_is_that_of_urdf_and_others_are_refused() -> None:
@@ -77,7 +77,7 @@ def test_a_ball_that_a_loop_holds_is_three_hinges_and_another_one_is_not() -> No
     ]
     assert differences(HELD.encode()) == []
     names = {each.name for each in reading.robot.joints}
-    again = parsed(completed_for_pinocchio(HELD.encode(), names).content.decode())
+    again = parsed(completed_for_reference(HELD.encode(), names).content.decode())
     assert plain(again) == plain(reading.robot)
 
 
@@ -86,7 +86,7 @@ def test_a_loop_may_name_the_ball_that_it_holds() -> None:
     assert parsed(text).loops == parsed(HELD).loops
     assert differences(text.encode()) == []
     names = {each.name for each in parsed(text).joints}
-    assert parsed(completed_for_pinocchio(text.encode(), names).content.decode()).loops == parsed(HELD).loops
+    assert parsed(completed_for_reference(text.encode(), names).content.decode()).loops == parsed(HELD).loops
 
 
 def test_a_drive_of_a_ball_in_a_loop_is_told_as_that_of_any_ball() -> None:

@@ -14,7 +14,7 @@ from urdfsync.formats.urdf.domain import DOMAIN
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.parse.closures import read_closures
 from urdfsync.formats.urdf.parse.source import RobotReading, read_robot
-from urdfsync.formats.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.formats.urdf.physics.completion import completed_for_reference
 from urdfsync.formats.urdf.robot import Motor, Transmission
 from urdfsync.formats.urdf.second.companions import read_companions
 
@@ -115,7 +115,7 @@ def test_a_difference_of_a_loop_has_its_line_in_the_yaml() -> None:
 @KINDS
 def test_pinocchio_gets_the_joints_of_the_yaml(kind: bytes) -> None:
     yaml = YAML.replace(b"SPHERICAL", kind)
-    completed = completed_for_pinocchio(URDF, companions=read_companions([beside(yaml)], Options())).content
+    completed = completed_for_reference(URDF, companions=read_companions([beside(yaml)], Options())).content
     ours, theirs = read(yaml).robot, read_robot(completed, "a.urdf").robot
     assert ours is not None
     assert theirs is not None

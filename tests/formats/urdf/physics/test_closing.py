@@ -13,14 +13,14 @@ from urdfsync.domain import Target
 from urdfsync.domain.experiment import Sample
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.physics.closing import OpenLoopError
-from urdfsync.formats.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.formats.urdf.physics.completion import completed_for_reference
 from urdfsync.formats.urdf.physics.motion import Course, Instant
 from urdfsync.formats.urdf.physics.subject import Subject
 from urdfsync.formats.urdf.robot import Inertia, Inertial, Link, Origin, Robot
 
 
 def subject(robot: Robot) -> Subject:
-    content = completed_for_pinocchio(to_urdf(robot).encode()).content
+    content = completed_for_reference(to_urdf(robot).encode()).content
     return Subject(Sample(content, "robot.urdf", Target("Bot", "Bot"), Options(), {}), robot)
 
 
@@ -32,7 +32,8 @@ def test_a_four_bar_closes_as_its_triangles_do() -> None:
         x, y = 0.2 * math.cos(angle) - 0.5, 0.2 * math.sin(angle)
         distance = math.hypot(x, y)
         rocker = math.atan2(y, x) - math.acos((distance**2 + 0.4**2 - 0.6**2) / (2 * 0.4 * distance))
-        assert state.positions[four.reference.coordinates()["rocker_pivot"]] == pytest.approx(rocker, abs=1e-12)
+        row = four.reference.multibody.coordinates["rocker_pivot"].start
+        assert state.positions[row] == pytest.approx(rocker, abs=1e-12)
 
 
 @pytest.mark.parametrize("robot", ROBOTS.values(), ids=ROBOTS)
@@ -53,13 +54,15 @@ def test_velocities_and_accelerations_are_those_of_positions_over_time(robot: Ro
 def test_forces_that_act_from_outside_in_place_of_the_loops_leave_dependent_joints_nothing_to_do(robot: Robot) -> None:
     moving = subject(robot)
     reference, state, solved = moving.reference, moving.states[3.0], moving.solved[3.0]
-    model, rows = reference.model, reference.coordinates()
+    multibody = reference.multibody
     assert reference.closing
-    load = reference.pin.rnea(model, model.createData(), state.q, state.v, state.a)
-    forces = reference.closing.forces(state.positions, load)
-    open_load = reference.pin.rnea(model, model.createData(), state.q, state.v, state.a, forces)
-    own = [rows[name] for name in reference.axes]
-    others = [row for row in range(6, model.nv) if row not in own]
+    load = multibody.efforts(state.q, state.v, state.a)
+    data, open_load = multibody.move(state.q), load.copy()
+    for each in reference.closing.loads(state.q, load):
+        place = multibody.pose(data, each.link)[0]
+        open_load -= multibody.jacobian(data, each.link).T @ np.concatenate([each.force, each.torque_at(place)])
+    own = [multibody.coordinates[name].start for name in reference.axes]
+    others = [row for row in range(6, multibody.nv) if row not in own]
     assert open_load[own] == pytest.approx(solved.efforts, abs=1e-10)
     assert open_load[others] == pytest.approx(0, abs=1e-10)
     assert np.abs(load[others]).min() > 1e-6
@@ -94,7 +97,7 @@ def test_what_a_loop_leaves_open_is_told_in_the_world() -> None:
     moving = subject(replace(FOUR_BAR, loops=(apart,)))
     ends = (apart.parent, apart.origin), (apart.child, apart.child_origin)
     for solved in moving.solved.values():
-        frames = [(*solved.frame(link), np.array(origin.xyz)) for link, origin in ends]
+        frames = [(*solved.poses[link], np.array(origin.xyz)) for link, origin in ends]
         parent, child = (place + axes @ xyz for place, axes, xyz in frames)
         assert solved.reactions[0].gap == pytest.approx(child - parent, abs=1e-12)
         assert np.linalg.norm(child - parent) == pytest.approx(5e-5)

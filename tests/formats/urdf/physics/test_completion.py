@@ -7,7 +7,7 @@ from support.urdfs import dynamics, joint, limit, link, links, mimic, parsed, ro
 
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.parse.source import read_robot
-from urdfsync.formats.urdf.physics.completion import completed_for_pinocchio, with_inertias
+from urdfsync.formats.urdf.physics.completion import completed_for_reference, with_inertias
 from urdfsync.formats.urdf.physics.reference import read
 from urdfsync.formats.urdf.robot import Mimic, Robot
 
@@ -44,11 +44,11 @@ LACKING = {
 
 @pytest.mark.parametrize(("added", "urdf"), LACKING.items())
 def test_what_pinocchio_asks_for_is_added(added: str, urdf: str) -> None:
-    content, notes = completed_for_pinocchio(urdf.encode())
-    assert notes == (f"additions for Pinocchio's reader: {added.partition(' of')[0]}",)
-    model = read(content, "robot.urdf").model
+    content, notes = completed_for_reference(urdf.encode())
+    assert notes == (f"additions for the reference's reader: {added.partition(' of')[0]}",)
+    model = read(content, "robot.urdf").multibody.model
     assert sum(inertia.mass for inertia in model.inertias) == sum(masses(urdf.encode()).values())
-    assert completed_for_pinocchio(content) == (content, ())
+    assert completed_for_reference(content) == (content, ())
 
 
 TREE = robot(
@@ -100,5 +100,5 @@ def test_a_coupling_that_stands_elsewhere_becomes_a_mimic_of_a_moving_joint_with
         joint("d", "fixed", "base", "end"),
         f"<gazebo>{''.join(map(plugin.format, 'bcd'))}</gazebo>",
     ).encode()
-    content, _ = completed_for_pinocchio(urdf)
+    content, _ = completed_for_reference(urdf)
     assert read(content, "robot.urdf").followers == {"b": Mimic("a", -2.0), "c": Mimic("a", 3.0)}

@@ -79,13 +79,19 @@ def test_a_source_that_can_not_be_read_says_what_is_wrong() -> None:
     with pytest.raises(SourceError, match="duplicate-link"):
         experiment("<robot name='a'><link name='b'/><link name='b'/></robot>")
     lacking = joint("elbow", "revolute", "base", "arm", inside=['<limit lower="-1" upper="1" velocity="1"/>'])
-    with pytest.raises(SourceError, match="Pinocchio can't read this file"):
+    with pytest.raises(SourceError, match=r"Pinocchio [\d.]+ can't read this file"):
         read(robot(link("base"), link("arm"), lacking).encode(), "robot.urdf")
 
 
-def test_without_pinocchio_there_is_no_experiment(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "pinocchio", None)
-    with pytest.raises(SourceError, match="no-pinocchio"):
+def test_mujoco_is_the_reference_without_pinocchio_and_without_both_there_is_no_experiment(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(sys.modules, "urdfsync.formats.urdf.physics.pinocchio_robot", None)
+    one = experiment(ARM)
+    assert re.fullmatch(r"MuJoCo \d+\.\d+\.\d+", one.reference)
+    assert one.trials[0].expected["mass"][:5] == pytest.approx((7.2,) * 5)
+    monkeypatch.setitem(sys.modules, "urdfsync.formats.urdf.physics.mujoco_robot", None)
+    with pytest.raises(SourceError, match=r"neither Pinocchio nor MuJoCo is installed.*no-reference"):
         experiment(ARM)
 
 

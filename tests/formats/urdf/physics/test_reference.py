@@ -50,7 +50,9 @@ def test_a_ball_of_pinocchio_has_the_freedoms_and_the_damping_of_the_joint_and_o
     text = robot(
         *links(base=1, b=2, c=3, d=4), *joints, joint("c", "prismatic", "b", "d", inside=[dynamics(5, 6), limit()])
     )
-    plain, ball = (read(each.encode(), "a.urdf").model for each in (text.replace("spherical", "continuous"), text))
+    plain, ball = (
+        read(each.encode(), "a.urdf").multibody.model for each in (text.replace("spherical", "continuous"), text)
+    )
     kinds = {name: joint.shortname() for name, joint in zip(ball.names, ball.joints, strict=True)}
     assert kinds["a"] == "JointModelSpherical"
     columns = {name: joint.idx_v for name, joint in zip(ball.names, ball.joints, strict=True)}
@@ -104,7 +106,7 @@ def test_a_sensor_at_rest_shows_the_weight_behind_it_in_its_frame(kind: str, fra
     weight = np.array([0, 0, -2 * GRAVITY])
     axes = {"child": child, "parent": parent, "sensor": child @ turned(0.3, 0.2, -0.1)}
     sensors = read_again(text, Options()).sensors
-    force, torque = reference.wrench(state, sensors["load"], "arm" if is_deeper else "base")
+    force, torque = reference.wrench(state, sensors["load"], *(("arm", "hand") if is_deeper else ("base", "arm")))
     assert force == pytest.approx(axes[frame].T @ weight)
     assert torque == pytest.approx(axes[frame].T @ np.cross(child @ centre, weight))
     gain, spin = reference.acceleration(state, sensors["imu"])

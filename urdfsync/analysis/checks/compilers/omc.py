@@ -85,12 +85,13 @@ class _Answer(NamedTuple):
 
 
 def program(named: str) -> str | None:
-    """See `Compiler`: the named program, else `omc` below OPENMODELICAHOME, else `omc` on the PATH."""
+    """See `Compiler`: the named program, else `omc` below OPENMODELICAHOME, on the PATH, or where Windows has it."""
     if named:
         return system.find_program(named)
     home = os.environ.get("OPENMODELICAHOME")
     inside = system.find_program("omc", path=str(Path(home, "bin"))) if home else None
-    return inside or system.find_program("omc")
+    usual = os.pathsep.join(system.program_files("OpenModelica*/bin"))
+    return inside or system.find_program("omc") or system.find_program("omc", path=usual)
 
 
 def state(named: str) -> tuple[str, list[Path]]:

@@ -34,16 +34,16 @@ class ModelText(NamedTuple):
 def _read_body(text: str, statements: KnownStatements) -> SyntaxTree | None:
     """Return the elements and equations of a class; None if the text is not a single class, or has a syntax error."""
     tree = read_tree(text, statements)
-    part = tree.find("body") if tree else None
-    if part is None or not isinstance(part.node, SyntaxTree):
+    child = tree.find("body") if tree else None
+    if child is None or not isinstance(child.node, SyntaxTree):
         return None
     try:
-        for statement in part.node.parts:
+        for statement in child.node.children:
             if isinstance(statement.node, Statement):
-                statement.node.parts  # noqa: B018 - reads the statement: `read_tree` reads only its name
+                statement.node.children  # noqa: B018 - reads the statement: `read_tree` reads only its name
     except UnreadableError:
         return None
-    return part.node
+    return child.node
 
 
 def find(node: Node, *path: str) -> str:
@@ -54,23 +54,23 @@ def find(node: Node, *path: str) -> str:
     first, *names = path if path[0] == "annotation" else ("arguments", *path)
     keys = [first, *(key for name in names for key in (name, "arguments"))][:-1]
     for key in (*keys, "value", "expression"):
-        part = node.find(key) if isinstance(node, SyntaxTree) else None
-        if part is None:
+        child = node.find(key) if isinstance(node, SyntaxTree) else None
+        if child is None:
             return ""
-        node = part.node
+        node = child.node
     return node.text
 
 
 def type_of(declaration: Node) -> str:
     """Return the class of a component, with prefixes and without subscripts."""
-    part = declaration.find("type") if isinstance(declaration, SyntaxTree) else None
-    return part.node.text.partition("[")[0].strip() if part else ""
+    child = declaration.find("type") if isinstance(declaration, SyntaxTree) else None
+    return child.node.text.partition("[")[0].strip() if child else ""
 
 
 def find_in(text: str, key: str, *path: str) -> str:
     """Return the expression of a modifier in a class: of `component NAME`, or of the first base class, `extends`."""
     body = _read_body(text, {})
-    nodes = (part.node for part in body.parts if f"{part.key} ".startswith(f"{key} ")) if body else ()
+    nodes = (child.node for child in body.children if f"{child.key} ".startswith(f"{key} ")) if body else ()
     return next((find(node, *path) for node in nodes), "")
 
 
@@ -89,7 +89,7 @@ def read_model(text: str, inherited: Mapping[str, Placement], statements: KnownS
     extent = _numbers(note.node, "Diagram", "coordinateSystem", "extent") if note else ()
     boxes = [*places.values(), *([Placement(*extent)] if len(extent) == 4 else ())]
     x1, y1, x2, y2 = (side(values) for side, values in zip((min, min, max, max), zip(*boxes, strict=True), strict=True))
-    connections = {_ends(part.node): part.node for part in body.parts if part.key.startswith("connect ")}
+    connections = {_ends(child.node): child.node for child in body.children if child.key.startswith("connect ")}
     connected = {match[0] for ends in connections for end in ends if (match := _COMPONENT.match(end))}
     shown = (name for name, node in components.items() if name in connected or not _VARIABLE.search(type_of(node)))
     unplaced = [name for name in shown if name not in places]
@@ -104,13 +104,13 @@ def read_model(text: str, inherited: Mapping[str, Placement], statements: KnownS
 
 def _components(body: SyntaxTree) -> Iterator[tuple[str, SyntaxTree]]:
     """Yield each component with its declaration; one of several in a declaration gets a declaration of its own."""
-    for part in body.parts:
-        if not (part.key.startswith("component ") and isinstance(part.node, SyntaxTree)):
+    for child in body.children:
+        if not (child.key.startswith("component ") and isinstance(child.node, SyntaxTree)):
             continue
-        if part.node.find("components") is None:
-            yield part.key.removeprefix("component "), part.node
+        if child.node.find("components") is None:
+            yield child.key.removeprefix("component "), child.node
             continue
-        depth, commas, text = 0, [-1], part.node.text.rstrip(";")
+        depth, commas, text = 0, [-1], child.node.text.rstrip(";")
         for token in lex(text)[0]:
             depth += (token.text in "([{") - (token.text in ")]}")
             if token.text == "," and not depth:
@@ -147,8 +147,8 @@ def _placement(statement: Node) -> Placement | None:
 
 def _ends(connection: Node) -> tuple[str, str]:
     """Return the names of both connectors, in alphabetical order."""
-    part = connection.find("connect") if isinstance(connection, SyntaxTree) else None
-    one, other = part.node.words if part and isinstance(part.node, Leaf) else ("", "")
+    child = connection.find("connect") if isinstance(connection, SyntaxTree) else None
+    one, other = child.node.words if child and isinstance(child.node, Leaf) else ("", "")
     return str(one), str(other)
 
 

@@ -1,22 +1,22 @@
-"""The loops of a robot in Pinocchio: closed poses, closed motions, and the forces of the loops.
+"""The loops of a robot in the reference: closed poses, closed motions, and the forces of the loops.
 
-Pinocchio's model is a tree. This module adds two frames for each loop, and Pinocchio computes their poses and
-Jacobians. Only the start and the choice of equations come from `kinematics.loops`. Let x and R be the position and axes
-of the child's frame in the parent's frame. Then the equations are t·x = 0 and u·R·v = 0, together g = 0. The motion of
-the axes is given. The other joints follow from J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
+The reference has a tree, and gives poses, Jacobians and accelerations of both links of each loop. Only the start and
+the choice of equations come from `kinematics.loops`. Let x and R be the position and axes of the child's frame in the
+parent's frame. Then the equations are t·x = 0 and u·R·v = 0, together g = 0. The motion of the axes is given. The other
+joints follow from J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from urdfsync.formats.urdf.kinematics.loops import ClosedLoops
-
-Array = NDArray[np.float64]
+from urdfsync.formats.urdf.kinematics.loops import ClosedLoops, Closure
+from urdfsync.formats.urdf.physics.multibody import Array, Load, Multibody, cross_matrix
+from urdfsync.formats.urdf.robot import Origin, Vector
+from urdfsync.formats.urdf.second.reading import rotation
 
 _STEPS = 8
 """Number of steps from the start to a pose: small steps lead to the nearest closed pose."""
@@ -35,37 +35,38 @@ class Reaction(NamedTuple):
     """The gap and the force of a loop at an instant."""
 
     gap: Array
-    """Vector from the parent's frame to the child's frame, resolved in the root's frame."""
+    """Vector from the parent's frame to the child's frame, resolved in the world."""
     force: Array
     """Force of the parent on the child, resolved in the loop's frame on the parent."""
     torque: Array
 
 
+class _End(NamedTuple):
+    """A frame of a loop on a link, resolved in the world."""
+
+    link: str
+    xyz: Vector
+    place: Array
+    axes: Array
+    jacobian: Array
+
+
 class Closing:
     """The loops of a robot, and the joints that loops move."""
 
-    def __init__(self, pin: Any, model: Any, closed: ClosedLoops, others: Array, start: Array, first: Array) -> None:
-        """Add frames to the model.
+    def __init__(self, multibody: Multibody, closed: ClosedLoops, others: Array, start: Array, first: Array) -> None:
+        """Store the loops.
 
         The positions of all coordinates are a sum of two terms. The first term follows from the axes and is `start` at
         the start. The second term is `others` times the positions of the other joints, which are `first` at the start.
         """
-        self._pin, self._model, self._others, self._start, self._first = pin, model, others, start, first
-        self._closures = [closed.closures[loop.name] for loop in closed.tree.loops]
-        self._frames = list[tuple[int, int]]()
-        for loop in closed.tree.loops:
-            ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
-            parent, child = (self._add_frame(link, origin.xyz, origin.rpy) for link, origin in ends)
-            self._frames.append((parent, child))
-        jacobian = self._equations(start + others @ first)[1] @ others
+        self._multibody, self._others, self._start, self._first = multibody, others, start, first
+        self._loops = [
+            ((loop.parent, loop.origin), (loop.child, loop.child_origin), closed.closures[loop.name])
+            for loop in closed.tree.loops
+        ]
+        jacobian = self._equations(self._q(start + others @ first))[1] @ others
         self._least = _NEAR_DEAD_POINT * np.linalg.svd(jacobian, compute_uv=False).min(initial=np.inf)
-
-    def _add_frame(self, link: str, xyz: Sequence[float], rpy: Sequence[float]) -> int:
-        pin, model = self._pin, self._model
-        body = model.frames[model.getFrameId(link, pin.BODY)]
-        pose = body.placement * pin.SE3(pin.rpy.rpyToMatrix(*rpy), np.array(xyz))
-        frame = pin.Frame(f"loop {model.nframes}", body.parentJoint, pose, pin.OP_FRAME)
-        return int(model.addFrame(frame, append_inertia=False))
 
     def closed(self, positions: Array) -> Array:
         """Close the loops by Newton's method; the axes determine `positions`. Raises OpenLoopError."""
@@ -73,7 +74,7 @@ class Closing:
         for share in np.linspace(0, 1, _STEPS + 1):
             known = self._start + share * (positions - self._start)
             for _ in range(_ITERATIONS):
-                gaps, jacobian = self._equations(known + self._others @ others)
+                gaps, jacobian = self._equations(self._q(known + self._others @ others))
                 step = np.linalg.lstsq(jacobian @ self._others, gaps)[0]
                 others, largest = others - step, np.abs([*gaps, *step]).max()
                 if not CLOSED < largest < _FARTHEST:
@@ -88,90 +89,87 @@ class Closing:
 
         Return also the accelerations of all coordinates at the axes' `speeds`, while no axis accelerates.
         """
-        jacobian = self._equations(positions)[1]
+        q = self._q(positions)
+        jacobian = self._equations(q)[1]
         ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes)[0]
-        drift = self._drift(positions, ways @ speeds)
+        drift = self._drift(q, ways @ speeds)
         return ways, -self._others @ np.linalg.lstsq(jacobian @ self._others, drift)[0]
 
-    def reactions(self, positions: Array, load: Array) -> list[Reaction]:
+    def reactions(self, q: Array, load: Array) -> list[Reaction]:
         """Return gaps and forces of the loops.
 
         Without loops, all coordinates would need the efforts `load`. Joints without drives get their load Jᵀ·λ from the
         forces λ in the loops.
         """
-        jacobian = self._equations(positions)[1]
+        jacobian, data = self._equations(q)[1], self._multibody.move(q)
         forces = iter(np.linalg.lstsq((jacobian @ self._others).T, self._others.T @ load)[0])
-        data, found = self._data(positions), []
-        for (parent, child), closure in zip(self._frames, self._closures, strict=True):
-            axes = data.oMf[parent].rotation.T @ data.oMf[child].rotation
-            gap = data.oMf[child].translation - data.oMf[parent].translation
+        reactions = []
+        for parent, child, closure in self._ends(data):
+            axes = parent.axes.T @ child.axes
             force = sum((next(forces) * np.array(t) for t in closure.translations), np.zeros(3))
             torque = sum((next(forces) * np.cross(axes @ v, u) for u, v in closure.rotations), np.zeros(3))
-            found.append(Reaction(gap, force, torque))
-        return found
+            reactions.append(Reaction(child.place - parent.place, force, torque))
+        return reactions
 
-    def forces(self, positions: Array, load: Array) -> Any:
-        """Return the forces in all loops in Pinocchio's form: one force on each joint's body, in the joint's frame."""
-        pin, model = self._pin, self._model
-        data, forces = self._data(positions), [pin.Force.Zero() for _ in range(model.njoints)]
-        for (parent, child), reaction in zip(self._frames, self.reactions(positions, load), strict=True):
-            force = pin.Force(reaction.force, reaction.torque)
+    def loads(self, q: Array, load: Array) -> list[Load]:
+        """Return the forces of all loops on their links."""
+        loads = list[Load]()
+        ends = self._ends(self._multibody.move(q))
+        for (parent, child, _), reaction in zip(ends, self.reactions(q, load), strict=True):
+            force, torque = parent.axes @ reaction.force, parent.axes @ reaction.torque
             # the force acts at the origin of the child's frame
-            at_child = pin.SE3(data.oMf[parent].rotation, data.oMf[child].translation)
-            for frame, sign in ((parent, -1), (child, 1)):
-                joint = model.frames[frame].parentJoint
-                forces[joint] += sign * data.oMi[joint].actInv(at_child.act(force))
-        return pin.StdVec_Force(forces)
+            loads += Load(parent.link, child.place, -force, -torque), Load(child.link, child.place, force, torque)
+        return loads
 
-    def _data(self, positions: Array) -> Any:
-        pin, model, data = self._pin, self._model, self._model.createData()
-        pin.computeJointJacobians(model, data, self._q(positions))
-        pin.updateFramePlacements(model, data)
-        return data
+    def _ends(self, data: Any) -> Iterator[tuple[_End, _End, Closure]]:
+        """Yield both frames of each loop, and its equations."""
+        for *ends, closure in self._loops:
+            parent, child = (self._end(data, link, origin) for link, origin in ends)
+            yield parent, child, closure
 
-    def _equations(self, positions: Array) -> tuple[Array, Array]:
+    def _end(self, data: Any, link: str, origin: Origin) -> _End:
+        place, axes = self._multibody.pose(data, link)
+        jacobian = self._multibody.jacobian(data, link, origin.xyz)
+        return _End(link, origin.xyz, place + axes @ origin.xyz, axes @ rotation(origin.rpy), jacobian)
+
+    def _equations(self, q: Array) -> tuple[Array, Array]:
         """Return the left sides of all equations at a pose, and their derivatives with respect to all coordinates."""
-        pin, model, data = self._pin, self._model, self._data(positions)
         gaps, rows = list[float](), list[Array]()
-        for frames, closure in zip(self._frames, self._closures, strict=True):
-            pose = data.oMf[frames[0]].actInv(data.oMf[frames[1]])
-            axes = pose.rotation
-            parent, child = (pin.getFrameJacobian(model, data, frame, pin.LOCAL) for frame in frames)
-            # motion of the child's frame relative to the parent's frame, resolved in the child's frame
-            jacobian = child - pose.inverse().action @ parent
+        for parent, child, closure in self._ends(self._multibody.move(q)):
+            gap, relative = child.place - parent.place, child.jacobian - parent.jacobian
             for t in closure.translations:
-                gaps.append(float(t @ pose.translation))
-                rows.append(t @ axes @ jacobian[:3])
-            for u, v_child in closure.rotations:
-                row = axes.T @ u
-                gaps.append(float(row @ v_child))
-                rows.append(pin.skew(np.array(v_child)) @ row @ jacobian[3:])
+                direction = parent.axes @ t
+                gaps.append(float(direction @ gap))
+                # the parent's axes turn, too
+                rows.append(direction @ (relative[:3] + cross_matrix(gap) @ parent.jacobian[3:]))
+            for u, v in closure.rotations:
+                of_parent, of_child = parent.axes @ u, child.axes @ v
+                gaps.append(float(of_parent @ of_child))
+                rows.append(np.cross(of_child, of_parent) @ relative[3:])
         return np.array(gaps), np.array(rows)
 
-    def _drift(self, positions: Array, velocity: Array) -> Array:
+    def _drift(self, q: Array, velocity: Array) -> Array:
         """Return J̇·q̇, the second derivatives of the left sides while no coordinate accelerates."""
-        pin, model, data = self._pin, self._model, self._model.createData()
-        pin.forwardKinematics(model, data, self._q(positions), velocity, np.zeros(model.nv))
-        pin.updateFramePlacements(model, data)
-        found = list[float]()
-        for (parent, child), closure in zip(self._frames, self._closures, strict=True):
-            pose = data.oMf[parent].actInv(data.oMf[child])
-            carried, speed = pose.actInv(self._speed(data, parent)), self._speed(data, child)
-            relative = speed - carried
-            gains = [pin.getFrameAcceleration(model, data, frame, pin.LOCAL) for frame in (parent, child)]
-            # all vectors are resolved in the turning frame of the child
-            gain = gains[1] - pose.actInv(gains[0]) + relative.cross(carried)
-            turning = relative.angular
-            for t in closure.translations:
-                found.append(float(t @ pose.rotation @ (gain.linear + np.cross(turning, relative.linear))))
-            for u, v_child in closure.rotations:
-                row = pose.rotation.T @ u
-                rate = np.cross(v_child, np.cross(row, turning)) @ turning
-                found.append(float(rate + np.cross(v_child, row) @ gain.angular))
-        return np.array(found)
+        data, drift = self._multibody.move(q, velocity, np.zeros(len(velocity))), list[float]()
+        for parent, child, closure in self._ends(data):
+            (v_parent, w_parent), (v_child, w_child) = (
+                np.split(each.jacobian @ velocity, 2) for each in (parent, child)
+            )
+            (a_parent, z_parent), (a_child, z_child) = (
+                np.split(self._multibody.acceleration(data, each.link, each.xyz), 2) for each in (parent, child)
+            )
+            gap, speed = child.place - parent.place, v_child - v_parent
+            # seen from the parent's frame, which turns
+            seen = a_child - a_parent - np.cross(z_parent, gap) - 2 * np.cross(w_parent, speed)
+            seen += np.cross(w_parent, np.cross(w_parent, gap))
+            drift += (float(parent.axes @ t @ seen) for t in closure.translations)
+            for u, v in closure.rotations:
+                of_parent, of_child = parent.axes @ u, child.axes @ v
+                turned = np.cross(w_parent, of_parent), np.cross(w_child, of_child)
+                curved = np.cross(w_parent, turned[0]) @ of_child + np.cross(w_child, turned[1]) @ of_parent
+                curved += np.cross(z_parent, of_parent) @ of_child + np.cross(z_child, of_child) @ of_parent
+                drift.append(float(curved + 2 * turned[0] @ turned[1]))
+        return np.array(drift)
 
-    def _speed(self, data: Any, frame: int) -> Any:
-        return self._pin.getFrameVelocity(self._model, data, frame, self._pin.LOCAL)
-
-    def _q(self, positions: Array) -> Any:
-        return self._pin.integrate(self._model, self._pin.neutral(self._model), positions)
+    def _q(self, positions: Array) -> Array:
+        return self._multibody.configuration(positions)

@@ -38,7 +38,7 @@ class CompletedSource(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def completed_for_pinocchio(
+def completed_for_reference(
     content: bytes, joints: Collection[str] | None = None, companions: Companions = _NOTHING
 ) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires.
@@ -68,7 +68,7 @@ def completed_for_pinocchio(
     with contextlib.suppress(UnicodeDecodeError):
         if not added and "\0" not in content.decode():
             return CompletedSource(content)
-    notes = (f"additions for Pinocchio's reader: {', '.join(sorted(added))}",) if added else ()
+    notes = (f"additions for the reference's reader: {', '.join(sorted(added))}",) if added else ()
     return CompletedSource(tostring(root, "UTF-8", xml_declaration=True), notes)
 
 

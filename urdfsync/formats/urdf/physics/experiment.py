@@ -1,4 +1,4 @@
-"""The experiment of the URDF domain: probes for a compiler, and the expected values from Pinocchio."""
+"""The experiment of the URDF domain: probes for a compiler, and the expected values from the reference."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from urdfsync.formats.urdf.physics import completion, motion, probe, quantities
 from urdfsync.formats.urdf.physics.closing import OpenLoopError
 from urdfsync.formats.urdf.physics.motion import COMPARED
 from urdfsync.formats.urdf.physics.probe import RobotVariables
-from urdfsync.formats.urdf.physics.reference import pinocchio
+from urdfsync.formats.urdf.physics.reference import reference_class
 from urdfsync.formats.urdf.physics.subject import Subject
 from urdfsync.formats.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.formats.urdf.second.companions import read_companions
@@ -33,7 +33,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     """Return the comparison, see `urdfsync.domain.experiment.Checks`.
 
     Moving links without a mass get inertias. Raises SourceError if the source has an error, or if
-    Pinocchio is missing or can't read the source.
+    there is no reference, or it can't read the source.
     """
     file, options = sample.file, sample.options
     reading = read_robot(sample.content, file, options, *sample.companions)
@@ -47,19 +47,19 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes its motion"
     stated = read_companions(sample.companions, options)
     names = {joint.name for joint in robot.joints}
-    completed, notes = completion.completed_for_pinocchio(sample.content, names, stated)
+    completed, notes = completion.completed_for_reference(sample.content, names, stated)
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
     catalogue = tuple(companion for companion in sample.companions if companion.option == "catalogue")
     robot = _robot(read_robot(completed, file, options, *catalogue))
     trials = list[Trial]()
-    # Pinocchio has smooth friction and rigid drives; rumoca can't start if two joints with stiction slide
+    # the reference has smooth friction and rigid drives; rumoca can't start if two joints with stiction slide
     simplified = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # infinite numbers in the source
         try:
             copy = msgspec.structs.replace(sample, content=completed, companions=catalogue, options=simplified)
             subject = Subject(copy, robot)
         except OpenLoopError:
-            return "Pinocchio can't close the loops of the robot at or near the start"
+            return "the reference can't close the loops of the robot at or near the start"
         tree = subject.tree
         # the records of other robots have a warning
         has_record = not (
@@ -69,7 +69,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
             if approach == "package" or has_record:
                 trials += _trials(subject, approach, step)
     return Experiment(
-        reference=f"Pinocchio {pinocchio().__version__}",
+        reference=reference_class().name,
         content=completed,
         options=simplified,
         trials=tuple(trials),
@@ -109,25 +109,25 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     is_free, reference, time = subject.options.base == "floating", subject.reference, (0.0,)
     courses = [probe.free_course(subject, number) for number in range(len(subject.axes))]
     state = reference.free_state(courses, motion.FREE_START if is_free else {})
-    reference.model.gravity.linear = np.array([0, 0, -motion.BENCH_GRAVITY])
+    reference.set_gravity(motion.BENCH_GRAVITY)
     efforts = reference.solve(state).efforts
     response = reference.free_gains(state, efforts, is_free)
-    reference.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
+    reference.set_gravity(motion.GRAVITY)
     if response is None:
         subject.unchecked["free motion: an axis moves no mass, so its effort determines no acceleration"] = None
         return
     gains, doubt = response
     pairs = list(quantities.poses(subject, names, [reference.solve(state)], time, Aspect.FREE_MOTION))
-    rows = reference.coordinates()
+    rows = reference.multibody.coordinates
     for k, joint in enumerate(subject.axes, 1):
-        unit, row = "m/s²" if MOTION_KINDS.get(joint.type) == "translational" else "rad/s²", rows[joint.name]
+        unit, row = "m/s²" if MOTION_KINDS.get(joint.type) == "translational" else "rad/s²", rows[joint.name].rows
         read = (
             tuple(f"gain{k}[{i}]" for i in (1, 2, 3))
             if joint.type == "ball"
             else (names.accelerations.get(joint.name, f"gain{k}"),)
         )
         what = Quantity.ACCELERATION, f"joint {joint.name}", unit, read, time, Aspect.FREE_MOTION
-        pairs.append((Compared(*what, least_tolerance=doubt), [gains[row : row + len(read)].tolist()]))
+        pairs.append((Compared(*what, least_tolerance=doubt), [gains[row].tolist()]))
     if is_free:
         gained = tuple(f"base.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3))
         root = f"link {subject.tree.links[0].name}"

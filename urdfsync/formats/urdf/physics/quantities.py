@@ -1,4 +1,4 @@
-"""The compared quantities, each with its expected values from Pinocchio."""
+"""The compared quantities, each with its expected values from the reference."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def poses(
 ) -> Iterator[Pair]:
     """Yield the pose of each link at the given times."""
     for link in subject.tree.links:
-        frames, element = [instant.frame(link.name) for instant in solved], f"link {link.name}"
+        frames, element = [instant.poses[link.name] for instant in solved], f"link {link.name}"
         at = Compared(Quantity.POSITION, element, "m", names.places[link.name], times, part)
         turned = Compared(Quantity.ORIENTATION, element, "", names.axes[link.name], times, part)
         yield from ((at, [place for place, _ in frames]), (turned, [axes.T.ravel() for _, axes in frames]))
@@ -46,21 +46,20 @@ def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
             yield msgspec.structs.replace(compared, instants=COMPARED[times], part=part), efforts[times]
     yield Compared(Quantity.REACTION, root, "N", FORCE, COMPARED), [-instant.force for instant in solved]
     yield Compared(Quantity.REACTION, root, "N·m", TORQUE, COMPARED), [-instant.torque for instant in solved]
-    masses = [instant.mass_and_centre() for instant in solved]
-    yield Compared(Quantity.MASS, "robot", "kg", MASS, COMPARED), [[mass] for mass, _ in masses]
-    yield Compared(Quantity.CENTRE, "robot", "m", CENTRE, COMPARED), [centre for _, centre in masses]
+    yield Compared(Quantity.MASS, "robot", "kg", MASS, COMPARED), [[instant.mass] for instant in solved]
+    yield Compared(Quantity.CENTRE, "robot", "m", CENTRE, COMPARED), [instant.centre for instant in solved]
 
 
 def _efforts(
     subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...]
 ) -> Iterator[tuple[Compared, Sequence[Sequence[float]]]]:
-    rows = subject.reference.coordinates()
+    rows = subject.reference.multibody.coordinates
     for joint in subject.tree.joints:
         if joint.type == "ball":
             torques = tuple(f"robot.{subject.tree.joint(joint.name).component}Drive_.t[{i}]" for i in (1, 2, 3))
-            row = rows[joint.name]
+            row = rows[joint.name].rows
             compared = Compared(Quantity.EFFORT, f"joint {joint.name}", "N·m", torques, times)
-            yield compared, [each.load[row : row + 3].tolist() for each in solved]
+            yield compared, [each.load[row].tolist() for each in solved]
         elif joint.name in subject.reference.axes:
             unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
             number, value = subject.reference.axes.index(joint.name), (f"{names.flanges[joint.name]}.{effort}",)
@@ -103,8 +102,9 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
             subject.unchecked[f"sensor {sensor.name}, in a ball: the drive of the ball bypasses the sensor"] = None
             continue
         again, component = subject.second.sensors[sensor.name], names.sensors[sensor.name]
-        above = subject.second.joints[again.parent].parent if sensor.is_in_joint else ""
-        rows = [subject.reference.measured(subject.states[time], again, above) for time in COMPARED]
+        held = subject.second.joints[again.parent] if sensor.is_in_joint else None
+        ends = (held.parent, held.child) if held else ()
+        rows = [subject.reference.measured(subject.states[time], again, ends) for time in COMPARED]
         what, when = f"sensor {sensor.name}", (COMPARED, Aspect.SENSORS)
         for output in _outputs(SENSOR_KINDS[sensor.kind].name):
             value = f"{component}.{output.name}"
@@ -114,7 +114,7 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
         if SENSOR_KINDS[sensor.kind].has_frame:
             place = tuple(f"{component}.frame_b.r_0[{i}]" for i in (1, 2, 3))
             axes = tuple(f"{component}.frame_b.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
-            at = [pose(*subject.solved[time].frame(again.parent)) @ origin(again) for time in COMPARED]
+            at = [pose(*subject.solved[time].poses[again.parent]) @ origin(again) for time in COMPARED]
             yield Compared(Quantity.POSITION, what, "m", place, *when), [matrix[:3, 3] for matrix in at]
             yield Compared(Quantity.ORIENTATION, what, "", axes, *when), [matrix[:3, :3].T.ravel() for matrix in at]
 

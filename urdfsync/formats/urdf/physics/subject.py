@@ -1,4 +1,4 @@
-"""A robot in Pinocchio, and its motion."""
+"""A robot in the reference, and its motion."""
 
 from __future__ import annotations
 

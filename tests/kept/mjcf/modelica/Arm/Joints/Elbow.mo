@@ -1,0 +1,85 @@
+within Arm.Joints;
+
+model Elbow "Continuous joint \"elbow\" from link \"upper\" to link \"fore\""
+  extends UrdfSync.Icons.ContinuousJoint;
+  extends UrdfSync.Interfaces.PartialRevoluteJoint(
+    redeclare ElbowParameters parameters,
+    phi_min = -Modelica.Constants.inf,
+    phi_max = Modelica.Constants.inf);
+
+  Modelica.Mechanics.MultiBody.Parts.FixedRotation origin(
+    animation = false,
+    r = parameters.origin.xyz,
+    rotationType = Modelica.Mechanics.MultiBody.Types.RotationTypes.PlanarRotationSequence,
+    sequence = {3, 2, 1},
+    angles = Modelica.Units.Conversions.to_deg({parameters.origin.rpy[3], parameters.origin.rpy[2], parameters.origin.rpy[1]}))
+    "From the frame of the parent link to the joint frame"
+    annotation (Placement(transformation(extent={{-80, -10}, {-60, 10}})));
+
+  Modelica.Mechanics.MultiBody.Joints.Revolute revolute(
+    animation = false,
+    useAxisFlange = true,
+    n = parameters.axis,
+    stateSelect = stateSelect,
+    phi(start = phi_start, fixed = fixedStart),
+    w(start = w_start, fixed = fixedStart))
+    "Motion along the axis"
+    annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
+
+  replaceable model FrictionLaw = UrdfSync.Friction.Rotational
+    constrainedby UrdfSync.Friction.PartialRotational
+    "Law of damping and dry friction"
+    annotation (choicesAllMatching=true);
+
+  FrictionLaw friction(parameters = parameters.dynamics)
+    "Damping and dry friction"
+    annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
+
+  Modelica.Mechanics.Rotational.Components.Spring spring(
+    c = parameters.dynamics.springStiffness,
+    phi_rel0 = parameters.dynamics.springReference)
+    "Pulls the joint to its reference"
+    annotation (Placement(transformation(extent={{2, 52}, {18, 68}})));
+
+  Modelica.Mechanics.Rotational.Components.Inertia inertia(
+    J = parameters.dynamics.armature + parameters.transmission.rotorInertia*parameters.transmission.reduction^2,
+    stateSelect = StateSelect.avoid)
+    "What the drive adds to the inertia"
+    annotation (Placement(transformation(extent={{76, 30}, {96, 50}})));
+
+equation
+  assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(abs(revolute.w), parameters.limits.velocity)),
+    getInstanceName() + " (joint " + parameters.name + ") is faster than its velocity limit", AssertionLevel.warning);
+  assert(noEvent(not (checkLimits and checkEffort) or UrdfSync.Functions.isAtMost(abs(axis.tau), parameters.limits.effort)),
+    getInstanceName() + " (joint " + parameters.name + ") is driven above its effort limit", AssertionLevel.warning);
+  connect(frame_a, origin.frame_a)
+    annotation (Line(points={{-100, 0}, {-80, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(origin.frame_b, revolute.frame_a)
+    annotation (Line(points={{-60, 0}, {0, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(revolute.frame_b, frame_b)
+    annotation (Line(points={{20, 0}, {100, 0}}, color={95, 95, 95}, thickness=0.5));
+  connect(revolute.axis, axis)
+    annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 70}, {0, 70}, {0, 100}}, color={0, 0, 0}));
+  connect(revolute.support, support)
+    annotation (Line(points={{4, 10}, {4, 20}, {-60, 20}, {-60, 100}}, color={0, 0, 0}));
+  connect(revolute.support, friction.flange_a)
+    annotation (Line(points={{4, 10}, {4, 20}, {-14, 20}, {-14, 40}, {0, 40}}, color={0, 0, 0}));
+  connect(revolute.axis, friction.flange_b)
+    annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 40}, {20, 40}}, color={0, 0, 0}));
+  connect(revolute.support, spring.flange_a)
+    annotation (Line(points={{4, 10}, {4, 20}, {-14, 20}, {-14, 60}, {2, 60}}, color={0, 0, 0}));
+  connect(revolute.axis, spring.flange_b)
+    annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 60}, {18, 60}}, color={0, 0, 0}));
+  connect(axis, inertia.flange_a)
+    annotation (Line(points={{0, 100}, {0, 94}, {46, 94}, {46, 40}, {76, 40}}, color={0, 0, 0}));
+
+  annotation (
+    Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={
+      Text(extent={{-130, -100}, {130, -70}}, textString="n=%{parameters.axis}")}),
+    Documentation(info="<html>
+<p>
+The URDF joint <code>elbow</code>: link <code>fore</code> relative to link <code>upper</code> turns without end stops. This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else.
+</p>
+</html>"),
+    __urdfsync(id = "056fd1cc-1e0d", base = "3f181118b9812144"));
+end Elbow;
