@@ -178,7 +178,7 @@ def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
 def _between(
     name: str, kind: LoopKind, frames: Iterable[str | LoopFrame], axis: Vector = _Z, child_axis: Vector = _X
 ) -> Loop:
-    """Return a loop between two frames, with default axes where its kind has none: sources fill these in differently."""
+    """Return a loop between two frames; axes that its kind lacks are the default: sources fill these in differently."""
     parent, child = (LoopFrame(end) if isinstance(end, str) else end for end in frames)
     origins = Origin(parent.xyz, parent.rpy), Origin(child.xyz, child.rpy)
     axes = (axis if kind in ("revolute", "universal") else _Z), (child_axis if kind == "universal" else _X)
