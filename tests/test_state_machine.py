@@ -32,7 +32,7 @@ from support.edits import Line
 from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link
 
-from urdfsync.engine.decide import decision as decide
+from urdfsync.engine.decide import steps
 from urdfsync.modelica.stamp import split
 
 pytestmark = [NEEDS_GIT, pytest.mark.slow]
@@ -783,6 +783,6 @@ def test_a_verdict_in_step_of_what_is_broken_would_be_found(walks: type[Walk], m
     walk.begin(random=Random(1), merging=False, driver=False, layout="file")
     model = PACKAGE / "Arm.mo"
     model.write_text(model.read_text().replace("equation\n", "equation\n  connect(base.frame_a, none.frame_a);\n"))
-    monkeypatch.setattr(decide, "look_for_misfits", lambda *_: ())
+    monkeypatch.setattr(steps, "look_for_misfits", lambda *_: ())
     with pytest.raises(AssertionError, match="in step, and names nothing"):
         walk.build(full=False)
