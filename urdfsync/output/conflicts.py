@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.common import system
-from urdfsync.common.spelling import counted
+from urdfsync.common.spelling import counted, same_count
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.result import DisputedFile, Result
@@ -130,11 +131,11 @@ def _choices(target: DisputedFile) -> dict[str, str]:
 
 
 def _element_lines(texts: Conflict) -> list[StyledLine]:
-    """Return the changes of each side by element, if the changes merge and both texts are classes."""
+    """Return the changes of each side by element, if none contradicts another and both texts are classes."""
     from urdfsync.merge.edits import find_edits, in_words  # only conflicts need the merge
     from urdfsync.merge.renames import rename
 
-    if texts.base is None or texts.merge is None or texts.merge.text is None:
+    if texts.base is None or texts.merge is None or texts.merge.contradictions or texts.merge.flaw:
         return []
     renamed_base, _ = rename(texts.base, "", texts.names)
     sides = {"you": find_edits(texts.base, texts.mine), "the export": find_edits(renamed_base, texts.generated)}
@@ -162,22 +163,24 @@ def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
 
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
-    """Yield the difference of two texts, in git's form."""
+    """Yield the difference of two texts, in git's form. Long lines that begin alike begin shortly before they differ."""
     import difflib  # takes 1 ms, and few builds have conflicts
 
     texts = _split_lines(old), _split_lines(new)
-    for text in difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT):
-        yield _text_line(text, _SIGNS.get(text[:1], "dim"))
+    lines = [*difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT)]
+    alike = defaultdict[str, set[str]](set)
+    for text in lines:
+        alike[text[1:_WIDTH]].add(text[1:])
+    for text in lines:
+        group = alike[text[1:_WIDTH]]
+        begin = max(1, same_count(min(group), max(group)) - _WIDTH // 4) if len(group) > 1 else 1
+        plain = (text if begin == 1 else f"{text[0]}…{text[begin:]}").replace("\t", "    ")
+        yield line((f"    {plain if len(plain) <= _WIDTH else f'{plain[: _WIDTH - 1]}…'}", _SIGNS.get(text[:1], "dim")))
 
 
 def _split_lines(text: str) -> list[str]:
     """Return the lines of a text; as in git, only a line feed ends one."""
     return text.replace("\r\n", "\n").removesuffix("\n").split("\n")
-
-
-def _text_line(text: str, style: str) -> StyledLine:
-    plain = text.replace("\t", "    ")
-    return line((f"    {plain if len(plain) <= _WIDTH else f'{plain[: _WIDTH - 1]}…'}", style))
 
 
 # --- words --------------------------------------------------------------------------------------------------------
