@@ -54,7 +54,7 @@ def test_an_edit_moves_to_the_new_name() -> None:
         '"elbow"', '"wrist"'
     )
     plain = merge(BASE, mine, generated, is_modelica=True)
-    told = "you changed it to `Links.Elbow elbow(m = 2 /* mine */) \"elbow\";`, the export removes the component"
+    told = 'you changed it to `Links.Elbow elbow(m = 2 /* mine */) "elbow";`, the export removes the component'
     assert [*plain.contradictions] == [f"component `elbow`: {told}"]
 
 

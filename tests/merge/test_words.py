@@ -83,10 +83,13 @@ def test_of_long_texts_that_differ_at_once_the_beginning_is_shown() -> None:
     assert "the export changes term + one + term0" in told
 
 
-@pytest.mark.parametrize("path", [
-    ("body", "component m", "value", "expression"),  # a value
-    ("body", "equation m", "equation"),  # lines
-])
+@pytest.mark.parametrize(
+    "path",
+    [
+        ("body", "component m", "value", "expression"),  # a value
+        ("body", "equation m", "equation"),  # lines
+    ],
+)
 @pytest.mark.parametrize("base", ["", "term"])
 def test_of_long_texts_that_differ_late_the_difference_of_both_sides_is_shown(path: tuple[str, ...], base: str) -> None:
     """Also if both sides replaced the whole text, or added it."""

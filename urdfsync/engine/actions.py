@@ -158,6 +158,8 @@ class Action(msgspec.Struct, frozen=True):
     is_left_by_git: bool = False
     """Whether the file on disk is git's merge of two branches, and does not equal the text that both meant. Then `mine`
     is the hash of the meant text (see `inspect/united`)."""
+    lacks_stamp: bool = False
+    """Whether the class on disk has no stamp: then its path says which part it is."""
 
     @property
     def kind(self) -> Kind:
@@ -188,7 +190,16 @@ class Action(msgspec.Struct, frozen=True):
         """The reason in words; an unedited file whose part had another name, or that the user moved, is not new."""
         if self.reason in (Reason.CREATE, Reason.UPDATE) and self.origin:
             return f"so far {self.origin.rpartition('/')[2]}"
+        if self.restores_stamp:
+            return "its stamp is missing"
+        if self.reason is Reason.KEEP and self.lacks_stamp:
+            return "you edited it; without its stamp, its path counts"
         return self.reason.text
+
+    @property
+    def restores_stamp(self) -> bool:
+        """Whether the file on disk lacks its stamp, and nothing else."""
+        return self.lacks_stamp and self.reason is Reason.UPDATE
 
     @property
     def replaces(self) -> str:

@@ -163,7 +163,7 @@ def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
 
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
-    """Yield the difference of two texts, in git's form. Long lines that begin alike begin shortly before they differ."""
+    """Yield the difference of two texts, in git's form. Long lines that begin alike are shown where they differ."""
     import difflib  # takes 1 ms, and few builds have conflicts
 
     texts = _split_lines(old), _split_lines(new)

@@ -45,7 +45,7 @@ def _cause(action: Action, changes: Changes | None) -> str:
         if action.role is Role.IMPORT and action.choice is Choice.TAKE:
             return "the source's file; a copy of yours is below .urdfsync/aside"
         return kept if is_orphan else _CHOSEN[action.choice]
-    if action.reason not in _NAMED or changes is None:
+    if action.reason not in _NAMED or changes is None or action.restores_stamp:
         return action.cause
     # changes of an element update its records, structural changes update models and packages
     causes = [change for change in changes.changes if change.element == action.owner]

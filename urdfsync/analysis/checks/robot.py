@@ -26,7 +26,7 @@ from urdfsync.common.diagnostics import Diagnostic, Severity, UrdfsyncError, fin
 from urdfsync.common.files import shown
 from urdfsync.common.processes.workers import tell
 from urdfsync.domain import registry
-from urdfsync.domain.experiment import Checks, Experiment, MissingReferenceError, Mismatch, Numbers, Sample
+from urdfsync.domain.experiment import Checks, Experiment, Mismatch, MissingReferenceError, Numbers, Sample
 from urdfsync.engine.judgements import judge
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources.expansion import SourceFiles, compare
