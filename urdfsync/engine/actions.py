@@ -130,6 +130,12 @@ class Reason(enum.StrEnum):
 ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
 """Reasons to keep a file that is no longer generated."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
+_OF_COPIES = {
+    Reason.DELETE: "an unedited copy of {}",
+    Reason.RENAMED: "it is your copy of {}, and it uses a name that has changed",
+    Reason.UNKNOWN: "its stamp is that of {}: it is a copy, and your own once you delete the stamp",
+}
+"""The words about a copy, by reason."""
 DISPUTED = CONFLICTS | {Reason.MOVE}
 """Reasons of actions that depend on the user's and the generated text, or on the user's choice."""
 USERS = frozenset({Reason.KEEP, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DISPUTED
@@ -160,6 +166,8 @@ class Action(msgspec.Struct, frozen=True):
     is the hash of the meant text (see `inspect/united`)."""
     lacks_stamp: bool = False
     """Whether the class on disk has no stamp: then its path says which part it is."""
+    copy_of: str = ""
+    """The path, below the package, of the generated file with the same stamp; empty unless this file is a copy."""
 
     @property
     def kind(self) -> Kind:
@@ -194,7 +202,8 @@ class Action(msgspec.Struct, frozen=True):
             return "its stamp is missing"
         if self.reason is Reason.KEEP and self.lacks_stamp:
             return "you edited it; without its stamp, its path counts"
-        return self.reason.text
+        words = _OF_COPIES.get(self.reason, "") if self.copy_of else ""
+        return words.format(self.copy_of) or self.reason.text
 
     @property
     def restores_stamp(self) -> bool:

@@ -13,7 +13,7 @@ from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.result import DisputedFile, Result
 from urdfsync.modelica.markers import find_markers
 from urdfsync.output.console import Console, StyledLine, line
-from urdfsync.output.phrases import reason
+from urdfsync.output.phrases import NEW_NAMES, reason
 
 FULL = 3
 """The greatest number of conflicts of a robot that are shown in full without --verbose."""
@@ -104,9 +104,9 @@ def settle_hint(conflicts: Sequence[DisputedFile]) -> str:
 def _choices(target: DisputedFile) -> dict[str, str]:
     """Return the options that settle a conflict, best first, with their effects."""
     texts, is_on_disk = target.texts, target.action.is_on_disk
-    choices = {}
+    choices, is_users = {}, target.action.generated is None and target.action.reason is Reason.RENAMED
     if target.merges:
-        choices["--merge"] = "both sides' changes"
+        choices["--merge"] = NEW_NAMES if is_users else "both sides' changes"
     elif sides := [side for choice, side in _SIDES.items() if target.offers(choice)]:
         either = f" (or `{sides[1][0]}`)" if sides[1:] else ""
         choices[f"--merge --prefer {sides[0][0]}"] = f"both sides' changes; {sides[0][1]}{either} where they contradict"
@@ -124,7 +124,7 @@ def _choices(target: DisputedFile) -> dict[str, str]:
     if texts and find_markers(texts.mine):  # a text with markers can't be kept
         keep = {}
     choices |= {**edit, **keep} if texts and texts.merge else {**keep, **edit}
-    return choices | ({"--take": "the generated file"} if is_on_disk else {})
+    return choices | ({"--take": "the generated file"} if is_on_disk and not is_users else {})
 
 
 # --- the lines at issue -------------------------------------------------------------------------------------------
@@ -137,8 +137,14 @@ def _element_lines(texts: Conflict) -> list[StyledLine]:
 
     if texts.base is None or texts.merge is None or texts.merge.contradictions or texts.merge.flaw:
         return []
-    renamed_base, _ = rename(texts.base, "", texts.names)
-    sides = {"you": find_edits(texts.base, texts.mine), "the export": find_edits(renamed_base, texts.generated)}
+    sides = {"you": find_edits(texts.base, texts.mine)}
+    if texts.base == texts.generated:  # only names changed
+        sides["the export"] = find_edits(texts.mine, texts.merge.proposal)
+    else:
+        renamed_base, _ = rename(texts.base, "", texts.names)
+        sides["the export"] = find_edits(renamed_base, texts.generated)
+    if texts.base == texts.mine:  # a class of the user's own
+        del sides["you"]
     lines: list[StyledLine] = []
     for side, edits in sides.items():
         if edits is None:

@@ -15,6 +15,8 @@ _NAMED = {
 }
 """Reasons of actions; `{}` stands for the change of the model."""
 
+NEW_NAMES = "your text with the new names"
+"""The text that a class of the user's own becomes after a rename."""
 _CHOSEN = {
     Choice.KEEP: "your file as it is",
     Choice.TAKE: "the generated file; --undo brings your edits back",
@@ -40,7 +42,9 @@ def reason(action: Action, changes: Changes | None) -> str:
 
 def _cause(action: Action, changes: Changes | None) -> str:
     if action.choice and not action.is_conflict:
-        is_orphan = action.generated is None and action.choice in (Choice.KEEP, Choice.TAKE)
+        is_orphan = action.generated is None and action.reason in (Reason.DELETE, Reason.KEEP)
+        if action.generated is None and action.choice is Choice.MERGE:
+            return NEW_NAMES
         kept = "yours from now on" if action.choice is Choice.KEEP else "deleted; --undo brings it back"
         if action.role is Role.IMPORT and action.choice is Choice.TAKE:
             return "the source's file; a copy of yours is below .urdfsync/aside"

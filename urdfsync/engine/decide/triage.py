@@ -58,8 +58,11 @@ def _adjust(
         return msgspec.structs.replace(action, reason=Reason.ASKED)
     if action.reason is Reason.DELETE and action.mine is not None and action.role is not Role.IMPORT:
         # a record alone proves nothing: its author, or git's union of two records, may name any file of the user's
-        is_written = action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)
-        return action if is_written else msgspec.structs.replace(action, reason=Reason.ORPHAN)
+        if not (action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)):
+            return msgspec.structs.replace(action, reason=Reason.ORPHAN)
+        stamp = inputs.files.stamp(action.path)
+        copied = (path for path, one in ids.items() if stamp and one == stamp.id)
+        return msgspec.structs.replace(action, copy_of=next(copied, ""))
     return action
 
 
