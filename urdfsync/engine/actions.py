@@ -130,6 +130,8 @@ class Reason(enum.StrEnum):
 ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
 """Reasons to keep a file that is no longer generated."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
+SO_FAR = "so far"
+"""The word before the former name of a file whose part is renamed."""
 _OF_COPIES = {
     Reason.DELETE: "an unedited copy of {}",
     Reason.RENAMED: "it is your copy of {}, and it uses a name that has changed",
@@ -197,7 +199,7 @@ class Action(msgspec.Struct, frozen=True):
     def cause(self) -> str:
         """The reason in words; an unedited file whose part had another name, or that the user moved, is not new."""
         if self.reason in (Reason.CREATE, Reason.UPDATE) and self.origin:
-            return f"so far {self.origin.rpartition('/')[2]}"
+            return f"{SO_FAR} {self.origin.rpartition('/')[2]}"
         if self.restores_stamp:
             return "its stamp is missing"
         if self.reason is Reason.KEEP and self.lacks_stamp:
