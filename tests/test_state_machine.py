@@ -32,7 +32,7 @@ from support.edits import Line
 from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link
 
-from urdfsync.engine.decide import decision as decide
+from urdfsync.engine.decide import steps as decide
 from urdfsync.modelica.stamp import split
 
 pytestmark = [NEEDS_GIT, pytest.mark.slow]
