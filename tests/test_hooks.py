@@ -74,7 +74,7 @@ def test_a_stale_commit_fails_and_passes_on_the_second_try(make: Callable[[], No
     resistor(120)
     git("add", ".")
     said = commit(code=1)
-    assert "robot `ladder`: out of step: 1 file written; `git add " in said
+    assert "robot `ladder`: the package was out of step, and has been built: 1 file written; run `git add " in said
     git(*command(said)[1:])
     commit()
     assert "120" in git("show", f"HEAD:{RECORD}")
@@ -88,7 +88,7 @@ def test_a_staged_source_with_later_changes(make: Callable[[], None]) -> None:
     git("add", ".")
     resistor(130, before=120)
     said = commit(code=1)
-    assert "robot `ladder`: out of step: 1 file written" in said
+    assert "robot `ladder`: the package was out of step, and has been built: 1 file written" in said
     assert '"ohm": 130}' in Path("ladder.json").read_text()
     git(*command(said)[1:])
     commit()

@@ -25,6 +25,7 @@ UNRELATED = {
     "no-browser",
     "no-attribute",
     "no-conflict",
+    "old-page",
     "not-watched",
     "unmerged",
 }

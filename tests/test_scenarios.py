@@ -12,7 +12,8 @@ A text begins with what its scenarios share, each `-- NAME`; then each begins wi
     arm LINK MASS, …         links one after the other, from the base on; `legs LINK MASS, …`, all at the base
     configure LINE           one more line of the robot's table; `config OLD => NEW`, another text in the configuration
     edit FILE OLD => NEW     an edit by hand; `write FILE TEXT`, `delete FILE`, `move` or `copy FILE FILE`
-    insert FILE TEXT         one more line before the equations; `note FILE TEXT`, a remark at the end
+    insert FILE TEXT         one more line before the equations; `note FILE TEXT`, a remark at the end;
+                           `unstamp FILE` removes its stamp
     template TEXT            templates of the user's own, with this line in the model of each element
     editor FILE              the user's editor: it saves the text of this file, and what it was shown in `/shown`
     commit                   all files, in a new repository if there is none
@@ -168,6 +169,9 @@ class Scenario:
         file, text = rest.split(" ", 1)
         branches.note(str(self.path(file)), text)
 
+    def unstamp(self, file: str) -> None:
+        self.path(file).write_text(split(self.path(file).read_text())[0])
+
     def template(self, text: str) -> None:
         networks.own_model(text)
 
@@ -274,7 +278,7 @@ class Scenario:
         **{verb: lambda _, rest, verb=verb: branches.perform(f"{verb} {rest}") for verb in _EXPORTS},
         **{each.__name__: each for each in (again, begin, source, project, arm, legs)},
         **{each.__name__: each for each in (configure, config, edit, insert, note, write, delete, move, copy)},
-        **{each.__name__: each for each in (template, editor, commit, branch, git, clone)},
+        **{each.__name__: each for each in (unstamp, template, editor, commit, branch, git, clone)},
         **{each.__name__: each for each in (keep, same, has, lacks, aside, only, fresh, exists, gone, order)},
         **{each.__name__: each for each in (run, conflicts)},
     }

@@ -59,7 +59,8 @@ def said(capsys: Capture, mode: str, *arguments: str, code: int | None = 1) -> l
 
 def fault(message: str, hint: str = "", *, code: str = "out-of-step", robot: str = "ladder") -> str:
     """The line about a robot that does not pass."""
-    return f"urdfsync.toml: error: robot `{robot}`: {message}{f'; `{hint}`' if hint else ''} [{code}]"
+    then = ", which says what to add" if hint == BUILD else ", then commit again"
+    return f"urdfsync.toml: error: robot `{robot}`: {message}{f'; run `{hint}`{then}' if hint else ''} [{code}]"
 
 
 def run(line: str) -> None:
@@ -85,21 +86,22 @@ def add(*paths: str) -> str:
 
 
 ADD = add(BASE, MANIFEST, RECORD)
-OUT, NOT_STAGED = "out of step: ", "in step, but not staged: "
+OUT, WAS_OUT = "the package is out of step: ", "the package was out of step, and has been built: "
+NOT_STAGED = "the package is in step, but {} not staged"
 
 
 @pytest.mark.parametrize(
     ("change", "commands", "mode", "words", "command"),
     [
-        (STALE, STAGE, "build", f"{OUT}1 file written", ADD),
+        (STALE, STAGE, "build", f"{WAS_OUT}1 file written", ADD),
         (STALE, STAGE, "check", f"{OUT}1 file to write", BUILD),
-        (STALE, f"urdfsync build && {STAGE}", "check", f"{NOT_STAGED}3 files", ADD),
-        (STALE, f"urdfsync build && {STAGE}", "build", f"{NOT_STAGED}3 files", ADD),
-        ((), f"{DROP} {RECORD}", "check", f"{NOT_STAGED}1 file", add(RECORD)),
-        ((), f"{DROP} ladder.json", "check", f"{NOT_STAGED}1 file", add("ladder.json")),
-        ((), f"{DROP} ladder.json", "build", f"{NOT_STAGED}1 file", add("ladder.json")),
+        (STALE, f"urdfsync build && {STAGE}", "check", NOT_STAGED.format("3 files are"), ADD),
+        (STALE, f"urdfsync build && {STAGE}", "build", NOT_STAGED.format("3 files are"), ADD),
+        ((), f"{DROP} {RECORD}", "check", NOT_STAGED.format("1 file is"), add(RECORD)),
+        ((), f"{DROP} ladder.json", "check", NOT_STAGED.format("1 file is"), add("ladder.json")),
+        ((), f"{DROP} ladder.json", "build", NOT_STAGED.format("1 file is"), add("ladder.json")),
         ((), f"git rm -q {RECORD}", "check", f"{OUT}1 to restore", BUILD),
-        ((), f"git rm -q {RECORD}", "build", f"{OUT}1 restored because you deleted it", add(RECORD)),
+        ((), f"git rm -q {RECORD}", "build", f"{WAS_OUT}1 restored because you deleted it", add(RECORD)),
     ],
 )  # fmt: skip
 def test_what_is_not_in_step_or_not_staged_is_told_with_the_command_that_mends_it(
@@ -109,7 +111,7 @@ def test_what_is_not_in_step_or_not_staged_is_told_with_the_command_that_mends_i
     if change:
         edit("ladder.json", *change)
     run(commands)
-    kind = "not-staged" if words.startswith(NOT_STAGED) else "out-of-step"
+    kind = "not-staged" if words.endswith("staged") else "out-of-step"
     index = Path(".git/index").read_bytes()
     with contextlib.nullcontext() if mode == "build" else unchanged(repo.folder):
         is_lost = mode == "check" and command == add("ladder.json")  # in a clone, this is an error of the source
@@ -210,7 +212,7 @@ def test_a_link_to_a_folder_is_judged_as_it_is_staged(
     relink(link, target)
     run("urdfsync build --quiet")
     repo.git("add", ".urdfsync", "modelica")
-    assert said(capsys, "check") == [fault(f"{NOT_STAGED}1 file", add(link), code="not-staged")]
+    assert said(capsys, "check") == [fault(NOT_STAGED.format("1 file is"), add(link), code="not-staged")]
     repo.git("add", link)
     assert said(capsys, "check", code=0) == []
 
@@ -265,7 +267,7 @@ def test_a_file_that_hides_a_package_counts_only_in_the_commit(repo: Repository,
     Path(f"share/again/{mark}").unlink()
     run("urdfsync build arm --quiet")
     repo.git("add", "modelica", ".urdfsync")
-    line = fault(f"{NOT_STAGED}1 file", add(f"share/again/{mark}"), code="not-staged", robot="arm")
+    line = fault(NOT_STAGED.format("1 file is"), add(f"share/again/{mark}"), code="not-staged", robot="arm")
     assert said(capsys, "check") == [line]
     repo.git("add", "-A")
     assert said(capsys, "check", code=0) == []
@@ -287,7 +289,7 @@ def test_a_source_in_another_repository_counts_as_clones_have_it(repo: Repositor
     for command in ("git add urdfsync.toml .urdfsync modelica", "git add sub"):  # git adds only its commit
         run(command)
         line = said(capsys, "check", code=2)[-1]
-        assert "in step, but a clone is not: 1 error" in line
+        assert "in step here, but not in a clone: 1 error" in line
         assert "; commit the changes in sub, make it a submodule, and `git add` it [out-of-step]" in line
     run("git rm -q -f --cached sub && rm -rf sub && git -c protocol.file.allow=always submodule add -q ../upstream sub")
     repo.git("add", ".")
@@ -306,7 +308,7 @@ def test_attributes_count_as_in_a_clone(repo: Repository, capsys: Capture) -> No
     make_workspace(repo)
     Path(".gitattributes").write_text("share/**/*.stl text eol=crlf\n")
     repo.git("add", ".gitattributes")
-    assert "robot `arm`: in step, but a clone is not: " in said(capsys, "check")[-1]
+    assert "robot `arm`: the package is in step here, but not in a clone: " in said(capsys, "check")[-1]
 
 
 @pytest.mark.parametrize("is_alone", [True, False])
@@ -341,10 +343,10 @@ def test_only_the_robots_of_the_commit_are_built(repo: Repository, capsys: Captu
     repo.git("add", "other.json")
     with unchanged(repo.folder / LADDER):
         (line,) = said(capsys, "build", "--jobs", "2")
-    assert "robot `other.v2`: out of step: 1 file written; `git add " in line
+    assert f"robot `other.v2`: {WAS_OUT}1 file written; run `git add " in line
     repo.git("add", ".")
     (line,) = said(capsys, "build")
-    assert line == fault("out of step: 1 file written", ADD)
+    assert line == fault(f"{WAS_OUT}1 file written", ADD)
     run(line)
     assert said(capsys, "check", code=0) == []
 
@@ -374,7 +376,7 @@ def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, cap
         assert f"  urdfsync resolve {RECORD} --merge --prefer mine" in "\n".join(said(capsys, mode, code=3))
     run(f"urdfsync resolve {RECORD} --keep --quiet")
     (line,) = said(capsys, "check", code=3)
-    assert "robot `ladder`: in step, but not staged: 3 files; " in line
+    assert "robot `ladder`: the package is in step, but 3 files are not staged; " in line
     run(line)
     assert said(capsys, "check", code=0) == []
 
@@ -404,7 +406,7 @@ def test_a_configuration_in_a_folder(
     assert said(capsys, "check", "--config", f"{repo.folder}/{name}/urdfsync.toml", code=0) == []
     edit(f"{name}/ladder.json", "120", "140")
     repo.git("add", ".")
-    words = "error: robot `ladder`: out of step: 1 file to write; `urdfsync hook build` [out-of-step]"
+    words = fault(f"{OUT}1 file to write", BUILD).removeprefix("urdfsync.toml: ")
     assert said(capsys, "check") == [f"{name}/urdfsync.toml: {words}", f"urdfsync.toml: {words}"]
 
 
@@ -451,7 +453,7 @@ def test_a_further_working_tree_has_an_index_of_its_own(
     resistor(120)
     subprocess.run(["git", "add", "."], check=True)
     monkeypatch.setenv("GIT_LITERAL_PATHSPECS", "1")
-    assert said(capsys, "build") == [fault("out of step: 1 file written", ADD)]
+    assert said(capsys, "build") == [fault(f"{WAS_OUT}1 file written", ADD)]
 
 
 def test_a_source_in_a_submodule_is_staged_with_its_commit(repo: Repository, capsys: Capture) -> None:
@@ -511,8 +513,8 @@ def test_for_programs(repo: Repository, capsys: Capture) -> None:
     document = json.loads("\n".join(said(capsys, "check", "--format=json")))
     (found,) = document["diagnostics"]
     assert (document["command"], document["exit"], found["code"]) == ("hook", 1, "out-of-step")
-    assert found["message"] == "robot `ladder`: out of step: 1 file to write"
-    assert found["hint"] == "`urdfsync hook build`"
+    assert found["message"] == "robot `ladder`: the package is out of step: 1 file to write"
+    assert found["hint"] == "run `urdfsync hook build`, which says what to add"
     assert [robot["robot"] for robot in document["results"]] == ["ladder"]
     repo.git("reset", "-q", "--hard")
     assert json.loads("\n".join(said(capsys, "check", "--format=json", code=0)))["diagnostics"] == []

@@ -74,6 +74,23 @@ def test_a_warning_is_told_after_the_summary_and_a_note_by_the_build_alone(execu
     )
 
 
+def test_missing_meshes_are_told_with_what_to_write(execute: Execute, folder: Path) -> None:
+    """In `add`, too; found ones are not told."""
+    meshes = "package://arm_description/a.stl", "package://arm_description/b.stl", "c.stl", "d.stl"
+    shapes = [f'<visual><geometry><mesh filename="{name}"/></geometry></visual>' for name in meshes]
+    (folder / "arm.urdf").write_text(f'<robot name="arm"><link name="world">\n{"".join(shapes)}</link></robot>')
+    (folder / "d.stl").touch()
+    told = [
+        "arm.urdf:2: warning: mesh `c.stl` not found; put it there, or name the folder where this path begins in the "
+        "robot's `package_paths` [mesh-not-found]",
+        "arm.urdf:2: warning: 2 meshes (such as `package://arm_description/a.stl`) not found; put it into the package "
+        "`arm_description`, or name the folder around that in the robot's `package_paths` [mesh-not-found]",
+    ]
+    assert execute("init", "arm.urdf").err.splitlines() == told
+    (folder / "arm.urdf").rename(folder / "leg.urdf")
+    assert execute("add", "leg.urdf").err.splitlines() == [line.replace("arm.urdf", "leg.urdf") for line in told]
+
+
 def test_what_a_model_leaves_out_is_allowed(execute: Execute, folder: Path) -> None:
     loop = '<loop_joint name="bar" type="prismatic"><link1 link="world"/><link2 link="world"/></loop_joint>'
     (folder / "arm.urdf").write_text(f'<robot name="arm"><link name="world"/>\n{loop}</robot>')

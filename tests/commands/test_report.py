@@ -32,3 +32,12 @@ def test_a_source_that_can_not_be_read_writes_no_page(arm: Path, execute: Execut
     arm.write_text("<robot>")
     assert "error" in execute("report", code=Exit.ERROR).err
     assert not Path("arm.html").exists()
+    assert "old-page" not in execute("report", code=Exit.ERROR).err
+
+
+def test_a_page_that_a_refused_export_leaves_in_place_is_told(arm: Path, execute: Execute) -> None:
+    execute("report")
+    page = Path("arm.html").read_bytes()
+    arm.write_text("<robot>")
+    assert "arm.html: warning: this page was not written: it shows an older version" in execute("report", code=2).err
+    assert Path("arm.html").read_bytes() == page

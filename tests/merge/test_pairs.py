@@ -54,7 +54,7 @@ def test_one_new_version_is_that_of_one_equation() -> None:
     found = merge(*(CLASS.format("B", text) for text in texts), is_modelica=True)
     assert found.contradictions == (
         "equation `0.0 = b + c`: you changed the equation to `0 = b + c + d`, the export to `0 = b - c`",
-        "equation `0.0 = b + d`: you removed it, the export changes it",
+        "equation `0.0 = b + d`: you removed it, the export changed it to `0 = b - d;`",
     )
 
 

@@ -54,7 +54,8 @@ def test_an_edit_moves_to_the_new_name() -> None:
         '"elbow"', '"wrist"'
     )
     plain = merge(BASE, mine, generated, is_modelica=True)
-    assert [*plain.contradictions] == ["component `elbow`: you changed it, the export removes it"]
+    told = 'you changed it to `Links.Elbow elbow(m = 2 /* mine */) "elbow";`, the export removes the component'
+    assert [*plain.contradictions] == [f"component `elbow`: {told}"]
 
 
 def test_a_new_name_that_the_user_has_given_to_something_else_is_a_conflict() -> None:

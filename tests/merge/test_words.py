@@ -15,10 +15,14 @@ PATHS = {
         ("A", "B", "C"), "component `body`: you changed the type to `B`, the export to `C`",
     ),
     ("body", "component body"): (
-        ("B b;", "", "B b = 1;"), "component `body`: you removed it, the export changes it",
+        ("B b;", "", "B b = 1;"), "component `body`: you removed it, the export changed it to `B b = 1;`",
     ),
     ("body", "component body", "arguments", "m"): (
-        ("m = 1", "m = 2", ""), "component `body`: you changed `m`, the export removes it",
+        ("m = 1", "m = 2", ""), "component `body`: you changed `m` to `m = 2`, the export removes it",
+    ),
+    ("body", "component hand"): (
+        ("Hand hand(\n  a = 1)\n  \"Hand\";", "Hand hand(\n  color = 7,\n  a = 1)\n  \"Hand\";", ""),
+        "component `hand`: you added `color = 7,`, the export removes the component",
     ),
     ("body", "component body", "value"): (
         ("", "= 1", "= 2"), "component `body`: you added `= 1`, the export `= 2`",
@@ -77,3 +81,19 @@ def test_of_long_texts_that_differ_at_once_the_beginning_is_shown() -> None:
     told = describe(Contradiction(("body", "component m", "value", "expression"), *texts))
     assert "you set `m = term + two + term0" in told
     assert "the export changes term + one + term0" in told
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        ("body", "component m", "value", "expression"),  # a value
+        ("body", "equation m", "equation"),  # lines
+    ],
+)
+@pytest.mark.parametrize("base", ["", "term"])
+def test_of_long_texts_that_differ_late_the_difference_of_both_sides_is_shown(path: tuple[str, ...], base: str) -> None:
+    """Also if both sides replaced the whole text, or added it."""
+    long = " + ".join(f"term{n}" for n in range(30))
+    told = describe(Contradiction(path, base, f"{long} + mine", f"{long} + other"))
+    assert "+ mine`" in told
+    assert "+ other" in told

@@ -275,3 +275,17 @@ def test_a_very_long_line_is_cut() -> None:
     lines = seen(texts_of(base.replace("first", "mine"), base.replace("first", "theirs"), base=base))
     assert max(map(len, lines)) < 250
     assert all(f"cat(1, {name}" in "\n".join(lines) for name in ("first", "mine", "theirs"))
+
+
+@pytest.mark.parametrize("length", [400, 40])
+def test_a_very_long_line_is_cut_where_both_sides_differ(length: int) -> None:
+    """Also behind a tab, between markers, and in words."""
+    product = " * ".join(f"part{number}" for number in range(length))
+    base = f"within Arm;\nmodel Elbow\n\tReal x = {product} * old;\nend Elbow;\n"
+    mine, generated = base.replace("old", "mine"), base.replace("old", "new")
+    told = "\n".join(seen(Conflict(ELBOW, base, mine, generated, merge(base, mine, generated, is_modelica=True))))
+    plain = "\n".join(seen(Conflict(ELBOW, None, mine, generated, None)))
+    for name in ("old", "mine", "new"):
+        assert f"* {name};" in told
+    assert told.count("* mine") > told.count("* mine;"), "in words"
+    assert all(f"* {name};" in plain for name in ("mine", "new"))

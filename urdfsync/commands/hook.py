@@ -27,7 +27,7 @@ from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.remembered import remember_configuration
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.output.build_section import show_result
+from urdfsync.output.build_section import out_of_step, show_result
 from urdfsync.output.console import Console
 from urdfsync.project import config as configuration
 from urdfsync.project import git
@@ -38,7 +38,6 @@ _FEW = 4
 """If a hint has more files to add, it names whole folders."""
 _COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
 """The parts of the recorded state that belong into a commit."""
-_BUILD = "`urdfsync hook build`"
 _MOST_LINKS = 40
 """The greatest number of links in a path, as on Linux. A longer chain has no end."""
 _OF_ALL = (".gitattributes", ".gitmodules")
@@ -225,11 +224,18 @@ class _OutOfStepRobot:
         if built is None and here and here.in_step:
             return self._not_staged(here, is_writing)
         result = built or (here if is_writing and here and here.failed else self.result)
-        if result.failed or result.conflicts or result.is_broken:
-            return self._reject("out-of-step", result.summary, "", result)
-        index = git.Index()
-        hint = _adding(self._find_missing(self._own_places(built), index), index, self.folders) if built else _BUILD
-        return self._reject("out-of-step", f"out of step: {result.summary}", hint, result)
+        if result.failed:
+            message, hint = "the package can't be built", "correct the error, then commit again"
+        elif result.conflicts or result.is_broken:
+            verdict = out_of_step(result)
+            message, hint = "the package is not in step", verdict.hint if verdict else ""
+        elif built:
+            index = git.Index()
+            hint = _adding(self._find_missing(self._own_places(built), index), index, self.folders)
+            message = "the package was out of step, and has been built"
+        else:
+            message, hint = "the package is out of step", "run `urdfsync hook build`, which says what to add"
+        return self._reject("out-of-step", f"{message}: {result.summary}", hint, result)
 
     def _not_staged(self, here: Result, is_writing: bool) -> Rejection:
         """Return the rejection if only the working tree is in step."""
@@ -244,12 +250,12 @@ class _OutOfStepRobot:
             )
             return self._reject("hidden", message, hint, result, is_enough=True)
         if missing:
-            message, hint = (
-                f"in step, but not staged: {counted(len(missing), 'file')}",
-                _adding(missing, index, self.folders),
-            )
+            are = "is" if len(missing) == 1 else "are"
+            message = f"the package is in step, but {counted(len(missing), 'file')} {are} not staged"
+            hint = _adding(missing, index, self.folders)
             return self._reject("not-staged", message, hint, result, is_enough=True)
-        message, hint = "in step, but a clone is not", "clone the repository, and run `urdfsync build --check` there"
+        message = "the package is in step here, but not in a clone"
+        hint = "clone the repository, and run `urdfsync build --check` there"
         if nested := sorted(self._nested(own)):
             hint = f"commit the changes in {nested[0]}, make it a submodule, and `git add` it"
         return self._reject("out-of-step", f"{message}: {self.result.summary}", hint, result)
@@ -296,7 +302,7 @@ class _OutOfStepRobot:
 
 
 def _adding(paths: Collection[str], index: git.Index, folders: Sequence[str] = ()) -> str:
-    """Return the command that adds files to the commit, from any folder of the repository."""
+    """Return a hint with the command that adds files to the commit, from any folder of the repository."""
     names = set(paths)
     ignored = names - index.tracked - index.untracked
     for folder in folders if len(names) > _FEW and not ignored else ():
@@ -305,4 +311,5 @@ def _adding(paths: Collection[str], index: git.Index, folders: Sequence[str] = (
             names = names - inside | {folder.removesuffix("/")}
     # to git `:/` means the top, from any folder; after a second colon, a name may begin with a special sign
     from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
-    return f"`{system.join_words(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
+    command = system.join_words(["git", "add", *(["-f"] if ignored else []), *from_top])
+    return f"run `{command}`, then commit again"

@@ -18,9 +18,10 @@ from urdfsync.commands import arguments, merge_driver
 from urdfsync.common import system
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.common.files import Tree, put, relative, shown
-from urdfsync.domain import Domain, Version, registry
+from urdfsync.domain import Domain, Lookup, Version, registry
 from urdfsync.domain.advice import Proposal
 from urdfsync.engine.judgements import judge
+from urdfsync.engine.package.imports import find_dependencies, find_missing
 from urdfsync.engine.result import Exit
 from urdfsync.engine.sources import source as source_files
 from urdfsync.modelica.names import class_name, in_ascii
@@ -189,7 +190,10 @@ def _guess(
     judged = judge(domain, Version(snapshot), reading, text.name)
     settled = {proposal.settles for proposal in proposals}
     of_source = [finding for finding in reading.diagnostics if finding.code not in settled]
-    return guess, (*text.diagnostics, *map(text.locate, (*of_source, *judged)))
+    lookup = Lookup(Path(os.path.normpath(config.working_folder() / source)), config.ros_package_path())
+    imports = find_dependencies(domain, snapshot, lookup, domain.permissive_options, reading.lines)
+    missing = find_missing(imports, text.name)
+    return guess, (*text.diagnostics, *map(text.locate, (*of_source, *judged, *missing)))
 
 
 def _free_names(

@@ -12,6 +12,7 @@ import msgspec
 from urdfsync.analysis.simulation.files import default_file, input_files, write_file
 from urdfsync.api import load
 from urdfsync.commands import arguments
+from urdfsync.common.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.common.files import shown
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, line
@@ -74,7 +75,12 @@ def prepare_page(
     check_page(file, input_files(configuration, robot, motion))
 
     def write(**results: Any) -> PageDocument:
-        content = gather(configuration, robot, against, arguments.request(args, console), working_folder())
+        try:
+            content = gather(configuration, robot, against, arguments.request(args, console), working_folder())
+        except UrdfsyncError as error:
+            message = "this page was not written: it shows an older version"
+            old = Diagnostic(Severity.WARNING, "old-page", message, shown(file))
+            raise UrdfsyncError(*error.diagnostics, *([old] if file.exists() else [])) from error
         text = page(content, **results)
         write_file(file, text)
         return PageDocument(robot.name, shown(file), len(text), content.section.summary)

@@ -180,6 +180,7 @@ def _compare(
     actions = {action.path: action for result in results for action in result.actions}
     result_of = {result.robot: result for result in results}
     failed = {result.robot for result in results if result.failed}
+    conflicts = {file.action.path: file for result, _ in targets.values() for file in result.conflicts}
     accepted, problems = set[str](), list[Diagnostic]()
     for path, (result, before) in targets.items():
         after, place = actions.get(path), result.shown(before.present)
@@ -191,10 +192,10 @@ def _compare(
             message = "the file or its generated text changed after they were read, so your choice was not applied"
             hint = "look at the file, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
-        elif choice in PREFERENCES and (file := next((one for one in result.conflicts if one.action == before), None)):
-            refused = file.texts and file.texts.refused.get(choice)
-            reason = refused or f"`--prefer` settles nothing here: {file.relation}"
-            problems.append(Diagnostic(Severity.WARNING, "no-merge", reason, place, hint=settle_hint([file])))
+        elif choice in (Choice.MERGE, *PREFERENCES) and (file := conflicts.get(path)):
+            refused = file.texts and (file.texts.refused.get(choice) or file.texts.rejected)
+            message = f"not merged: {refused or file.relation}"
+            problems.append(Diagnostic(Severity.WARNING, "no-merge", message, place, hint=settle_hint([file])))
         elif choice in (Choice.UNDO, Choice.MOVED) or not (before.is_conflict or before.is_left_by_git):
             problems.append(without_effect(choice, before, place))
     return accepted, problems

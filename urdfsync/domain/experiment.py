@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 import msgspec
 
+from urdfsync.common.diagnostics import UrdfsyncError
 from urdfsync.domain.model import Companion, Import, Snapshot, Target
 
 
@@ -197,6 +198,10 @@ class Experiment(msgspec.Struct, frozen=True):
     """The files that `content` is read with."""
 
 
+class MissingReferenceError(UrdfsyncError):
+    """No reference is installed on this machine."""
+
+
 class Sample(msgspec.Struct, frozen=True):
     """A source, and all other inputs from which its package is generated."""
 
@@ -234,7 +239,7 @@ class Checks(Protocol):
         """Return a comparison of the generated package with an independent reference, or why there is none.
 
         Data that the comparison needs and the source lacks, such as inertias, are made up. With a `step`, in s,
-        `Trial.over_time` has curves to draw. This function runs in a process of its own. Raises SourceError if the
-        reference is not installed or can't read the source.
+        `Trial.over_time` has curves to draw. This function runs in a process of its own. Raises MissingReferenceError,
+        and SourceError if the reference can't read the source.
         """
         ...

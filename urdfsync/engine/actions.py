@@ -130,6 +130,14 @@ class Reason(enum.StrEnum):
 ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
 """Reasons to keep a file that is no longer generated."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
+SO_FAR = "so far"
+"""The word before the former name of a file whose part is renamed."""
+_OF_COPIES = {
+    Reason.DELETE: "an unedited copy of {}",
+    Reason.RENAMED: "it is your copy of {}, and it uses a name that has changed",
+    Reason.UNKNOWN: "its stamp is that of {}: it is a copy, and your own once you delete the stamp",
+}
+"""The words about a copy, by reason."""
 DISPUTED = CONFLICTS | {Reason.MOVE}
 """Reasons of actions that depend on the user's and the generated text, or on the user's choice."""
 USERS = frozenset({Reason.KEEP, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DISPUTED
@@ -158,6 +166,10 @@ class Action(msgspec.Struct, frozen=True):
     is_left_by_git: bool = False
     """Whether the file on disk is git's merge of two branches, and does not equal the text that both meant. Then `mine`
     is the hash of the meant text (see `inspect/united`)."""
+    lacks_stamp: bool = False
+    """Whether the class on disk has no stamp: then its path says which part it is."""
+    copy_of: str = ""
+    """The path, below the package, of the generated file with the same stamp; empty unless this file is a copy."""
 
     @property
     def kind(self) -> Kind:
@@ -187,8 +199,18 @@ class Action(msgspec.Struct, frozen=True):
     def cause(self) -> str:
         """The reason in words; an unedited file whose part had another name, or that the user moved, is not new."""
         if self.reason in (Reason.CREATE, Reason.UPDATE) and self.origin:
-            return f"so far {self.origin.rpartition('/')[2]}"
-        return self.reason.text
+            return f"{SO_FAR} {self.origin.rpartition('/')[2]}"
+        if self.restores_stamp:
+            return "its stamp is missing"
+        if self.reason is Reason.KEEP and self.lacks_stamp:
+            return "you edited it; without its stamp, its path counts"
+        words = _OF_COPIES.get(self.reason, "") if self.copy_of else ""
+        return words.format(self.copy_of) or self.reason.text
+
+    @property
+    def restores_stamp(self) -> bool:
+        """Whether the file on disk lacks its stamp, and nothing else."""
+        return self.lacks_stamp and self.reason is Reason.UPDATE
 
     @property
     def replaces(self) -> str:

@@ -86,6 +86,8 @@ class DisputedFile(msgspec.Struct, frozen=True):
             is_unowned = self.action.reason is Reason.UNOWNED
             lost = "its merge base, the text that urdfsync wrote last, is not recorded"
             return texts.rejected or f"{'there is no base' if is_unowned else lost}, so it can't be merged"
+        if self.merges and texts.renamed and texts.base == texts.generated:
+            return f"{texts.renamed}: --merge takes the new names over"
         if self.merges:
             told = f"{texts.renamed}; " if texts.renamed else ""
             return f"{told}the changes fit together: --merge takes both"

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from urdfsync.merge.words import place_of, quoted
+from urdfsync.merge.words import place_of, quoted, quoted_pair
 from urdfsync.modelica.tree import (
     LAYOUT,
     Node,
@@ -46,7 +46,7 @@ class Edit(msgspec.Struct, frozen=True):
             return f"{what}{'added' if self.base is None else 'removed'}"
         if self.part in ("layout", "order of inputs and outputs"):
             return f"{what}{'moved' if self.part == 'layout' else 'changed'}"
-        return f"{what}{quoted(self.base)} → {quoted(self.mine)}"
+        return f"{what}{' → '.join(quoted_pair(self.base, self.mine))}"
 
     @property
     def is_for_readers(self) -> bool:

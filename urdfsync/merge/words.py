@@ -56,12 +56,16 @@ def describe(contradiction: Contradiction) -> str:
     element, part = place_of(contradiction.path)
     is_value = part and contradiction.path[-1] not in _ROLES
     what = f"`{part}`" if is_value else f"the {part}" if part else "it"
-    mine = _quoted_pair(contradiction.base, contradiction.mine)[1]
-    base, generated = _quoted_pair(contradiction.base, contradiction.generated)
+    mine = quoted_pair(contradiction.base, contradiction.mine)[1]
+    base, generated = quoted_pair(contradiction.base, contradiction.generated)
+    if mine == generated:  # they differ behind their difference from base
+        mine, generated = quoted_pair(contradiction.mine, contradiction.generated)
     if not contradiction.mine:
-        told = f"you removed {what}, the export changes it"
+        told = f"you removed {what}, the export {_change(contradiction.base, contradiction.generated, what)}"
     elif not contradiction.generated:
-        told = f"you changed {what}, the export removes it"
+        kind = "" if part else element.rpartition(" `")[0]
+        removed = f"the {kind}" if kind else "it"
+        told = f"you {_change(contradiction.base, contradiction.mine, what)}, the export removes {removed}"
     elif not contradiction.base:
         is_named = part.endswith(contradiction.path[-1])  # true if the texts begin with the name
         lead = part.removesuffix(contradiction.path[-1]) if is_named else f"{part} " if part else ""
@@ -73,6 +77,8 @@ def describe(contradiction: Contradiction) -> str:
             _change(contradiction.base, contradiction.mine, what),
             _change(contradiction.base, contradiction.generated, what),
         )
+        if yours == theirs:
+            yours, theirs = (f"changed {what} to `{side}`" for side in (mine, generated))
         shared = f"changed {what} "
         is_alike = yours.startswith(shared) and theirs.startswith(shared)
         told = f"you {yours}, the export {theirs.removeprefix(shared if is_alike else '')}"
@@ -83,9 +89,11 @@ def describe(contradiction: Contradiction) -> str:
 def _change(base: str, side: str, what: str) -> str:
     """Describe a side's change of a text of several lines: added `y = 3;`, removed some, or changed them."""
     old, new = ([line.strip() for line in text.splitlines() if line.strip()] for text in (base, side))
+    if old == new:
+        return f"changed {what}"
     start = same_count(old, new)
     end = same_count(old[start:][::-1], new[start:][::-1])
-    before, after = _quoted_pair(*(" ".join(lines[start : len(lines) - end]) for lines in (old, new)))
+    before, after = quoted_pair(*(" ".join(lines[start : len(lines) - end]) for lines in (old, new)))
     if not start + end or "order" in what:
         return f"changed {what} to `{after}`"
     if before and after:
@@ -93,7 +101,7 @@ def _change(base: str, side: str, what: str) -> str:
     return f"added `{after}`" if after else f"removed `{before}`"
 
 
-def _quoted_pair(old: str, new: str) -> list[str]:
+def quoted_pair(old: str, new: str) -> list[str]:
     """Return two texts as quotes that show their first difference."""
     lines = [" ".join(text.split()) for text in (old, new)]
     shared = same_count(lines[0], lines[1])

@@ -41,7 +41,7 @@ def build_section(result: Result, *, verbose: bool | None = None, named: Contain
     silent = _SILENT if verbose or named else _SILENT | {Reason.KEEP}
     listed = [action for action in result.actions.decided if action.reason not in silent]
     if verbose is False:
-        important = {action.path for action in listed if action.reason in _ALWAYS_LISTED and not action.is_waiting}
+        important = {one.path for one in listed if _is_important(one)}
         listed = [action for action in listed if action.path in important or action.path in named]
     orphans = (result.root / action.path for action in listed if action.reason is Reason.ORPHAN)
     # what stays in a package's former folder is the user's own afterwards
@@ -96,6 +96,11 @@ def build_lines(result: Result) -> Iterator[StyledLine]:
     """Yield lines about what a build did with one robot, without findings."""
     yield from text(build_section(result, verbose=False))
     yield from conflict_lines(result, Console()) if result.conflicts else ()
+
+
+def _is_important(action: Action) -> bool:
+    is_known = action.base is not None  # `adopt` stamps many files
+    return (action.reason in _ALWAYS_LISTED or (action.restores_stamp and is_known)) and not action.is_waiting
 
 
 def mark_of(result: Result) -> Mark:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.common import system
-from urdfsync.common.spelling import counted
+from urdfsync.common.spelling import counted, same_count
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.decide.conflicts import Conflict
 from urdfsync.engine.result import DisputedFile, Result
 from urdfsync.modelica.markers import find_markers
 from urdfsync.output.console import Console, StyledLine, line
-from urdfsync.output.phrases import reason
+from urdfsync.output.phrases import NEW_NAMES, reason
 
 FULL = 3
 """The greatest number of conflicts of a robot that are shown in full without --verbose."""
@@ -103,9 +104,9 @@ def settle_hint(conflicts: Sequence[DisputedFile]) -> str:
 def _choices(target: DisputedFile) -> dict[str, str]:
     """Return the options that settle a conflict, best first, with their effects."""
     texts, is_on_disk = target.texts, target.action.is_on_disk
-    choices = {}
+    choices, is_users = {}, target.action.generated is None and target.action.reason is Reason.RENAMED
     if target.merges:
-        choices["--merge"] = "both sides' changes"
+        choices["--merge"] = NEW_NAMES if is_users else "both sides' changes"
     elif sides := [side for choice, side in _SIDES.items() if target.offers(choice)]:
         either = f" (or `{sides[1][0]}`)" if sides[1:] else ""
         choices[f"--merge --prefer {sides[0][0]}"] = f"both sides' changes; {sides[0][1]}{either} where they contradict"
@@ -123,21 +124,27 @@ def _choices(target: DisputedFile) -> dict[str, str]:
     if texts and find_markers(texts.mine):  # a text with markers can't be kept
         keep = {}
     choices |= {**edit, **keep} if texts and texts.merge else {**keep, **edit}
-    return choices | ({"--take": "the generated file"} if is_on_disk else {})
+    return choices | ({"--take": "the generated file"} if is_on_disk and not is_users else {})
 
 
 # --- the lines at issue -------------------------------------------------------------------------------------------
 
 
 def _element_lines(texts: Conflict) -> list[StyledLine]:
-    """Return the changes of each side by element, if the changes merge and both texts are classes."""
+    """Return the changes of each side by element, if none contradicts another and both texts are classes."""
     from urdfsync.merge.edits import find_edits, in_words  # only conflicts need the merge
     from urdfsync.merge.renames import rename
 
-    if texts.base is None or texts.merge is None or texts.merge.text is None:
+    if texts.base is None or texts.merge is None or texts.merge.contradictions or texts.merge.flaw:
         return []
-    renamed_base, _ = rename(texts.base, "", texts.names)
-    sides = {"you": find_edits(texts.base, texts.mine), "the export": find_edits(renamed_base, texts.generated)}
+    sides = {"you": find_edits(texts.base, texts.mine)}
+    if texts.base == texts.generated:  # only names changed
+        sides["the export"] = find_edits(texts.mine, texts.merge.proposal)
+    else:
+        renamed_base, _ = rename(texts.base, "", texts.names)
+        sides["the export"] = find_edits(renamed_base, texts.generated)
+    if texts.base == texts.mine:  # a class of the user's own
+        del sides["you"]
     lines: list[StyledLine] = []
     for side, edits in sides.items():
         if edits is None:
@@ -162,22 +169,24 @@ def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
 
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
-    """Yield the difference of two texts, in git's form."""
+    """Yield the difference of two texts, in git's form. Long lines that begin alike are shown where they differ."""
     import difflib  # takes 1 ms, and few builds have conflicts
 
     texts = _split_lines(old), _split_lines(new)
-    for text in difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT):
-        yield _text_line(text, _SIGNS.get(text[:1], "dim"))
+    lines = [*difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT)]
+    alike = defaultdict[str, set[str]](set)
+    for text in lines:
+        alike[text[1:_WIDTH]].add(text[1:])
+    for text in lines:
+        group = alike[text[1:_WIDTH]]
+        begin = max(1, same_count(min(group), max(group)) - _WIDTH // 4) if len(group) > 1 else 1
+        plain = (text if begin == 1 else f"{text[0]}…{text[begin:]}").replace("\t", "    ")
+        yield line((f"    {plain if len(plain) <= _WIDTH else f'{plain[: _WIDTH - 1]}…'}", _SIGNS.get(text[:1], "dim")))
 
 
 def _split_lines(text: str) -> list[str]:
     """Return the lines of a text; as in git, only a line feed ends one."""
     return text.replace("\r\n", "\n").removesuffix("\n").split("\n")
-
-
-def _text_line(text: str, style: str) -> StyledLine:
-    plain = text.replace("\t", "    ")
-    return line((f"    {plain if len(plain) <= _WIDTH else f'{plain[: _WIDTH - 1]}…'}", style))
 
 
 # --- words --------------------------------------------------------------------------------------------------------

@@ -15,6 +15,8 @@ _NAMED = {
 }
 """Reasons of actions; `{}` stands for the change of the model."""
 
+NEW_NAMES = "your text with the new names"
+"""The text that a class of the user's own becomes after a rename."""
 _CHOSEN = {
     Choice.KEEP: "your file as it is",
     Choice.TAKE: "the generated file; --undo brings your edits back",
@@ -40,12 +42,14 @@ def reason(action: Action, changes: Changes | None) -> str:
 
 def _cause(action: Action, changes: Changes | None) -> str:
     if action.choice and not action.is_conflict:
-        is_orphan = action.generated is None and action.choice in (Choice.KEEP, Choice.TAKE)
+        is_orphan = action.generated is None and action.reason in (Reason.DELETE, Reason.KEEP)
+        if action.generated is None and action.choice is Choice.MERGE:
+            return NEW_NAMES
         kept = "yours from now on" if action.choice is Choice.KEEP else "deleted; --undo brings it back"
         if action.role is Role.IMPORT and action.choice is Choice.TAKE:
             return "the source's file; a copy of yours is below .urdfsync/aside"
         return kept if is_orphan else _CHOSEN[action.choice]
-    if action.reason not in _NAMED or changes is None:
+    if action.reason not in _NAMED or changes is None or action.restores_stamp:
         return action.cause
     # changes of an element update its records, structural changes update models and packages
     causes = [change for change in changes.changes if change.element == action.owner]

@@ -26,7 +26,7 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
     conflicts = {file.action.path: file.relation for file in result.conflicts}
     stale, others = list[tuple[str, str, str]](), list[tuple[str, str, str]]()
     for action in sorted(listed, key=lambda action: action.present.rpartition("/")):
-        says_all = action.reason in (Reason.UNCHANGED, Reason.KEEP) and not action.is_waiting
+        says_all = action.reason in (Reason.UNCHANGED, Reason.KEEP) and not (action.is_waiting or action.lacks_stamp)
         why = "" if says_all else conflicts.get(action.path) or reason(action, changes)
         group = stale if action.status is FileStatus.STALE else others
         group.append((result.shown(action.present), str(action.status), why))

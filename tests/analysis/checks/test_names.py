@@ -36,6 +36,21 @@ end MyBench;
 }
 
 
+@pytest.mark.usefixtures("arm", "modelica_library", "compiler")
+def test_after_a_rename_the_new_names_are_named_as_by_the_build() -> None:
+    """Other names are more like the former ones."""
+    write({"MyArm.mo": "within;\nmodel MyArm\n  extends Arm.Arm;\n  Arm.Links.Hand other;\n"
+                       "  Real x = elbowAxis.tau + hand.m;\nend MyArm;\n"})  # fmt: skip
+    replace(Path("arm.urdf"), '"elbow"', '"wrist"')
+    replace(Path("arm.urdf"), '"hand"', '"paw"')
+    rebuild()
+    assert lines(check()) == [
+        "MyArm.mo:4: error: there is no class `Arm.Links.Hand`; use `Paw` instead",
+        "MyArm.mo:5: error: MyArm has no `elbowAxis`; use `wristAxis` instead",
+        "MyArm.mo:5: error: MyArm has no `hand`; use `paw` instead",
+    ]
+
+
 def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_library: Path, compiler: Compiling) -> None:
     write(BROKEN)
     result = check()
@@ -46,7 +61,7 @@ def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_librar
         "write a model that says `extends Arm.Arm(redeclare … elbow)`, and use that instead",
         "Bench/MyBench.mo:4: error: MyArm has no `laod`; did you mean `mine.load`?",
         "Bench/MyBench.mo:4: error: Elbow has no `axs`; did you mean `robot.elbow.axis.tau`?",
-        "Bench/MyBench.mo:5: error: MyBench has no `whatever`; ",
+        "Bench/MyBench.mo:5: error: MyBench has no `whatever`; change or remove this use",
         "MyArm.mo:3: error: Arm has no `elbo`; did you mean `elbow`?",
         "MyArm.mo:3: error: RotationalDynamics has no `dampin`; did you mean `damping`?",
         "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`; did you mean `Arm.Links.Hand`?",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -16,7 +17,7 @@ from support.corpus import REPOSITORY
 from support.two_joints import ARM, JOINTS, LINKS, check, codes, lines, rebuild, replace, write
 from support.urdfs import robot
 
-from urdfsync.analysis.checks import report
+from urdfsync.analysis.checks import process, report
 from urdfsync.analysis.checks import robot as robot_check
 from urdfsync.analysis.checks.package import RobotPackage, read_package
 from urdfsync.analysis.checks.results import CheckStatus
@@ -288,7 +289,7 @@ def test_a_right_result_hides_no_mesh_that_has_changed(arm: Path, modelica_libra
 def test_without_a_compiler_all_else_is_checked(
     arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Also the numbers, which need no extra. Whoever asks for more is told what to install."""
+    """Also the numbers, which need no extra. The gap says what to install."""
     find = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "rumoca" else find(name))
     result = check()
@@ -297,9 +298,29 @@ def test_without_a_compiler_all_else_is_checked(
     (gap,) = result.gaps
     assert gap.startswith("nothing was compiled: there is no compiler: rumoca is not installed; pip install")
     assert status(result, strict=False) is CheckStatus.INCOMPLETE
-    assert codes(check(physics=True)) == ["no-compiler"]
+    asked = check(physics=True)
+    assert (status(asked, strict=False), asked.gaps) == (CheckStatus.INCOMPLETE, result.gaps)
     replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
     assert codes(check()) == ["unresolved"]
+
+
+@pytest.mark.usefixtures("arm", "modelica_library")
+def test_without_a_reference_it_is_told_before_minutes_of_compiling(
+    compiler: Compiling, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing is wrong with the robot: the check is incomplete."""
+    monkeypatch.setattr(process, "run", lambda function, *arguments, **_: list(function(*arguments)))
+    for reference in ("pinocchio", "mujoco"):
+        monkeypatch.setitem(sys.modules, f"urdfsync.formats.urdf.physics.{reference}_robot", None)
+    result = check(physics=True)
+    assert (status(result, strict=False), codes(result), compiler.models) == (CheckStatus.INCOMPLETE, [], [])
+    assert result.numbers is not None
+    (gap,) = result.gaps
+    assert re.fullmatch(
+        r"nothing was compiled: neither Pinocchio nor MuJoCo is installed, the references for physics; "
+        r"pip install \w+, or check without `--physics`",
+        gap,
+    )
 
 
 @pytest.mark.parametrize("built", [True, False])

@@ -491,6 +491,13 @@ def test_atlas_without_its_meshes_is_a_skeleton(corpus: Path, report: Report, ch
     assert page.problems == []
 
 
+def test_without_any_mesh_the_line_below_the_picture_names_one(report: Report, chromium: Page) -> None:
+    shapes = (f'<visual><geometry><mesh filename="{name}.stl"/></geometry></visual>' for name in "ab")
+    page = opened(chromium, report(f'<robot name="bare"><link name="base">{"".join(shapes)}</link></robot>'))
+    said = "Only frames are shown: link base, visual 1: mesh a.stl is not in the package (and 1 more)"
+    assert page.run("element('told').textContent") == said
+
+
 NO_WEBGL = "HTMLCanvasElement.prototype.getContext = () => null"
 
 

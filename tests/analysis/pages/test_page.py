@@ -14,6 +14,7 @@ from xml.sax.saxutils import quoteattr
 
 import pytest
 from support.pages import Elements, data_of, read
+from support.urdfs import link, robot
 
 from urdfsync.analysis.checks.cache import UserCache
 from urdfsync.analysis.checks.results import CheckResult, CompiledModel, EditEffect
@@ -53,6 +54,18 @@ def test_names_are_no_markup_wherever_they_stand(report: Report) -> None:
     now = data_of(page)["now"]
     assert isinstance(now, dict)
     assert now["bodies"][0]["element"] == f"link {name}"
+
+
+def test_no_tick_stands_above_findings(report: Report) -> None:
+    """A robot of 2 t in step is in doubt; without findings it is fine."""
+    heavy = robot(link("only", 2000))
+    for urdf, mark in ((STILL, "fine"), (heavy, "open")):
+        report(urdf)
+        assert cli.main(["build"]) == 0
+        page = read(report(urdf))
+        assert [each["class"] for tag, each in page.tags if tag == "p" and "summary" in str(each.get("class"))] == [
+            f"summary {mark}"
+        ]
 
 
 @pytest.mark.slow

@@ -14,7 +14,6 @@ from urdfsync.analysis.checks.package import RobotPackage
 from urdfsync.analysis.checks.results import listed
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.common.files import shown
-from urdfsync.domain.advice import brings_back
 from urdfsync.modelica.classes import ClassNode
 from urdfsync.modelica.files import ClassName, class_of_file, files_that_use, place_of, text_of
 from urdfsync.modelica.layout import check_class_file
@@ -117,12 +116,8 @@ def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved])
     else:
         severity, code, message = Severity.ERROR, "unresolved", earliest.message
         hint = f"did you mean `{earliest.meant}`?" if earliest.meant else ""
-        if earliest.kind is UnresolvedKind.ELEMENT:
-            robot, snapshot = package.robot, package.generation.now.snapshot
-            if earliest.owner in [f"{robot.target.package}.{model}" for model in package.models]:
-                advice = package.inputs.domain.advice
-                option = advice.option_for(earliest.part, snapshot, robot.target, robot.options) if advice else ""
-                hint = brings_back(option) or hint
+        told = package.hints.get((shown(file), message), "").partition("; also in line")[0]
+        hint = told or hint
     lines = sorted({place.line for place in places} - {earliest.line})
     also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
     path = file.relative_to(files.folder).as_posix() if file.is_relative_to(files.folder) else ""

@@ -93,6 +93,8 @@ class RobotPackage(msgspec.Struct):
     """The edited files, without those that differ in comments and blanks only."""
     edits: tuple[str, ...]
     """The files in `changed` that belong to the main model."""
+    hints: Mapping[tuple[str, str], str]
+    """The hints of a build about unresolved names, which know of renames, by file and message."""
 
 
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> RobotPackage:
@@ -141,6 +143,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
         models=tuple(models),
         changed=changed,
         edits=tuple(path for path in changed if path not in benches),
+        hints={(one.file, one.message): one.hint for one in built.diagnostics if one.code == "unresolved"},
     )
 
 

@@ -26,7 +26,7 @@ from urdfsync.common.diagnostics import Diagnostic, Severity, UrdfsyncError, fin
 from urdfsync.common.files import shown
 from urdfsync.common.processes.workers import tell
 from urdfsync.domain import registry
-from urdfsync.domain.experiment import Checks, Experiment, Mismatch, Numbers, Sample
+from urdfsync.domain.experiment import Checks, Experiment, Mismatch, MissingReferenceError, Numbers, Sample
 from urdfsync.engine.judgements import judge
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.sources.expansion import SourceFiles, compare
@@ -144,7 +144,12 @@ def _check(
         result.gaps += (f"{files} outside of the package: nothing there was compiled",)
     every = find_libraries(config, robot, [*contents, *names.users_files.values()], uses)
     every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
-    experiment = _experiment(package, options, result, limits)
+    try:
+        experiment = _experiment(package, options, result, limits)
+    except MissingReferenceError as error:  # told before minutes of compiling
+        (problem,) = error.diagnostics
+        result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}, or check without `--physics`",)
+        return
     answers = [result] if len(options.tools) == 1 else [ToolResult() for _ in options.tools]
     compilations = [
         Compilation(package, tool, needed, users, every, limits, folder / tool.name, options.compilers, answer)
@@ -218,18 +223,21 @@ def _sample(package: RobotPackage) -> Sample:
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
-    """Return why nothing can be compiled: an error with `--physics`, or if the user named the missing part."""
+    """Return why nothing can be compiled; it is an error if the user named the missing part."""
     missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
     has_library = all(compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
     problem = missing or (None if has_library else needed.problem)
     is_wanted = options.tools != CheckOptions().tools if missing else config.check.library
-    if problem and (options.physics or is_wanted):
+    if problem and is_wanted:
         result.add([problem])
     return problem
 
 
 def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits) -> Experiment | None:
-    """Return the experiment for the package; None if there is none, with the reason in the result."""
+    """Return the experiment for the package; None if there is none, with the reason in the result.
+
+    Raises MissingReferenceError.
+    """
     robot = package.robot
     if registry.domain(robot.domain).checks is None:
         return None
@@ -241,6 +249,8 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
         sample = _sample(package)
         step = _STEP if options.curves else None
         (experiment,) = process.run(_experiments, robot.domain, sample, step, limits=limits)
+    except MissingReferenceError:
+        raise
     except UrdfsyncError as error:
         result.add(error.diagnostics)
         return None

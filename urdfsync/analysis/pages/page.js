@@ -76,7 +76,9 @@ function refresh() {
 
 /* Says something beside the picture; without words, what is measured or selected. */
 function say(words) {
-  const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : `This ${data.now.noun} has no shapes: its frames are shown.`;
+  const [missing, ...others] = data.notes.map((note) => note.replaceAll("`", "")), more = others.length ? ` (and ${others.length} more)` : "";
+  const why = missing ? `Only frames are shown: ${missing}${more}` : `This ${data.now.noun} has no shapes: its frames are shown.`;
+  const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : why;
   const passed = page.now.scene.hinges.filter((hinge) => isBeyond(hinge, page.positions.get(hinge.element))).map((hinge) => nameOf(hinge.element));
   const alarm = passed.length ? `Beyond the limits: ${passed.join(", ")}` : "";
   element("told").textContent = [words || page.ruler?.words() || page.selected || bare, alarm].filter(Boolean).join(" · ");

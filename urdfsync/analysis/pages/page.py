@@ -23,6 +23,7 @@ from urdfsync.analysis.pages import threejs
 from urdfsync.analysis.pages.content import Content
 from urdfsync.analysis.simulation.files import check_file, not_writable
 from urdfsync.analysis.simulation.results import SimulateResult
+from urdfsync.common.spelling import counted
 from urdfsync.common.version import __version__
 from urdfsync.domain.experiment import Deviation
 from urdfsync.domain.scene import PageMesh
@@ -68,7 +69,7 @@ def page(
     style = (_FOLDER / "page.css").read_text("utf-8")
     styles = [style, *(part.partition("</style>")[0] for part in content.diagram.split("<style>")[1:])]
     environment = html_environment(_FOLDER)
-    environment.filters |= {"words": words, "findings": findings_table}
+    environment.filters |= {"words": words, "findings": findings_table, "counted": counted}
     environment.globals |= {"difference_lines": difference_lines, "reason": reason, "settle_hint": settle_hint}
     curves = check.curves if check else ()
     picture = content.picture
@@ -77,6 +78,7 @@ def page(
         "now": picture.now,
         "before": picture.before,
         "poses": picture.poses,
+        "notes": picture.notes,
         "meshes": {name: [mesh.points, mesh.faces, *mesh.box] for name, mesh in picture.meshes.items()},
         "motion": simulation and _motion(simulation),
         "curves": curves,

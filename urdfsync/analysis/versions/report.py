@@ -8,7 +8,7 @@ import tomli_w
 
 from urdfsync.analysis.versions.comparison import Comparison
 from urdfsync.common.spelling import counted
-from urdfsync.engine.actions import USERS, Reason
+from urdfsync.engine.actions import SO_FAR, USERS, Reason
 from urdfsync.engine.decide.conflicts import describe_doubt
 from urdfsync.engine.stage.findings import CONNECTORS
 from urdfsync.output.build_section import build_section, change_parts, file_table
@@ -67,8 +67,8 @@ def _effect_line(*row: str) -> StyledLine:
 
 
 def _file_line(path: str, word: str, why: str) -> StyledLine:
-    """Return a line for one file, with the reason if the user edited the file."""
-    return file_line(path, word, why if word in USERS else "")
+    """Return a line for one file, with its former name, and with the reason if the user edited the file."""
+    return file_line(path, word, why if word in USERS or why.startswith(SO_FAR) else "")
 
 
 def _doubts(compared: Comparison) -> Iterator[str]:

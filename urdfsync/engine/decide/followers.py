@@ -6,7 +6,7 @@ edit that git has merged with the rename of another branch.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -30,7 +30,7 @@ def follow(inputs: Inputs, generation: Generation, decision: Decision) -> Decisi
     They follow as the user allows merges; else they conflict, and the new text is proposed.
     """
     package, renamed, texts = generation.package, decision.differences.former, dict(decision.texts)
-    decision = decision.with_actions((*decision.actions, *_find_users_classes(inputs, decision.actions)))
+    decision = decision.with_actions((*decision.actions, *_find_users_classes(inputs, decision)))
     after = PackageAfter(inputs, package, decision.actions, texts, conflicts_empty=True)
     users = {Reason.KEEP, Reason.MERGE, Reason.MOVE, Reason.UNKNOWN}
     keys = {
@@ -60,14 +60,17 @@ def follow(inputs: Inputs, generation: Generation, decision: Decision) -> Decisi
     return decision.with_actions(actions, texts=texts, disputed=conflicts)
 
 
-def _find_users_classes(inputs: Inputs, actions: Iterable[Action]) -> Iterator[Action]:
+def _find_users_classes(inputs: Inputs, decision: Decision) -> Iterator[Action]:
     """Yield an action for each of the user's own classes in the package, which changes nothing."""
-    known, files = {key for action in actions for key in (action.path, action.origin) if key}, inputs.files
+    known, files = {key for action in decision.actions for key in (action.path, action.origin) if key}, inputs.files
+    paths = {file_id: path for path, file_id in decision.differences.ids.items()}
     others = tuple(f"{files.key(one.folder)}/" for one in inputs.config.robots if one.name != inputs.robot.name)
     for key in sorted(files.classes(inputs.folder) - known):
         if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
-            mine = files.hash(key, Role.MODEL) if files.can_read(key) else None
-            yield Action(key, Reason.UNKNOWN, Role.MODEL, mine=mine)
+            state = files.state(key) if files.can_read(key) else None
+            mine, stamp = (state.text_sha256, state.stamp) if state else (None, None)
+            copy_of = paths.get(stamp.id, "") if stamp else ""
+            yield Action(key, Reason.UNKNOWN, Role.MODEL, mine=mine, copy_of=copy_of)
 
 
 def _find_followers(

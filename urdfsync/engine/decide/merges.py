@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.domain import Role
+from urdfsync.domain import ElementKey, Role
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Choice, Reason
 from urdfsync.engine.decide.conflicts import (
     PREFERENCES,
@@ -20,12 +21,14 @@ from urdfsync.engine.decide.conflicts import (
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.misfits import look_for_misfits
 from urdfsync.engine.decide.package_after import PackageAfter, keep_needed
-from urdfsync.engine.decide.package_names import class_of, known_names, names_of
+from urdfsync.engine.decide.package_names import class_of, elements_by_identifier, identifier_of, known_names, names_of
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.package_files import PackageFiles
-from urdfsync.engine.package.generate import Package
 from urdfsync.modelica import markers
+
+if TYPE_CHECKING:
+    from urdfsync.engine.decide.fit import Misfit
 
 _IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP})
 """Reasons for which a generated file stays."""
@@ -38,12 +41,12 @@ def merge_edits(inputs: Inputs, generation: Generation, decision: Decision) -> D
     package, actions = generation.package, decision.actions
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     conflicts = {one.path: _conflict(inputs, generation, one, decision) for one in disputed}
-    present = {(file_id, class_of(path)) for path, file_id in decision.differences.ids.items()}
-    conflicts = _refuse_unfit_merges(_Trials(inputs, package, actions, present), conflicts)
+    trials = _Trials(inputs, generation, decision)
+    conflicts = _refuse_unfit_merges(trials, conflicts)
     names = {name: new for (_, name), new in decision.differences.renames.items()} | dict(decision.names)
     renamed = {key for key, conflict in conflicts.items() if only_names_changed(conflict, names)}
     resolved, texts = resolve(actions, conflicts, merging=inputs.is_merging, renamed=renamed)
-    needed = keep_needed(PackageAfter(inputs, package, resolved, texts), present)
+    needed = keep_needed(PackageAfter(inputs, package, resolved, texts), trials.present)
     written, texts = _write_git_merges(inputs.files, needed, texts)
     return decision.with_actions(written, texts=texts, disputed=conflicts)
 
@@ -114,11 +117,14 @@ class _Trials(msgspec.Struct, frozen=True, dict=True):
     """Looks at packages as they would be with some merges; decides nothing."""
 
     inputs: Inputs
-    package: Package
-    actions: Sequence[Action]
-    """The actions before any merge."""
-    present: Collection[tuple[str, str]]
-    """The id and the class of each generated file."""
+    generation: Generation
+    decision: Decision
+    """The decision before any merge."""
+
+    @functools.cached_property
+    def present(self) -> Collection[tuple[str, str]]:
+        """The id and the class of each generated file."""
+        return {(file_id, class_of(path)) for path, file_id in self.decision.differences.ids.items()}
 
     def find_unfit(self, conflicts: Mapping[str, Conflict], side: Choice | None) -> dict[str, str]:
         """Return why merges do not fit the package, by key; `side` decides contradictions, None tries clean merges."""
@@ -131,28 +137,50 @@ class _Trials(msgspec.Struct, frozen=True, dict=True):
         }
         if not tried:
             return {}
-        planned, merged = resolve(self.actions, conflicts, merging=True, choice=side)
-        planned = keep_needed(PackageAfter(self.inputs, self.package, planned, merged), self.present)
-        after = PackageAfter(self.inputs, self.package, planned, merged, conflicts_empty=True)
+        package = self.generation.package
+        planned, merged = resolve(self.decision.actions, conflicts, merging=True, choice=side)
+        planned = keep_needed(PackageAfter(self.inputs, package, planned, merged), self.present)
+        after = PackageAfter(self.inputs, package, planned, merged, conflicts_empty=True)
         misfits = [one for one in look_for_misfits(after, merged.keys()) if one.key in tried]
         unfit = dict[str, str]()
         for misfit in misfits:
-            key, finding = misfit.key, misfit.finding
+            key = misfit.key
             # names in a class whose file has another name are not looked up: a killed build may have moved the file
             known = {(conflicts[key].origin or key, misfit.fault), (key, "wrong-name")}
             is_new = known.isdisjoint(self._present_faults)
             if key not in unfit and is_new and tried[key] != conflicts[key].mine:
-                unfit[key] = f"in the merge, {finding.message} (line {finding.line})"
+                unfit[key] = f"in the merge, {self._describe(misfit, tried[key])}"
         return unfit
+
+    def _describe(self, misfit: Misfit, text: str) -> str:
+        """Return a misfit in words, with its line in the merged text."""
+        from urdfsync.merge.words import quoted  # loaded for the merge
+
+        finding, removed = misfit.finding, self._removed
+        element = removed.get(identifier_of(misfit.use.part, removed)) if misfit.use else None
+        since = f", since {' '.join(element)} is removed" if element else ""
+        line = text.split("\n")[finding.line - 1]
+        return f"{finding.message}{since}{f'; line {finding.line}: `{quoted(line)}`' if finding.line else ''}"
+
+    @functools.cached_property
+    def _removed(self) -> Mapping[str, ElementKey]:
+        """The elements that the source no longer has, by their former identifiers."""
+        if (last := self.inputs.last.version) is None:
+            return {}
+        domain, renames = self.inputs.domain, self.decision.differences.renames
+        former = elements_by_identifier(domain, last.snapshot, self.inputs.last.target)
+        present = elements_by_identifier(domain, self.generation.now.snapshot, self.inputs.robot.target).values()
+        return {name: element for name, element in former.items() if element not in {*present, *renames}}
 
     @functools.cached_property
     def _present_faults(self) -> set[tuple[str, str]]:
         """The faults that the texts in dispute have without any merge: key and fault."""
         # names in a folder without its `package.mo` are not looked up: the faults there would seem to be new
-        restored = {one.path for one in self.actions if one.reason is Reason.RESTORE and one.base == one.generated}
-        waiting = [msgspec.structs.replace(one, is_waiting=one.path not in restored) for one in self.actions]
-        paths = {one.origin or one.path for one in self.actions if one.reason in DISPUTED}
-        without = PackageAfter(self.inputs, self.package, waiting, {})
+        actions = self.decision.actions
+        restored = {one.path for one in actions if one.reason is Reason.RESTORE and one.base == one.generated}
+        waiting = [msgspec.structs.replace(one, is_waiting=one.path not in restored) for one in actions]
+        paths = {one.origin or one.path for one in actions if one.reason in DISPUTED}
+        without = PackageAfter(self.inputs, self.generation.package, waiting, {})
         return {(one.key, one.fault) for one in look_for_misfits(without, paths)}
 
 

@@ -43,6 +43,11 @@ def find_places(
             place = msgspec.structs.replace(place, is_displaced=is_displaced)
         places[key] = place
 
+    def is_edited_copy(key: str, stamp: Stamp) -> bool:
+        """Whether a file, whose part may be gone, has an edit of a text that was generated for another path."""
+        text = last.base(stamp.base) if files.hash(key, Role.MODEL) != stamp.base else None
+        return text is not None and not is_in_place(text, last.target, last.folder.path(key))
+
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
     for name, entry in generation.imported.imports.items():
@@ -50,10 +55,10 @@ def find_places(
     for key in last.files.keys() - places.keys():
         stamp, recorded = files.stamp(key), last.record.files
         is_folder = as_file(key) in places or as_file(key) in recorded
-        is_copy = stamp is not None and stamp.id in present and key not in moved
+        path = last.folder.path(key)
+        is_copy = stamp is not None and key not in moved and (stamp.id in present or is_edited_copy(key, stamp))
         if key not in recorded and (is_folder or is_copy):
             continue  # the user turned the class into a folder, copied it, or gave it another name
-        path = last.folder.path(key)
         # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
         old = last.package.artifacts.get(path) if last.package else None
         add(key, old.role if old else role_of(path), old.owner if old else "", None)

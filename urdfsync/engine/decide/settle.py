@@ -90,7 +90,7 @@ class _Choices:
             case Choice.KEEP:
                 return self._keep(action)
             case Choice.TAKE:
-                return self._take(action)
+                return self._take(action, chosen)
             case _:
                 return self._merge(action, chosen)
 
@@ -139,7 +139,7 @@ class _Choices:
         self._add(action, self._stamped(action, content, base), Reason.KEEP, Choice.KEEP)
         return True
 
-    def _take(self, action: Action) -> bool:
+    def _take(self, action: Action, chosen: UsersChoice) -> bool:
         """Take the generated text, or delete a file that is not generated any more."""
         inputs, key = self._inputs, action.origin or action.path
         if action.reason is Reason.ORPHAN:
@@ -147,16 +147,14 @@ class _Choices:
             return True
         if action.mine is None or not (action.is_conflict or action.reason in _EDITED):
             return False
-        base, mine = action.generated, inputs.files.read_on_disk(key) or b""
-        conflict = self._decision.disputed.get(action.path)
         if action.generated is None:  # a class of the user's own: its text with new names is proposed
-            text = conflict.merged(None) if conflict else None
-            content = None if text is None else encode(text)
-        elif conflict and action.origin:
+            return self._merge(action, msgspec.structs.replace(chosen, choice=Choice.MERGE))
+        base, mine = action.generated, inputs.files.read_on_disk(key) or b""
+        content = self._generation.content(inputs.folder.path(action.path), action.role, mine)
+        conflict = self._decision.disputed.get(action.path)
+        if conflict and action.origin:
             base = self._former_base(action, conflict)
             content = with_line_ends(encode(self._with_former_names(action, conflict, conflict.generated)), mine)
-        else:
-            content = self._generation.content(inputs.folder.path(action.path), action.role, mine)
         if content is None:
             return False
         self._add(action, self._stamped(action, content, base), Reason.UPDATE, Choice.TAKE)

@@ -47,15 +47,22 @@ def _adjust(
     if left.get(action.path, True) is None:
         action = msgspec.structs.replace(action, is_left_by_git=True)
     file_id = ids.get(inputs.folder.path(action.path))
-    if action.reason is Reason.UNCHANGED and file_id:
-        is_stamped = inputs.files.stamp(action.path) == Stamp(file_id, str(action.generated))
-        return action if is_stamped else msgspec.structs.replace(action, reason=Reason.UPDATE)
+    if file_id and action.mine and action.reason in (Reason.UNCHANGED, Reason.KEEP):
+        stamp = inputs.files.stamp(action.path)
+        if action.reason is Reason.UNCHANGED:
+            is_stamped = stamp == Stamp(file_id, str(action.generated))
+            stampless = msgspec.structs.replace(action, reason=Reason.UPDATE, lacks_stamp=stamp is None)
+            return action if is_stamped else stampless
+        action = msgspec.structs.replace(action, lacks_stamp=stamp is None)
     if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
     if action.reason is Reason.DELETE and action.mine is not None and action.role is not Role.IMPORT:
         # a record alone proves nothing: its author, or git's union of two records, may name any file of the user's
-        is_written = action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)
-        return action if is_written else msgspec.structs.replace(action, reason=Reason.ORPHAN)
+        if not (action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)):
+            return msgspec.structs.replace(action, reason=Reason.ORPHAN)
+        stamp = inputs.files.stamp(action.path)
+        copied = (path for path, one in ids.items() if stamp and one == stamp.id)
+        return msgspec.structs.replace(action, copy_of=next(copied, ""))
     return action
 
 

@@ -262,6 +262,16 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
     return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", f"{what} not found", source, line, hint=hint)
 
 
+def find_missing(dependencies: Sequence[Dependency], source: str) -> Iterator[Diagnostic]:
+    """Yield a warning for all files that are not found and have the same hint; `source` as in `import_files`."""
+    missing: dict[str, list[Dependency]] = {}
+    for one in dependencies:
+        if not _is_found(one):
+            missing.setdefault(_not_found([one], source).hint, []).append(one)
+    for alike in missing.values():
+        yield _not_found(alike, source, min(one.line for one in alike))
+
+
 def _find_other_case(path: Path) -> Path | None:
     """Return an existing path that differs only in case: the exporter's system may ignore case."""
     try:

@@ -14,7 +14,7 @@ from support.urdfs import dynamics, joint, limit, link, links, robot
 from urdfsync.analysis.checks.compilation import compare_all
 from urdfsync.common.diagnostics import SourceError
 from urdfsync.domain import Target
-from urdfsync.domain.experiment import TOLERANCE, Aspect, Experiment, Quantity, Sample
+from urdfsync.domain.experiment import TOLERANCE, Aspect, Experiment, MissingReferenceError, Quantity, Sample
 from urdfsync.formats.urdf.domain import DOMAIN
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.physics.reference import read
@@ -91,7 +91,7 @@ def test_mujoco_is_the_reference_without_pinocchio_and_without_both_there_is_no_
     assert re.fullmatch(r"MuJoCo \d+\.\d+\.\d+", one.reference)
     assert one.trials[0].expected["mass"][:5] == pytest.approx((7.2,) * 5)
     monkeypatch.setitem(sys.modules, "urdfsync.formats.urdf.physics.mujoco_robot", None)
-    with pytest.raises(SourceError, match=r"neither Pinocchio nor MuJoCo is installed.*no-reference"):
+    with pytest.raises(MissingReferenceError, match=r"neither Pinocchio nor MuJoCo is installed.*no-reference"):
         experiment(ARM)
 
 

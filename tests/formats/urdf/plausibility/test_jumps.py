@@ -21,6 +21,16 @@ def test_masses_that_jump_are_one_warning() -> None:
     assert list(find_jumps(old, old, {})) == []
 
 
+@pytest.mark.parametrize(
+    ("size", "ratio"), [(1000, ", by the ratio of kg and g"), (0.001, ", by the ratio of kg and g"), (500, "")]
+)
+def test_masses_that_jump_by_a_thousand_are_in_grams_also_of_a_small_robot(size: float, ratio: str) -> None:
+    old, new = (version(*links(base=0.02 * factor, arm=0.005 * factor), joint("a", "fixed", "base", "arm"))
+                for factor in (1, size))  # fmt: skip
+    (found,) = find_jumps(old, new, {})
+    assert found.message.endswith(f" kg (and 1 more like it){ratio}")
+
+
 def two(*inside: str, xyz: str = "0 0 0.2", shape: str = "") -> list[str]:
     body = link("arm", 2.0).replace("</link>", f"{shape}</link>")
     return [link("base", 1.0), body, joint("j", "revolute", "base", "arm", xyz=xyz, inside=inside)]

@@ -32,8 +32,8 @@ _MOST_AXES = 20
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     """Return the comparison, see `urdfsync.domain.experiment.Checks`.
 
-    Moving links without a mass get inertias. Raises SourceError if the source has an error, or if
-    there is no reference, or it can't read the source.
+    Moving links without a mass get inertias. Raises MissingReferenceError, and SourceError if the source has an error
+    or the reference can't read it.
     """
     file, options = sample.file, sample.options
     reading = read_robot(sample.content, file, options, *sample.companions)

@@ -22,6 +22,7 @@ from trimesh import transformations
 
 from urdfsync.common.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.common.extras import install_command
+from urdfsync.domain.experiment import MissingReferenceError
 from urdfsync.formats.urdf.kinematics.loops import ClosedLoops
 from urdfsync.formats.urdf.kinematics.poses import start_positions
 from urdfsync.formats.urdf.parse import xml
@@ -59,7 +60,7 @@ def read(
 ) -> ReadRobot:
     """Read a URDF, as `completion` writes it, with Pinocchio, else with MuJoCo; `rows` are those of the catalogue.
 
-    Raises SourceError if neither is installed, or if it refuses the file.
+    Raises MissingReferenceError, and SourceError if the reference refuses the file.
 
     Pinocchio merges fixed joints and gives no forces in them, so fixed joints in `loose` become movable.
     """
@@ -104,7 +105,7 @@ def read(
 
 
 def reference_class() -> type[Multibody]:
-    """Return the reference of this machine. Raises SourceError if there is none."""
+    """Return the reference of this machine. Raises MissingReferenceError if there is none."""
     with contextlib.suppress(ImportError):  # Pinocchio has no package for Windows
         from urdfsync.formats.urdf.physics.pinocchio_robot import PinocchioRobot
 
@@ -113,8 +114,7 @@ def reference_class() -> type[Multibody]:
         from urdfsync.formats.urdf.physics.mujoco_robot import MujocoRobot
     except ImportError:
         message = "neither Pinocchio nor MuJoCo is installed, the references for physics"
-        hint = install_command("physics")
-        raise SourceError(Diagnostic(Severity.ERROR, "no-reference", message, hint=hint)) from None
+        raise MissingReferenceError.of("no-reference", message, hint=install_command("physics")) from None
     return MujocoRobot
 
 

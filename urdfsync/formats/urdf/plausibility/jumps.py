@@ -48,7 +48,9 @@ def find_jumps(old: Robot, new: Robot, renames: Mapping[ElementKey, str]) -> Ite
                     units[unit].append(_Jump(place, a, b))
     if masses:
         first, path = masses[0], masses[0].path.partition(" / ")[0]
-        message = f"{path}: its mass jumps, {first.before:g} kg → {first.after:g} kg{more(masses)}"
+        are_grams = all(units_of(jump.after / jump.before) == units_of(1000) for jump in masses)
+        ratio = ", by the ratio of kg and g" if are_grams else ""
+        message = f"{path}: its mass jumps, {first.before:g} kg → {first.after:g} kg{more(masses)}{ratio}"
         yield Finding("mass-jump", first.path, message)
     for unit, jumps in units.items():
         first = jumps[0]
