@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.networks import MODEL, R2, drop, edit, run
+from support.networks import R2, drop, edit, run
 
 from urdfsync.engine.actions import Choice, UsersChoice, sides_hash
 from urdfsync.engine.build import build
@@ -23,15 +23,6 @@ def deleted(project: Path) -> None:
     run()
     run(choices={R2: Choice.TAKE})
     assert not Path(R2).exists()
-
-
-def test_nothing_is_undone_where_no_build_wrote_over_the_file(project: Path) -> None:
-    """The command refuses that before; a choice may be older than the files."""
-    run()
-    edit(MODEL, "end Ladder;", "// mine\nend Ladder;")
-    mine = Path(MODEL).read_text()
-    assert run(choices={MODEL: Choice.UNDO}).conflicts == []
-    assert Path(MODEL).read_text() == mine
 
 
 def test_what_a_stranger_put_beside_the_state_is_no_bug(deleted: None, execute: Execute) -> None:

@@ -10,7 +10,6 @@ axes are Bᵀ·tau. With loops, q̇ = N(p)·ṗ and q̈ = N·p̈ + drift (see `c
 
 from __future__ import annotations
 
-import contextlib
 import copy
 from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
@@ -106,16 +105,17 @@ def read(
 
 def reference_class() -> type[Multibody]:
     """Return the reference of this machine. Raises MissingReferenceError if there is none."""
-    with contextlib.suppress(ImportError):  # Pinocchio has no package for Windows
+    try:  # Pinocchio has no package for Windows
         from urdfsync.formats.urdf.physics.pinocchio_robot import PinocchioRobot
-
-        return PinocchioRobot
-    try:
-        from urdfsync.formats.urdf.physics.mujoco_robot import MujocoRobot
-    except ImportError:
-        message = "neither Pinocchio nor MuJoCo is installed, the references for physics"
-        raise MissingReferenceError.of("no-reference", message, hint=install_command("physics")) from None
-    return MujocoRobot
+    except ImportError as without_pinocchio:
+        try:
+            from urdfsync.formats.urdf.physics.mujoco_robot import MujocoRobot
+        except ImportError as error:
+            why = f"{without_pinocchio}; {error}"  # not installed, or damaged
+            message = f"neither Pinocchio nor MuJoCo can be loaded, the references for physics: {why}"
+            raise MissingReferenceError.of("no-reference", message, hint=install_command("physics")) from None
+        return MujocoRobot
+    return PinocchioRobot
 
 
 class Configuration(msgspec.Struct, frozen=True):
