@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from urdfsync.domain import ElementKey, Role, Snapshot
 from urdfsync.domain.matching import Doubt
@@ -32,7 +32,7 @@ def find_doubts(
     inputs: Inputs,
     generation: Generation,
     differences: Differences,
-    actions: Iterable[Action],
+    actions: Sequence[Action],
 ) -> dict[str, Doubt]:
     """Return the doubts whether edited files belong to the same elements as before, by key."""
     edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
@@ -41,9 +41,9 @@ def find_doubts(
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
     # the user's decision about an export holds until the next export
     is_told = inputs.last.seen == generation.now.snapshot
-    doubts = dict[str, Doubt | None]()
+    doubts = _of_other_parts(inputs, generation, differences, unconfirmed)
     for action in unconfirmed if is_told else edited:
-        doubts[action.path] = _doubt(inputs, generation, differences, action)
+        doubts[action.path] = doubts.get(action.path) or _doubt(inputs, generation, differences, action)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
     doubts |= open_doubts
     unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
@@ -52,7 +52,7 @@ def find_doubts(
     package, nothing = generation.package, ("", None)
     for action in unknown if others or commits else ():
         lines = _added_lines(inputs, package, action)
-        shared = ((commit, lines & _lines(texts.get(action.path, nothing)[0])) for commit, texts in commits)
+        shared = [(commit, lines & _lines(texts.get(action.path, nothing)[0])) for commit, texts in commits]
         meanings = (
             _meanings_in(inputs, package, differences.ids, commit, action, both) for commit, both in shared if both
         )
@@ -62,7 +62,28 @@ def find_doubts(
             else:
                 doubt = found.get(element)
             doubts[action.path] = doubts.get(action.path) or doubt
+        renamed = (one for one, texts in commits if action.path not in texts and _element(action))
+        mixed = (_mixed_by_git(inputs, package, differences.ids, one, action, lines) for one in renamed)
+        doubts[action.path] = doubts.get(action.path) or next(filter(None, mixed), None)
+    reopened = inputs.settled.doubts
+    doubts |= {one.path: reopened[one.path] for one in actions if one.path in reopened and one.reason in EDITED}
     return {path: doubt for path, doubt in doubts.items() if doubt}
+
+
+def _of_other_parts(
+    inputs: Inputs, generation: Generation, differences: Differences, actions: Iterable[Action]
+) -> dict[str, Doubt | None]:
+    """Return a doubt for each edit that builds have seen in the file of another part, by key.
+
+    Such an edit moves there, unless that file is edited, too: as git leaves two edits of one part.
+    """
+    doubts, targets = dict[str, Doubt | None](), {file_id: path for path, file_id in differences.ids.items()}
+    for action in actions:
+        target = targets.get(inputs.last.edits.get(action.mine or "", ""))
+        if target and target != inputs.folder.path(action.path):
+            moved_to = generation.package.owners[target].partition(" ")[2]
+            doubts[action.path] = Doubt(action.owner, "", (), moved_to, is_certain=True)
+    return doubts
 
 
 def _meanings_in(
@@ -85,6 +106,25 @@ def _meanings_in(
         moved_to = package.owners[target].partition(" ")[2] if target else ""
         doubts[kind, name] = Doubt(owners[key], "", (), moved_to, is_certain=True)
     return doubts
+
+
+def _mixed_by_git(
+    inputs: Inputs, package: Package, ids: Mapping[str, str], commit: PastCommit, action: Action, lines: Counter[str]
+) -> Doubt | None:
+    """Return a doubt about an edit that a commit has in the file of another part.
+
+    If a file is gone and a similar one is new, git takes this for a rename, and brings edits of the one into the other.
+    """
+    targets = {file_id: path for path, file_id in ids.items()}
+    for text, stamp in commit.texts(commit.beside(action.path)).values() if lines else ():
+        if stamp is None or is_of_part(stamp, ids[inputs.folder.path(action.path)]) or lines - _lines(text):
+            continue
+        target = targets.get(stamp.id)
+        if target and not lines - _lines(inputs.files.any_text(inputs.folder.key(target))):
+            continue  # it is there, too
+        moved_to = package.owners[target].partition(" ")[2] if target else ""
+        return Doubt(action.owner, "", (), moved_to, is_certain=True)
+    return None
 
 
 def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Action]) -> dict[str, Doubt]:

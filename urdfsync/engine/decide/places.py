@@ -75,8 +75,10 @@ def find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
             target = targets.get(file_id)
             if target is None or as_file(target) == as_file(key):
                 continue
-            there = files.stamp(target)
-            is_there = there is not None and there.id == file_id and there.base != files.hash(target, Role.MODEL)
+            there, text_there = files.stamp(target), files.hash(target, Role.MODEL) or ""
+            is_there = (
+                there is not None and file_id == last.edits.get(text_there, there.id) and there.base != text_there
+            )
             is_edited = files.hash(key, Role.MODEL) != stamp.base
             is_trusted = files.is_chosen(key) or (
                 is_in_place(last.base(stamp.base), last.target, folder.path(key))

@@ -108,6 +108,7 @@ class _Choices:
         if content is None:
             return False
         settled.texts.update(aside.base)
+        settled.doubts |= {key: aside.doubt} if aside.doubt else {}
         for path, model in aside.beside.items():
             if (place := inputs.folder.key(path)) not in settled.contents and inputs.files.read(place) is None:
                 settled.contents[place] = encode(model)
@@ -209,7 +210,8 @@ class _Choices:
         mine = self._inputs.files.read_on_disk(key)
         is_same = mine is not None and content is not None and bare_hash(mine) == bare_hash(content)
         if mine is not None and not (choice is Choice.UNDO and is_same):
-            settled.before[key] = Replaced(mine, known_base(last.base(last.base_of(key, action.role))))
+            doubt = self._decision.doubts.get(action.path)
+            settled.before[key] = Replaced(mine, known_base(last.base(last.base_of(key, action.role))), doubt)
         settled.contents[key] = content
         changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
         settled.actions[key] = msgspec.structs.replace(action, **changes)

@@ -39,6 +39,15 @@ class PastCommit(msgspec.Struct, frozen=True):
         contents = {key: content for key, content in found.items() if isinstance(content, bytes)}
         return {key: split(plain(content.decode(errors="replace"))) for key, content in contents.items()}
 
+    def beside(self, key: str) -> list[str]:
+        """Return the keys of all files of the package in the folder of a file."""
+        folder = key.rpartition("/")[0]
+        try:
+            found = self._revision.find(str(self._files.path(folder)))
+        except SourceError:
+            return []
+        return [f"{folder}/{name}" for name in found if not name.endswith("/")] if isinstance(found, list) else []
+
 
 def read_commits(root: Path, files: PackageFiles) -> Iterator[PastCommit]:
     """Yield the commits that an edit may have been picked from: of branches, and those that were checked out last."""

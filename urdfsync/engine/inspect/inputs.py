@@ -16,6 +16,7 @@ from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity, Urdfs
 from urdfsync.common.files import Templates, digest, shown
 from urdfsync.common.version import __version__
 from urdfsync.domain import Domain, registry
+from urdfsync.domain.matching import Doubt
 from urdfsync.engine.actions import Action
 from urdfsync.engine.inspect import parents
 from urdfsync.engine.inspect.commits import PastCommit, read_commits
@@ -42,6 +43,8 @@ class Replaced(NamedTuple):
 
     text: bytes
     base: Mapping[str, str]
+    doubt: Doubt | None = None
+    """The question that the choice about it answers."""
 
 
 class Settled(msgspec.Struct):
@@ -60,6 +63,8 @@ class Settled(msgspec.Struct):
     """New names by old names, before the choices."""
     keys: set[str] = msgspec.field(default_factory=set)
     """Keys of the choices that were applied."""
+    doubts: dict[str, Doubt] = msgspec.field(default_factory=dict)
+    """The questions that are open again, since a choice was undone, by key."""
 
 
 class Inputs(msgspec.Struct, frozen=True, dict=True):

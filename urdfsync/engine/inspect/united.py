@@ -100,14 +100,19 @@ def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
 
 
 def _take_apart(inputs: Inputs, sides: Sides) -> _Meant | None:
-    """Return the unedited version, and the edited one for its own file, if they are of different parts; else None."""
+    """Return the version of this part, and the other one for its own file, if they are of different parts; else None.
+
+    The other part's file must be unedited, and an unedited version is never the other one.
+    """
     versions = [(sides.ours, sides.stamps[1]), (sides.theirs, sides.stamps[2])]
-    (text, stamp), (edited, other) = sorted(versions, key=lambda one: not _are_generated(inputs.last, one[:1]))
-    if stamp is None or other is None or stamp.id == other.id or not _are_generated(inputs.last, [text]):
-        return None
-    for key, there in inputs.files.stamps(inputs.folder).items():
-        if there.id == other.id and there.base == inputs.files.hash(key, Role.MODEL):
-            return _Meant(text, stamp, {key: with_stamp(encode(edited), other)})
+    first, second = sorted(versions, key=lambda one: not _are_generated(inputs.last, one[:1]))
+    ways = [(first, second)] if _are_generated(inputs.last, first[:1]) else [(first, second), (second, first)]
+    for (text, stamp), (edited, other) in ways:
+        if stamp is None or other is None or stamp.id == other.id:
+            return None
+        for key, there in inputs.files.stamps(inputs.folder).items():
+            if there.id == other.id and there.base == inputs.files.hash(key, Role.MODEL):
+                return _Meant(text, stamp, {key: with_stamp(encode(edited), other)})
     return None
 
 

@@ -65,7 +65,7 @@ def put_aside(
         place, after = PurePosixPath(path_of(key)), contents.get(key, settled.contents.get(key))
         file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
         sha256 = None if after is None else bare_hash(after)
-        index[str(place)] = Aside(file, sha256, former.base, beside if key in chosen else {})
+        index[str(place)] = Aside(file, sha256, former.base, beside if key in chosen else {}, former.doubt)
         texts[file] = former.text
     return index, texts
 

@@ -65,7 +65,7 @@ def records_after(inputs: Inputs, generation: Generation, decision: Decision) ->
     )
     # an edit is not worth a commit of the record, unless a clone would ask which part it belongs to
     asked = {" ".join(element) for element in other_meanings(inputs, generation, differences.parts)}
-    told = {str(one.mine) for one in decision.actions if one.owner in asked}
+    told = {merged.get(one.path, str(one.mine)) for one in decision.actions if one.owner in asked}
     silent = msgspec.structs.replace(
         new, edits={**old.edits, **{sha256: edits[sha256] for sha256 in edits.keys() & told}}
     )
@@ -102,12 +102,13 @@ def _open_record(
     # a decision about an earlier export does not answer a question, not in the next build either
     questions = (one for one in decision.actions if one.reason is Reason.ASKED)
     asked = {edit_key(one.path, one.mine): decision.doubts[one.path] for one in questions}
-    confirmed |= last.record.confirmed.difference(asked)
+    chosen = {bare_hash(text) for text in inputs.settled.contents.values() if text is not None}
+    confirmed |= last.record.confirmed | chosen
     ids = find_part_ids(inputs, generation, Matching(decision.differences.undeclared))
     new = msgspec.structs.replace(
         old,
         open=Open(as_recorded(generation.now.snapshot), ids, renewed, files, asked),
-        confirmed=confirmed.union(bare_hash(text) for text in inputs.settled.contents.values() if text is not None),
+        confirmed=confirmed.difference(asked),
     )
     return old if new == old else _with_ancestors(msgspec.structs.replace(new, edits=edits), last.records[:1])
 

@@ -12,6 +12,7 @@ import msgspec
 from urdfsync.common.dependencies.reads import list_folder, walk_files
 from urdfsync.common.diagnostics import Diagnostic
 from urdfsync.common.files import Tree, digest, normalised, shown
+from urdfsync.domain.matching import Doubt
 from urdfsync.project.config import STATE_FOLDER, is_robot_name
 from urdfsync.project.state import bases, expansion, notes, statefile
 from urdfsync.project.state.expansion import Expansion
@@ -53,6 +54,8 @@ class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
     """The text of the saved text's base, by hash; empty if it is unknown."""
     beside: Mapping[str, str] = {}
     """The texts of unedited models that the same build deleted, by path below the package."""
+    doubt: Doubt | None = None
+    """The question that a choice about the saved text has answered."""
 
 
 def saved_name(path: str, content: bytes) -> str:
