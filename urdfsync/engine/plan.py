@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from urdfsync.common.dependencies.reads import Reads
 from urdfsync.engine.decide.decision import Decision
+from urdfsync.engine.decide.differences import compare_with_last
 from urdfsync.engine.decide.settle import settle, with_choices
 from urdfsync.engine.decide.steps import decide_package
 from urdfsync.engine.generation import Generation, generate_robot
@@ -33,9 +34,15 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions, reads:
 
 def decide_robot(inputs: Inputs, generation: Generation) -> tuple[Inputs, Decision]:
     """Decide on every file, as git and the user's choices leave them. Returns the inputs with their contents."""
-    inputs = with_git_merges(inputs, generation.package)
+    inputs = as_git_left_it(inputs, generation)
     decision = decide_package(inputs, generation)
     if inputs.options.choices or inputs.options.adopts:
         inputs = with_choices(inputs, settle(inputs, generation, decision))
         decision = decide_package(inputs, generation)
     return inputs, decision
+
+
+def as_git_left_it(inputs: Inputs, generation: Generation) -> Inputs:
+    """Return the inputs, in which unmerged files have the texts that both branches meant."""
+    ids = compare_with_last(inputs, generation).ids if inputs.unmerged else {}
+    return with_git_merges(inputs, generation.package, ids)

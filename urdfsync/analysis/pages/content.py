@@ -21,9 +21,9 @@ from urdfsync.engine.decide.steps import decide_package
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inspect.inputs import Inputs, inspect
-from urdfsync.engine.inspect.united import with_git_merges
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package.generate import Package
+from urdfsync.engine.plan import as_git_left_it
 from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
 from urdfsync.engine.stage.writes import draw_model
@@ -83,7 +83,7 @@ def gather(
         raise UrdfsyncError(*compared.result.diagnostics)
     inputs = inspect(config, robot, options)
     generation = generate_robot(inputs)
-    inputs = with_git_merges(inputs, generation.package)
+    inputs = as_git_left_it(inputs, generation)
     compared, older = _with_older(compared, inputs, generation.now, shown_before)
     changes, result = compared.changes or Changes(), compared.result
     decision = decide_package(inputs, generation)

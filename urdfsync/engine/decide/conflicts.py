@@ -120,7 +120,8 @@ def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
     if doubt.is_named_alike:
         return f"{subject} may be another part now: only its name is as before"
     if doubt.is_certain:
-        return f"{subject} is another part now{f', the former `{doubt.former}`' if doubt.former else ''}"
+        called = f"; the part of your edit is called `{doubt.moved_to}`" if doubt.moved_to else ""
+        return f"{subject} is another part now{f', the former `{doubt.former}`' if doubt.former else called}"
     if doubt.former and not aspects:
         return f"{subject} may be the former `{doubt.former}` now"
     shared = f"its {aspects} {'are those' if len(doubt.aspects) > 1 else 'is that'} of the former `{doubt.former}`"

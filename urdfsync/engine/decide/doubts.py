@@ -36,7 +36,7 @@ def find_doubts(
 ) -> dict[str, Doubt]:
     """Return the doubts whether edited files belong to the same elements as before, by key."""
     edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
-    edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
+    edited = [one for one in edited if not (inputs.files.is_chosen(one.path) or one.path in inputs.apart)]
     record = inputs.last.record
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
     # the user's decision about an export holds until the next export
@@ -117,9 +117,9 @@ def _mixed_by_git(
     """
     targets = {file_id: path for path, file_id in ids.items()}
     for text, stamp in commit.texts(commit.beside(action.path)).values() if lines else ():
-        if stamp is None or is_of_part(stamp, ids[inputs.folder.path(action.path)]) or lines - _lines(text):
+        if lines - _lines(text) or (stamp and is_of_part(stamp, ids[inputs.folder.path(action.path)])):
             continue
-        target = targets.get(stamp.id)
+        target = targets.get(stamp.id) if stamp else None
         if target and not lines - _lines(inputs.files.any_text(inputs.folder.key(target))):
             continue  # it is there, too
         moved_to = package.owners[target].partition(" ")[2] if target else ""

@@ -73,7 +73,7 @@ def _find_value_only(after: PackageAfter, changes: Changes | None, conflicts: Ma
     """Return the records in which only numbers change, including records in conflict."""
     inputs, keys, by_element = after.inputs, set(), changes.by_element() if changes else {}
     for action in after.actions:
-        if action.role is not Role.RECORD or action.origin is not None:
+        if action.role is not Role.RECORD or action.origin is not None or action.is_left_by_git:
             continue
         if action.reason in (Reason.UPDATE, Reason.MERGE):
             text = after[inputs.folder.path(action.path)].decode(errors="surrogateescape")

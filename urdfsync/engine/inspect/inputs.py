@@ -88,6 +88,8 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """A warning if lines of the recorded state can't be read."""
     settled: Settled = msgspec.field(default_factory=Settled)
     """The user's choices, if `files` and `last` already include the choices."""
+    apart: frozenset[str] = frozenset()
+    """The keys of unmerged files whose versions are paired by the parts that their stamps name."""
 
     def laid_over(self, contents: Mapping[str, bytes | None], left_by_git: Mapping[str, Merge | None]) -> Inputs:
         """Return the inputs with other contents of files (see `PackageFiles`)."""

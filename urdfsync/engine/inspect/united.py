@@ -6,10 +6,12 @@ Git leaves both versions between markers, or one of them if its merge driver fai
 from __future__ import annotations
 
 import os
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import msgspec
 
 from urdfsync.common.dependencies.places import named, real
 from urdfsync.common.diagnostics import SourceError
@@ -43,32 +45,35 @@ class Sides(NamedTuple):
     """The stamps of all three."""
 
 
-def with_git_merges(inputs: Inputs, package: Package) -> Inputs:
+def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) -> Inputs:
     """Return the inputs, in which each file that git left unmerged has the text that both branches meant.
 
     If nobody edited the versions, this is our version. Otherwise it is a merge by elements without contradictions.
+    `ids` are the ids of generated files by path.
     """
     files, last, folder = inputs.files, inputs.last, inputs.folder
     contents: dict[str, bytes] = {}
     left: dict[str, Merge | None] = {}
     generated = {folder.key(path): package.hash(path) for path in package.artifacts}
+    apart = _by_parts(inputs, (key for key in {**generated, **last.files} if key in inputs.unmerged), ids)
     for key in dict.fromkeys((*generated, *last.files)):
         role, text = role_of(folder.path(key)), generated.get(key)
         if role is Role.IMPORT:
             continue
         on_disk = files.on_disk(key, role)
-        if on_disk == text and key not in inputs.unmerged:
+        if on_disk == text and key not in inputs.unmerged and key not in apart:
             continue  # most files are in step
         is_edited = isinstance(on_disk, str) and on_disk not in (text, last.base_of(key, role))
-        found = _find_meant_text(inputs, key) if is_edited or key in inputs.unmerged else None
+        found = apart.get(key)
+        if found is None and (is_edited or key in inputs.unmerged):
+            found = _find_meant_text(inputs, key)
         if isinstance(found, _Meant):
-            contents |= found.elsewhere
-            left |= dict.fromkeys(found.elsewhere)
             if (text_hash(found.text), found.stamp) == (files.hash(key, role), files.stamp(key)):
                 continue  # the file has the meant text already, and only `git add` is missing
             contents[key], left[key] = with_stamp(encode(found.text), found.stamp), None
         elif found is not None:
             left[key] = found
+    inputs = msgspec.structs.replace(inputs, apart=frozenset(apart))
     return inputs.laid_over(contents, left) if left else inputs
 
 
@@ -78,8 +83,6 @@ class _Meant(NamedTuple):
     text: str
     stamp: Stamp | None
     """The stamp with the base of this text."""
-    elsewhere: Mapping[str, bytes] = {}
-    """The edited version of another part, whose name this file had, by the key of that part's file."""
 
 
 def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
@@ -90,7 +93,7 @@ def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
         if staged and _is_untouched(text, staged):
             if _are_generated(last, staged[1:3]):
                 return _Meant(staged.ours, staged.stamps[1])
-            return _take_apart(inputs, staged) or _merge_edits(last, staged)
+            return _merge_edits(last, staged)
         (ours, stamp), (theirs, _) = (split(side) for side in markers.read_sides(content))
         return _Meant(ours, stamp) if _are_generated(last, (ours, theirs)) else None  # no edit is lost
     if staged is None or text not in staged[1:3] or _is_chosen(inputs, key, text, staged):
@@ -99,21 +102,52 @@ def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
     return _Meant(text, split(content)[1]) if _are_generated(last, [other]) else _merge_edits(last, staged)
 
 
-def _take_apart(inputs: Inputs, sides: Sides) -> _Meant | None:
-    """Return the version of this part, and the other one for its own file, if they are of different parts; else None.
+def _by_parts(inputs: Inputs, keys: Iterable[str], ids: Mapping[str, str]) -> dict[str, _Meant | Merge]:
+    """Return the texts that both branches meant with files whose names have meant several parts, by key.
 
-    The other part's file must be unedited, and an unedited version is never the other one.
+    Git pairs the versions of unmerged files by paths. This pairs them by the parts that their stamps name.
     """
-    versions = [(sides.ours, sides.stamps[1]), (sides.theirs, sides.stamps[2])]
-    first, second = sorted(versions, key=lambda one: not _are_generated(inputs.last, one[:1]))
-    ways = [(first, second)] if _are_generated(inputs.last, first[:1]) else [(first, second), (second, first)]
-    for (text, stamp), (edited, other) in ways:
-        if stamp is None or other is None or stamp.id == other.id:
-            return None
-        for key, there in inputs.files.stamps(inputs.folder).items():
-            if there.id == other.id and there.base == inputs.files.hash(key, Role.MODEL):
-                return _Meant(text, stamp, {key: with_stamp(encode(edited), other)})
-    return None
+    home = {file_id: inputs.folder.key(path) for path, file_id in ids.items()}
+    versions, apart = defaultdict[str, dict[int, tuple[str, Stamp | None]]](dict), set[str]()
+    staged = {key: sides for key in keys if (sides := _untouched(inputs, key))}
+    for key, sides in staged.items():
+        for side, (text, stamp) in enumerate(zip(sides[:3], sides.stamps, strict=True)):
+            target = home.get(stamp.id, key) if stamp else key
+            if text is None:
+                continue
+            if side and target != key:
+                apart |= {key, target}
+            if side and side in versions[target]:
+                return {}  # a copy has the same stamp
+            versions[target].setdefault(side, (text, stamp))
+    meant: dict[str, _Meant | Merge] = {}
+    for key in sorted(apart):
+        found = versions[key]
+        if key not in staged:  # git has merged it
+            content = plain((inputs.files.read(key) or b"").decode(errors="surrogateescape"))
+            found.setdefault(2 if 1 in found else 1, split(content))
+        (base, before), ours, theirs = found.get(0, (None, None)), found.get(1), found.get(2)
+        if ours is None and theirs is None:
+            return {}  # the versions of this part are elsewhere
+        if ours is None or theirs is None:
+            meant[key] = _Meant(*(ours or theirs or ("", None)))
+        elif _are_generated(inputs.last, (ours[0], theirs[0])):
+            meant[key] = _Meant(*ours)
+        else:
+            meant[key] = _merge_edits(inputs.last, Sides(base, ours[0], theirs[0], (before, ours[1], theirs[1])))
+    return meant
+
+
+def _untouched(inputs: Inputs, key: str) -> Sides | None:
+    """Return two different versions of a file that git could not merge, if the user has not settled it."""
+    sides = _read_staged(inputs.files.path(key))
+    content = plain((inputs.files.read(key) or b"").decode(errors="surrogateescape"))
+    if sides is None or sides.ours == sides.theirs:
+        return None
+    text = split(content)[0]
+    if markers.find_markers(content):
+        return sides if _is_untouched(text, sides) else None
+    return sides if text in sides[1:3] and not _is_chosen(inputs, key, text, sides) else None
 
 
 def _sides(base: str | None, ours: str, theirs: str) -> Sides:
