@@ -44,6 +44,9 @@ def main() -> int:
     # without bytecode on disk, thousands of processes compile all modules, which takes three quarters of their time
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     environment |= COMPILER
+    if {"-h", "--help"} & {*sys.argv}:
+        print(__doc__, end="")  # noqa: T201
+        return 0
     if "--map" in sys.argv:
         return print_map(*sys.argv[sys.argv.index("--map") + 1 :][:1])
     if sys.argv[1:2] == ["--windows"]:

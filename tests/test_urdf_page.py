@@ -1,21 +1,25 @@
-"""The page on URDF: the effect of each element and attribute agrees with its table."""
+"""The page on URDF: its table has each attribute of a joint, and the effect of each element and attribute."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any, NamedTuple, get_args
 
+import msgspec
 import pytest
 from support.corpus import REPOSITORY
 from support.meshes import stl
 from support.modelica import URDFSYNC
-from support.packages import Package, generate
+from support.numbers import BOT, of_package
+from support.packages import Package, generate, read
 
 from urdfsync.domain import Target
 from urdfsync.formats.urdf.domain import DOMAIN
+from urdfsync.formats.urdf.model.numbers import camel
 from urdfsync.formats.urdf.options import Options
-from urdfsync.formats.urdf.robot import SENSOR_KINDS, Dynamics
+from urdfsync.formats.urdf.robot import JOINT_KINDS, SENSOR_KINDS, STATED_ELSEWHERE, Joint, Vector, effective
 
 INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 BALL = '<geometry><sphere radius="0.05"/></geometry>'
@@ -189,10 +193,6 @@ def test_each_case_has_a_row() -> None:
     assert CHANGED.keys() <= ROWS.keys()
 
 
-def test_each_number_of_the_dynamics_has_a_row() -> None:
-    assert {f"dynamics {name}" for name in Dynamics.__struct_fields__} <= ROWS.keys()
-
-
 @pytest.mark.parametrize("row", ROWS)
 def test_each_row_says_what_becomes_of_it(row: str, folder: Path, before: Package) -> None:
     element, _, attribute = row.rpartition(" ")
@@ -208,6 +208,91 @@ def test_each_row_says_what_becomes_of_it(row: str, folder: Path, before: Packag
         assert ROWS[row] == "kept"
     else:
         assert ROWS[row] == ("used" if is_used(before.texts, after.texts) else "read")
+
+
+# The attributes of joints, each alone
+
+
+class Attribute(NamedTuple):
+    """An attribute of `<joint>`, or of an element inside of it."""
+
+    element: str
+    """The name of the field of `Joint`; empty for an attribute of the joint itself."""
+    name: str
+    value: Any
+    text: str
+    beside: str
+    """The attributes that the element requires."""
+
+    def __str__(self) -> str:
+        return f"{self.element or 'joint'} {self.name}"
+
+    def of(self, joint: Joint) -> Any:
+        """The value in a joint; None without the element."""
+        return getattr(getattr(joint, self.element) if self.element else joint, self.name, None)
+
+
+def attributes() -> Iterator[Attribute]:
+    """Yield each attribute that a joint may lack, but the axis."""
+    for field in msgspec.structs.fields(Joint):
+        struct = next(
+            (part for part in (field.type, *get_args(field.type)) if hasattr(part, "__struct_fields__")), None
+        )
+        if not field.required and field.name not in (*STATED_ELSEWHERE, "axis"):
+            fields = msgspec.structs.fields(struct) if struct else [field]
+            beside = " ".join(f'{part.name}="lead"' for part in fields if part.required)
+            for part in (part for part in fields if not part.required):
+                kinds = (part.type, *get_args(part.type))
+                value = "P-7" if str in kinds else (0.375, 0.25, 0.5) if Vector in kinds else 0.375
+                text = " ".join(map(str, value)) if isinstance(value, tuple) else str(value)
+                with_limits = {"lower": 'upper="1"', "upper": 'lower="0"'}.get(part.name, beside)
+                yield Attribute(field.name if struct else "", part.name, value, text, with_limits)
+
+
+def declared(record: str, path: str) -> str:
+    """The type of a component in a record of the library; empty without one."""
+    name, _, inside = path.partition(".")
+    file, _, nested = record.removeprefix("UrdfSync.Records.").partition(".")
+    text = (URDFSYNC / "Records" / f"{file}.mo").read_text("utf-8")
+    text = text.partition(f"record {nested} ")[2].partition(f"end {nested};")[0] if nested else text
+    if found := re.search(rf"^ *(?:parameter )?([\w.]+) {name}\b", text, re.MULTILINE):
+        return declared(found[1], inside) if inside else found[1]
+    bases = re.findall(r"extends (UrdfSync\.Records\.\w+)", text)
+    return next(filter(None, (declared(base, path) for base in bases)), "")
+
+
+@pytest.mark.parametrize("attribute", list(attributes()), ids=str)
+def test_an_attribute_of_a_joint_is_read_recorded_compared_declared_and_described(attribute: Attribute) -> None:
+    """For each type of joint on which it has an effect."""
+    assert str(attribute) in ROWS
+    acting = []
+    for kind in JOINT_KINDS:
+        words = f'{attribute.beside} {attribute.name}="{attribute.text}"'
+        around, inside = ("", f"<{attribute.element} {words}/>") if attribute.element else (words, "")
+        ends = '<parent link="{}"/><child link="{}"/>'
+        content = f"""<robot name="own" version="1.2"><link name="base"/><link name="arm"/><link name="hand"/>
+          <joint name="lead" type="continuous">{ends.format("base", "arm")}</joint>
+          <joint name="elbow" type="{kind}" {around}>{ends.format("base", "hand")}{inside}</joint></robot>"""
+        if read(content.encode()).snapshot is None:  # only joints with one position follow another one
+            continue
+        package = generate(content.encode(), BOT)
+        (joint,) = (joint for joint in package.robot.joints if joint.name == "elbow")
+        assert attribute.of(joint) == attribute.value
+        if attribute.of(effective(joint)) != attribute.value:
+            continue
+        numbers = of_package(package, content.encode(), package.texts)
+        assert (numbers.differences, numbers.uncompared) == ((), ())
+        file = "Joints/ElbowParameters.mo"
+        record = package.texts[file]
+        places = list(re.finditer(r"\b0\.375\b|\bP-7\b", record))
+        assert places
+        for place in places:
+            other = f"{record[: place.start()]}{'P-8' if place[0] == 'P-7' else '0.625'}{record[place.end() :]}"
+            (change,) = of_package(package, content.encode(), {**package.texts, file: other}).differences
+            assert change.quantity.rpartition(".")[2] in (attribute.name, camel(attribute.name))
+            assert declared(f"{kind.capitalize()}Joint", change.quantity)
+        acting.append(kind)
+    assert acting
 
 
 def test_the_table_of_sensors_has_each_name_and_each_output() -> None:

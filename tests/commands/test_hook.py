@@ -225,11 +225,11 @@ def test_a_link_to_itself_in_the_working_copy_is_not_in_the_commit(repo: Reposit
     assert said(capsys, "check", code=0) == []
 
 
-def make_workspace(repo: Repository) -> None:
+def make_workspace(repo: Repository, mesh: str = meshes.stl()) -> None:
     """Add a robot with a mesh in a ROS package, which only a search finds."""
     write_all({
         "share/deep/parts/package.xml": "<package><name>parts</name></package>",
-        "share/deep/parts/a.stl": meshes.stl(),
+        "share/deep/parts/a.stl": mesh,
         "arm.urdf": urdfs.robot(
             '<link name="base"><visual><geometry><mesh filename="package://parts/a.stl"/></geometry></visual></link>'
         ),
@@ -305,8 +305,8 @@ def test_a_source_in_another_repository_counts_as_clones_have_it(repo: Repositor
 
 def test_attributes_count_as_in_a_clone(repo: Repository, capsys: Capture) -> None:
     """Git converts only new files to them in the working tree, but all files in a clone."""
-    make_workspace(repo)
-    Path(".gitattributes").write_text("share/**/*.stl text eol=crlf\n")
+    make_workspace(repo, meshes.stl().replace("tip", "$Id$"))
+    Path(".gitattributes").write_text("share/**/*.stl ident\n")
     repo.git("add", ".gitattributes")
     assert "robot `arm`: the package is in step here, but not in a clone: " in said(capsys, "check")[-1]
 

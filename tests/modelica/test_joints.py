@@ -20,6 +20,7 @@ from urdfsync.domain.experiment import Quantity
 from urdfsync.formats.urdf.physics import motion
 from urdfsync.formats.urdf.physics.motion import Course
 from urdfsync.formats.urdf.physics.reference import Reference, read
+from urdfsync.formats.urdf.second.dynamics import loss_efforts
 
 pytestmark = pytest.mark.slow
 
@@ -237,7 +238,7 @@ def test_a_rotor_behind_a_gear_counts_as_the_armature_of_pinocchio(modelica_libr
         model.armature[model.joints[model.getJointId(name)].idx_v] = inertia
     state = reference.state(courses)
     state.q[:7], state.v[:6], state.a[:6] = pin.neutral(model)[:7], 0, 0
-    load = pin.rnea(model, model.createData(), state.q, state.v, state.a) + reference.losses(state.v)
+    load = pin.rnea(model, model.createData(), state.q, state.v, state.a) + loss_efforts(reference.dynamics, state.v)
 
     tasks = [geared_task(name, courses) for name in WAYS]
     runs = simulate(modelica_library, [package.write(tmp_path) for package in packages], tasks)

@@ -22,7 +22,7 @@ from urdfsync.formats.urdf.physics import motion
 from urdfsync.formats.urdf.physics.completion import completed_for_reference
 from urdfsync.formats.urdf.physics.motion import Course
 from urdfsync.formats.urdf.physics.reference import Configuration, Reference, read
-from urdfsync.formats.urdf.second.dynamics import mechanism_efforts
+from urdfsync.formats.urdf.second.dynamics import loss_efforts, mechanism_efforts
 from urdfsync.modelica.literals import vector
 
 FORMS = ("GenericRobot", "ArticulatedRobot")
@@ -175,7 +175,8 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
     inverse = np.linalg.pinv(reference.projection)
 
     def acceleration(p: Array, q: Array, v: Array) -> Array:
-        taken = reference.losses(v) + mechanism_efforts(reference.dynamics, at_rest(robot, p, speeds).positions)
+        positions = at_rest(robot, p, speeds).positions
+        taken = loss_efforts(reference.dynamics, v) + mechanism_efforts(reference.dynamics, positions)
         load = pin.rnea(model, model.createData(), q, v, np.zeros(model.nv)) + taken
         return np.asarray(free @ np.linalg.solve(free.T @ mass_matrix(reference, q) @ free, -free.T @ load))
 

@@ -14,6 +14,8 @@ from urdfsync.engine.package.render import Renderer
 _TAG = re.compile(r"<[%#].*?[%#]>", re.DOTALL)
 _ALTERNATIVE = re.compile(r'(?:"[^"\\]*(?:\\.[^"\\]*)*"(?= if | ~ ))|(?:(?<= else )|(?<= ~ ))"[^"\\]*(?:\\.[^"\\]*)*"')
 """A string of an expression that not every text has, or a part of a longer string."""
+_ABSENCE = re.compile(r" if (?P<condition>(?:(?! else )[\w. ])+)(?= >>)")
+"""An expression that is empty unless a condition holds."""
 
 
 def mark(text: str, lines: list[str]) -> str:
@@ -23,12 +25,16 @@ def mark(text: str, lines: list[str]) -> str:
         lines.append(f"{match[0]} in {line.strip()}")
         return f'{match[0][:-1]}§{len(lines) - 1}§"'
 
+    def mark_absence(match: re.Match[str]) -> str:
+        lines.append(f"nothing unless {match['condition']} in {line.strip()}")
+        return f'{match[0]} else "§{len(lines) - 1}§"'
+
     marked, tags, begin = list[str](), [tag.span() for tag in _TAG.finditer(text)], 0
     for line in text.split("\n"):
         end = begin + len(line)
         new = line
         if not any(first < begin < last or first < end < last for first, last in tags):  # of several lines
-            new = _ALTERNATIVE.sub(mark_string, line)
+            new = _ABSENCE.sub(mark_absence, _ALTERNATIVE.sub(mark_string, line))
             if _TAG.sub("", line).strip():
                 lines.append(line)
                 new += f"§{len(lines) - 1}§"

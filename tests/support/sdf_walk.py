@@ -16,7 +16,7 @@ from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.formats.translation.files import TranslationError
 from urdfsync.formats.urdf.robot import Robot
 
-_DESCRIPTION = Path(__file__).parents[1] / "sdf" / "description.txt"
+_DESCRIPTION = Path(__file__).parents[1] / "formats" / "sdf" / "description.txt"
 _MASS = "<inertial><mass>2</mass></inertial>"
 _WELD = '<joint name="weld" type="fixed"><parent>world</parent><child>base</child></joint>'
 _BOX = "<geometry><box><size>1 1 1</size></box></geometry>"

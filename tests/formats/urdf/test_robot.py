@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from support.urdfs import parsed
 
 from urdfsync.formats.urdf import robot as robots
-from urdfsync.formats.urdf.robot import Joint, Link, Loop, Robot, Sensor
+from urdfsync.formats.urdf.model.numbers import joint_numbers
+from urdfsync.formats.urdf.robot import Joint, JointType, Link, Loop, Robot, Sensor, effective
 from urdfsync.project.state.record import as_read, as_recorded
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
@@ -80,3 +81,15 @@ def test_nothing_is_lost_on_the_way_through_a_state(robot: Robot) -> None:
 ])  # fmt: skip
 def test_what_is_no_change_at_all(text: str) -> None:
     assert msgspec.json.encode(parsed(text)) == msgspec.json.encode(parsed(ARM))
+
+
+class LabelledJoint(Joint, frozen=True):
+    """A joint with an attribute that a change of the program may add."""
+
+    part_number: str | None = None
+
+
+@pytest.mark.parametrize("kind", get_args(JointType))
+def test_an_attribute_of_a_joint_is_recorded_whatever_its_type(kind: JointType) -> None:
+    joint = LabelledJoint("j", kind, "a", "b", part_number="P-7")
+    assert joint_numbers(effective(joint))["partNumber"] == "P-7"

@@ -17,6 +17,7 @@ import msgspec
 from msgspec.structs import replace
 
 Vector: TypeAlias = tuple[float, float, float]
+_X: Vector = (1.0, 0.0, 0.0)
 
 
 class UnitName(NamedTuple):
@@ -380,7 +381,7 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     parent: str
     child: str
     origin: Origin = Origin()
-    axis: Vector = (1.0, 0.0, 0.0)
+    axis: Vector = _X
     limit: Limit | None = None
     dynamics: Dynamics | None = None
     mimic: Mimic | None = None
@@ -401,8 +402,9 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     """The law of the drive; None if the drive moves the joint as commanded, or gives the commanded effort."""
 
 
-STATED_ELSEWHERE: frozenset[str] = frozenset("actuated measured transmission command start motor servo".split())
-"""Fields of `Joint` that the element `<joint>` does not state: other elements, the configuration or a catalogue do."""
+STATED_ELSEWHERE: frozenset[str] = frozenset("actuated measured transmission command start motor servo number".split())
+"""Fields of `Joint` and of shapes that their elements do not state: other elements, the configuration, a catalogue or
+the last build do."""
 
 
 class Loop(msgspec.Struct, frozen=True, gc=False):
@@ -436,6 +438,10 @@ def reflected_inertia(joint: Joint) -> float | None:
 
 _NO_DRIVE: Mapping[str, None] = dict.fromkeys(("command", "servo", "start"))
 """Fields without effect on a joint that follows another one."""
+_NO_POSITION: Mapping[str, None] = dict.fromkeys(
+    ("limit", "mimic", "calibration", "safety_controller", "transmission", *_NO_DRIVE)
+)
+"""Fields without effect on a joint that has no single position."""
 
 
 def effective(joint: Joint) -> Joint:
@@ -445,13 +451,10 @@ def effective(joint: Joint) -> Joint:
         if limit is not None and not kind.has_limits:
             limit = replace(limit, lower=0.0, upper=0.0)
         return replace(joint, limit=limit, **({} if joint.mimic is None else _NO_DRIVE))
-    # without a single position, only the place, the axis and the losses act
-    bare = Joint(joint.name, joint.type, joint.parent, joint.child, joint.origin)
-    bare = replace(bare, actuated=joint.actuated, measured=joint.measured, motor=joint.motor)
-    acting = LOSSES if kind.has_axis else ("damping",) if joint.type == "ball" else ()
+    acting, dynamics = LOSSES if kind.has_axis else ("damping",) if joint.type == "ball" else (), None
     if joint.dynamics and acting:
-        bare = replace(bare, dynamics=Dynamics(**{name: getattr(joint.dynamics, name) for name in acting}))
-    return replace(bare, axis=joint.axis) if kind.has_axis else bare
+        dynamics = Dynamics(**{name: getattr(joint.dynamics, name) for name in acting})
+    return replace(joint, **_NO_POSITION, axis=joint.axis if kind.has_axis else _X, dynamics=dynamics)
 
 
 def structure(joint: Joint) -> Joint:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from typing import get_args
+from xml.etree.ElementTree import fromstring
 
+import msgspec
 import pytest
 from support.robots import robot_extensions
 from support.urdfs import joint, link, robot
 
 from urdfsync.common.diagnostics import Diagnostic, Severity
 from urdfsync.formats.urdf.options import LeftOut, Options
+from urdfsync.formats.urdf.parse.fields import Reader
 from urdfsync.formats.urdf.parse.source import read_robot
 
 TREE = [link("base"), link("arm", 1.0), joint("j", "continuous", "base", "arm")]
@@ -150,3 +153,21 @@ def test_what_moves_and_is_in_no_tree_is_an_error_unless_it_is_allowed(element: 
     assert [(one.severity, one.code, one.line) for one in reading.diagnostics] == [(Severity.WARNING, code, 6)]
     others = tuple({*get_args(LeftOut)} - {code})
     assert read_robot(content, "a.urdf", Options(allow=others)).robot is None
+
+
+class Label(msgspec.Struct):
+    text: str | None = None
+
+
+class Switch(msgspec.Struct):
+    is_on: bool = False
+
+
+def test_an_attribute_may_be_a_text_or_absent() -> None:
+    assert Reader({}).read(fromstring('<label text="P-7"/>'), "label", Label, "") == Label("P-7")
+    assert Reader({}).read(fromstring("<label/>"), "label", Label, "") == Label(None)
+
+
+def test_a_field_that_no_attribute_can_give_is_refused() -> None:
+    with pytest.raises(TypeError, match=r"Switch\.is_on is of type .*bool"):
+        Reader({}).read(fromstring('<switch is_on="true"/>'), "switch", Switch, "")

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
 import pinocchio as pin
 import pytest
+from support.modelica import URDFSYNC
+from support.numbers import BOT, compare, of_package
+from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, robot
 
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.parse.source import read_robot
 from urdfsync.formats.urdf.physics.motion import GRAVITY, Course
 from urdfsync.formats.urdf.physics.reference import Reference, read
+from urdfsync.formats.urdf.robot import SENSOR_KINDS, Output, SensorKind
 from urdfsync.formats.urdf.second.reading import read_again
 
 SOURCE = """\
@@ -112,3 +117,39 @@ def test_a_sensor_at_rest_shows_the_weight_behind_it_in_its_frame(kind: str, fra
     gain, spin = reference.acceleration(state, sensors["imu"])
     assert gain == pytest.approx(axes["sensor"].T @ [0, 0, GRAVITY])
     assert spin == pytest.approx([0, 0, 0])
+
+
+ARM = [*links(base=1.0, hand=2.0), joint("elbow", "continuous", "base", "hand", axis="0 0 1")]
+BARE = robot(*ARM).encode()
+
+
+def with_sensor(kind: SensorKind) -> bytes:
+    at = "elbow" if SENSOR_KINDS[kind].at == "joint" else "hand"
+    return robot(*ARM, f'<gazebo reference="{at}"><sensor name="own" type="{kind}"/></gazebo>').encode()
+
+
+@pytest.mark.parametrize("kind", SENSOR_KINDS)
+def test_a_sensor_of_each_kind_is_read_again_and_computed(kind: SensorKind) -> None:
+    sensor = read_again(with_sensor(kind), Options()).sensors["own"]
+    assert sensor.type == kind
+    reference = Reference(read(with_sensor(kind), "bot.urdf"), ["elbow"])
+    measured = reference.measured(reference.state([Course(0.1, 0.2, 0.3)]), sensor, ("base", "hand"))
+    for output in SENSOR_KINDS[kind].outputs:
+        assert np.size(measured[output.name]) == (3 if output.is_vector else 1)
+
+
+@pytest.mark.parametrize("name", sorted({model.name for model in SENSOR_KINDS.values()}))
+def test_a_class_of_sensors_has_the_outputs_of_its_kinds(name: str) -> None:
+    text = (URDFSYNC / "Sensors" / f"{name}.mo").read_text("utf-8").partition("\nprotected")[0]
+    declared = re.findall(r'RealOutput (\w+)(\[3\])?\((?:each )?unit = "(.*?)"', text)
+    outputs: set[Output] = {each for model in SENSOR_KINDS.values() if model.name == name for each in model.outputs}
+    assert sorted(declared) == sorted((each.name, "[3]" * each.is_vector, each.unit) for each in outputs)
+
+
+@pytest.mark.parametrize("kind", SENSOR_KINDS)
+def test_a_sensor_that_the_source_lacks_is_a_difference(kind: SensorKind) -> None:
+    sound = compare(with_sensor(kind), approach=("package",))
+    assert (sound.differences, sound.uncompared) == ((), ())
+    package = generate(with_sensor(kind), BOT)
+    (difference,) = of_package(package, BARE, package.texts).differences
+    assert (difference.element, difference.expected, difference.given) == ("sensor own", "nothing", "own")

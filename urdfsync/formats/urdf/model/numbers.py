@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.formats.urdf.kinematics.loops import Closure
 from urdfsync.formats.urdf.model.shapes import DrawnShape
-from urdfsync.formats.urdf.robot import Inertial, Joint, Loop, Mesh
+from urdfsync.formats.urdf.robot import STATED_ELSEWHERE, Inertial, Joint, Loop, Mesh
 from urdfsync.modelica.literals import INFINITY, Expression, matrix
 
 
@@ -28,6 +28,8 @@ class RecordPart(msgspec.Struct, frozen=True):
     """The outermost points of a mesh, which the record of a link has beside those of the mesh."""
 
 
+_NOT_OF_ALL = STATED_ELSEWHERE | {"type", "parent", "child", "axis"}
+"""Fields of joints that classes and robot models state, or that some types of joints lack."""
 _ABSENT = Expression(INFINITY)
 _NO_LIMITS = {"lower": Expression(f"-{INFINITY}"), "upper": _ABSENT, "velocity": _ABSENT, "effort": _ABSENT}
 
@@ -57,7 +59,10 @@ def joint_record(joint: Joint) -> str:
 
 def joint_numbers(joint: Joint) -> dict[str, Any]:
     """Return the numbers of an effective joint."""
-    numbers, dynamics = {"name": joint.name, "origin": _given(joint.origin)}, _given(joint.dynamics)
+    fields = ((name, getattr(joint, name)) for name in joint.__struct_fields__ if name not in _NOT_OF_ALL)
+    own = ((name, value) for name, value in fields if not isinstance(value, msgspec.Struct | None))
+    numbers = {camel(name): value for name, value in own} | {"origin": _given(joint.origin)}
+    dynamics = _given(joint.dynamics)
     match joint.type:
         case "fixed" | "floating":
             return numbers

@@ -44,7 +44,7 @@ Values = TypeVar("Values", bound=msgspec.Struct)
 
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
-_COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
+_COUNTS = {str: 0, str | None: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
 """Types of fields, with the count of numbers in the attribute; 0 for text."""
 _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
 """Fields of numbers or text that URDF writes as child elements, each with the only attribute of its element."""
@@ -345,7 +345,7 @@ def _schema(
     """Return the attributes, the children and the required children of a struct's element.
 
     Each attribute has its count of numbers (0 for text) and its default. Each child has its count or its struct, and
-    its default.
+    its default. Raises TypeError for a field of a type that no attribute and no child gives.
     """
     attributes: dict[str, tuple[int, Any]] = {}
     children: dict[str, tuple[Any, Any]] = {}
@@ -365,6 +365,8 @@ def _schema(
                 required.append(field.name)
         elif kind in _COUNTS:
             attributes[field.name] = _COUNTS[kind], field.default
+        else:
+            raise TypeError(f"{struct.__name__}.{field.name} is of type {kind}, which no attribute gives")
     return attributes, children, required
 
 

@@ -30,8 +30,8 @@ from urdfsync.formats.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.formats.urdf.physics.motion import Course
 from urdfsync.formats.urdf.physics.multibody import Array, Multibody
 from urdfsync.formats.urdf.robot import Mimic, Vector
+from urdfsync.formats.urdf.second import dynamics
 from urdfsync.formats.urdf.second.companions import CatalogueNumbers
-from urdfsync.formats.urdf.second.dynamics import OF_DYNAMICS, mechanism_efforts
 from urdfsync.formats.urdf.second.gears import Gear, read_gears
 from urdfsync.formats.urdf.second.reading import SecondElement, origin, rotation
 
@@ -51,7 +51,10 @@ class ReadRobot(NamedTuple):
     rotors: Array
     """The part of the rotors in the mass matrix: an `armature` can't couple two joints."""
     dynamics: Mapping[str, Array]
-    """The attributes `OF_DYNAMICS` at each coordinate of the velocity; `armature` is the library's own array."""
+    """The attributes of `<dynamics>`, and the steepness of dry friction, at each coordinate of the velocity.
+
+    `damping`, `friction` and `armature` are the library's own arrays.
+    """
 
 
 def read(
@@ -86,15 +89,23 @@ def read(
         hint = "correct the file, or check without --physics"
         raise SourceError(Diagnostic(Severity.ERROR, "reference-refuses", message, file, hint=hint)) from error
     gears, rotors = read_gears(root, rows or {}), np.zeros((multibody.nv, multibody.nv))
-    numbers = {attribute: np.zeros(multibody.nv) for attribute in OF_DYNAMICS.values()} | {
-        "armature": multibody.armature
+    attributes = (dynamics.LOSSES | dynamics.OF_AXES).values()
+    numbers = {attribute: np.zeros(multibody.nv) for attribute in attributes} | {
+        "damping": multibody.damping,
+        "friction": multibody.friction,
+        "armature": multibody.armature,
+        "steepness": np.full(multibody.nv, float(TURNING_STEEPNESS)),
     }
     for joint in root.findall("joint"):
-        name = joint.get("name", "")
-        if (row := multibody.coordinates.get(name)) and row.size == 1:
-            gear, stated = gears.get(name, Gear()), joint.find("dynamics")
-            for attribute, values in numbers.items():
-                values[row.start] = 0.0 if stated is None else float(stated.get(attribute, "0"))
+        name, stated = joint.get("name", ""), joint.find("dynamics")
+        if (row := multibody.coordinates.get(name)) is None:
+            continue
+        for attribute in {*dynamics.paths(joint.get("type", "")).values()} - dynamics.DEFAULTS.keys():
+            numbers[attribute][row.rows] = 0.0 if stated is None else float(stated.get(attribute, "0"))
+        if row.slides:
+            numbers["steepness"][row.start] = SLIDING_STEEPNESS
+        if row.size == 1:
+            gear = gears.get(name, Gear())
             ways = np.zeros(multibody.nv)
             ways[row.start] = gear.reduction
             if gear.joint:
@@ -157,11 +168,6 @@ class Reference:
             start = self.projection @ [starts[name] for name in self.axes] + self._offset
             first = np.array([starts[name] for name in others])
             self.closing = Closing(self.multibody, closed, followers, start, first)
-        self.steepness = np.full(self.multibody.nv, float(TURNING_STEEPNESS))
-        """In s/rad or s/m: steepness of dry friction for each coordinate of the velocity, as in the records."""
-        for row in rows:
-            if row.slides:
-                self.steepness[row.start] = SLIDING_STEEPNESS
 
     def set_gravity(self, gravity: float) -> None:
         """Set the gravity (m/s²) along -z of the world."""
@@ -233,7 +239,7 @@ class Reference:
 
     def load(self, state: Configuration, a: Array) -> Array:
         """Return the efforts of all coordinates, with losses and mechanisms, for a state with accelerations `a`."""
-        own = self.losses(state.v) + mechanism_efforts(self.dynamics, state.positions)
+        own = dynamics.loss_efforts(self.dynamics, state.v) + dynamics.mechanism_efforts(self.dynamics, state.positions)
         return np.asarray(self.multibody.efforts(state.q, state.v, a) + self.rotors @ a + own)
 
     @staticmethod
@@ -291,10 +297,6 @@ class Reference:
         data = self.multibody.move(state.q)
         poses = {link: self.multibody.pose(data, link) for link in self.multibody.links}
         return Solution(poses, mass, centre, load, load[:3], load[3:6], state.ways.T @ load, reactions)
-
-    def losses(self, v: Array) -> Array:
-        """Return efforts of damping and dry friction at velocity v."""
-        return np.asarray(self.multibody.damping * v + self.multibody.friction * np.tanh(self.steepness * v / 2))
 
     def _mimic(self, robot: ReadRobot, axes: Sequence[str]) -> tuple[Array, Array]:
         """Return B and c of q = B·p + c. B has a row per coordinate of the velocity and a column per axis."""

@@ -116,7 +116,7 @@ class RobotRegressor:
         if loops can't be closed.
         """
         reference, multibody = self.reference, self.reference.multibody
-        count, axes, slope = len(q), len(self.axes), reference.steepness
+        count, axes, slope = len(q), len(self.axes), reference.dynamics["steepness"]
         gravity = np.array([0, 0, -motion.GRAVITY])
         derivatives = np.zeros((count, axes, 10 * len(self.bodies) + len(self.losses)))
         efforts = np.zeros((count, axes))

@@ -198,8 +198,10 @@ class _Comparison:
             named = next((value for value in values if value.path == "name"), Value("name", "", '""', 0))
             name = str(literals(named.text))
             self.components["sensor", name], self.places["sensor", name] = component, (file, named.line)
-            sensor = self.reading.sensors.get(name)
-            self._compare(file, f"sensor {name}", values, sensor.values if sensor else {})
+            if sensor := self.reading.sensors.get(name):
+                self._compare(file, f"sensor {name}", values, sensor.values)
+            else:
+                self._compare(file, f"sensor {name}", [named], {"name": Stated("nothing", 0)})
 
     def _whole(self, file: str) -> None:
         """Compare the elements and the name in the record of the whole robot."""

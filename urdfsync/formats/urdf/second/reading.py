@@ -24,8 +24,8 @@ from trimesh import transformations
 
 from urdfsync.domain import Companion
 from urdfsync.formats.urdf.options import LoopFrame, Options
+from urdfsync.formats.urdf.second import dynamics
 from urdfsync.formats.urdf.second.companions import PATHS, Companions, read_companions
-from urdfsync.formats.urdf.second.dynamics import OF_DYNAMICS
 from urdfsync.formats.urdf.second.gears import Gear, read_gears
 from urdfsync.formats.urdf.second.plain import SHAPES, decimal, plain_root
 
@@ -34,12 +34,6 @@ TURNS = ("revolute", "continuous")
 MOVES = (*TURNS, "prismatic")
 COMMANDS = ("position", "velocity", "effort")
 TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-_LOSSES = {
-    **dict.fromkeys(MOVES, ("dynamics.damping", "dynamics.friction")),
-    "planar": ("translation.damping", "translation.friction", "rotation.damping", "rotation.friction"),
-    "ball": ("damping",),
-}
-"""Paths of damping and friction in the records, by type of joint."""
 _SERVOS = {
     "position": "positionGain; velocityGain minPosition maxPosition minEffort maxEffort",
     "velocity": "positionGain velocityGain; minVelocity maxVelocity minPosition maxPosition minEffort maxEffort",
@@ -354,8 +348,7 @@ def _joints(
         if joint.type in (*MOVES, "planar"):
             axis = theirs.axis / np.abs(theirs.axis).max()
             joint.put("axis", tuple(map(float, axis / np.linalg.norm(axis))), element)
-        for place in _LOSSES.get(joint.type, ()) if theirs.dynamics else ():
-            joint.put(place, _number(theirs.dynamics, place.rpartition(".")[2], 0.0), element.find("dynamics"))
+        _put_dynamics(joint, element.find("dynamics"), theirs.dynamics)
         if joint.type in MOVES:
             _put_axis(joint, element, theirs)
             _put_drive(joint, element, theirs.mimic, drives[joint.name], gears.get(joint.name), options)
@@ -372,8 +365,17 @@ def _joints(
         yield joint
 
 
+def _put_dynamics(joint: SecondElement, element: Any, theirs: Any) -> None:
+    """State the numbers of `<dynamics>`, an element that may be missing; yourdfpy reads damping and friction."""
+    for path, attribute in dynamics.paths(joint.type).items() if theirs else ():
+        default = dynamics.DEFAULTS.get(attribute)
+        number = _at(element, f"@{attribute}") if default is None else _number(theirs, attribute, default)
+        if number is not None:
+            joint.put(path, number, element)
+
+
 def _put_axis(joint: SecondElement, element: Any, theirs: Any) -> None:
-    """State limits, inertia, calibration and safety controller of a joint that turns or slides."""
+    """State limits, calibration and safety controller of a joint that turns or slides."""
     limit = element.find("limit")
     at = element if limit is None else limit
     for field, infinite in (("lower", -INF), ("upper", INF)):
@@ -384,9 +386,6 @@ def _put_axis(joint: SecondElement, element: Any, theirs: Any) -> None:
     for field in ("acceleration", "deceleration", "jerk"):
         if (number := _at(element, f"limit@{field}")) is not None:
             joint.put(f"limits.{field}", number, at)
-    for field, attribute in OF_DYNAMICS.items():
-        if (number := _at(element, f"dynamics@{attribute}")) is not None:
-            joint.put(f"dynamics.{field}", number, element.find("dynamics"))
     for tag, group, fields, default in (
         ("calibration", "calibration", "rising falling", INF),
         ("safety_controller", "safetyController", "k_velocity k_position soft_lower_limit soft_upper_limit", 0.0),
