@@ -20,6 +20,7 @@ from urdfsync.engine.decide.parts import is_of_part, other_meanings
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.commits import PastCommit
 from urdfsync.engine.inspect.inputs import Inputs
+from urdfsync.engine.inspect.last_build import lines_of
 from urdfsync.engine.package.generate import Package
 from urdfsync.modelica.files import code_of, text_of
 from urdfsync.project.state.record import edit_key
@@ -43,16 +44,16 @@ def find_doubts(
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = _of_other_parts(inputs, generation, differences, unconfirmed)
     for action in unconfirmed if is_told else edited:
-        doubts[action.path] = doubts.get(action.path) or _doubt(inputs, generation, differences, action)
+        doubts[action.path] = _doubt(inputs, generation, differences, action) or doubts.get(action.path)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
     doubts |= open_doubts
     unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
     others = other_meanings(inputs, generation, differences.parts) if unknown else {}
     commits = [(one, one.texts(action.path for action in unknown)) for one in inputs.commits] if unknown else []
     package, nothing = generation.package, ("", None)
-    for action in unknown if others or commits else ():
-        lines = _added_lines(inputs, package, action)
-        shared = [(commit, lines & _lines(texts.get(action.path, nothing)[0])) for commit, texts in commits]
+    for action in unknown if others or commits or inputs.last.notes.lines else ():
+        lines = added_lines(inputs, package, action)
+        shared = [(commit, lines & lines_of(texts.get(action.path, nothing)[0])) for commit, texts in commits]
         meanings = (
             _meanings_in(inputs, package, differences.ids, commit, action, both) for commit, both in shared if both
         )
@@ -65,6 +66,7 @@ def find_doubts(
         renamed = (one for one, texts in commits if action.path not in texts and _element(action))
         mixed = (_mixed_by_git(inputs, package, differences.ids, one, action, lines) for one in renamed)
         doubts[action.path] = doubts.get(action.path) or next(filter(None, mixed), None)
+        doubts[action.path] = doubts[action.path] or _seen_elsewhere(inputs, package, differences.ids, action, lines)
     reopened = inputs.settled.doubts
     doubts |= {one.path: reopened[one.path] for one in actions if one.path in reopened and one.reason in EDITED}
     return {path: doubt for path, doubt in doubts.items() if doubt}
@@ -79,9 +81,9 @@ def _of_other_parts(
     """
     doubts, targets = dict[str, Doubt | None](), {file_id: path for path, file_id in differences.ids.items()}
     for action in actions:
-        target = targets.get(inputs.last.edits.get(action.mine or "", ""))
-        if target and target != inputs.folder.path(action.path):
-            moved_to = generation.package.owners[target].partition(" ")[2]
+        own, seen = differences.ids.get(inputs.folder.path(action.path)), inputs.last.edits.get(action.mine or "")
+        if own and seen and own != seen and _element(action):
+            moved_to = generation.package.owners[targets[seen]].partition(" ")[2] if seen in targets else ""
             doubts[action.path] = Doubt(action.owner, "", (), moved_to, is_certain=True)
     return doubts
 
@@ -101,7 +103,7 @@ def _meanings_in(
         if not name or stamp is None or is_of_part(stamp, ids[inputs.folder.path(key)]):
             continue
         target = targets.get(stamp.id)
-        if _element(action) and target and not shared - _lines(inputs.files.any_text(key_of(target))):
+        if _element(action) and target and not shared - lines_of(inputs.files.any_text(key_of(target))):
             continue
         moved_to = package.owners[target].partition(" ")[2] if target else ""
         doubts[kind, name] = Doubt(owners[key], "", (), moved_to, is_certain=True)
@@ -117,13 +119,31 @@ def _mixed_by_git(
     """
     targets = {file_id: path for path, file_id in ids.items()}
     for text, stamp in commit.texts(commit.beside(action.path)).values() if lines else ():
-        if lines - _lines(text) or (stamp and is_of_part(stamp, ids[inputs.folder.path(action.path)])):
+        if stamp and is_of_part(stamp, ids[inputs.folder.path(action.path)]):
             continue
-        target = targets.get(stamp.id) if stamp else None
-        if target and not lines - _lines(inputs.files.any_text(inputs.folder.key(target))):
-            continue  # it is there, too
+        target, brought = targets.get(stamp.id) if stamp else None, lines & lines_of(text)
+        if target:  # what stands in its file is there, too
+            brought -= lines_of(package.content(target).decode())
+            brought -= lines_of(inputs.files.any_text(inputs.folder.key(target)))
+        elif brought != lines:
+            continue
+        if not brought:
+            continue
         moved_to = package.owners[target].partition(" ")[2] if target else ""
         return Doubt(action.owner, "", (), moved_to, is_certain=True)
+    return None
+
+
+def _seen_elsewhere(
+    inputs: Inputs, package: Package, ids: Mapping[str, str], action: Action, lines: Counter[str]
+) -> Doubt | None:
+    """Return a doubt about an edit with a line that builds have seen in another part's file, which has it no more."""
+    own, targets = ids.get(inputs.folder.path(action.path)), {file_id: path for path, file_id in ids.items()}
+    for line in lines if own and _element(action) else ():
+        seen = inputs.last.ids_of_lines([line])
+        for target in sorted(targets[one] for one in seen & targets.keys() if own not in seen):
+            if line not in lines_of(inputs.files.any_text(inputs.folder.key(target))):
+                return Doubt(action.owner, "", (), package.owners[target].partition(" ")[2], is_certain=True)
     return None
 
 
@@ -140,7 +160,7 @@ def _doubt(inputs: Inputs, generation: Generation, differences: Differences, act
     """Return the doubt whether an edit belongs to its file's element, judged by the last build; None without one."""
     found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
-        lines = _added_lines(inputs, generation.package, action) if found else ()
+        lines = added_lines(inputs, generation.package, action) if found else ()
         return _named(inputs, lines, found, generation.now.snapshot)
     if element in found:
         return found[element]
@@ -163,15 +183,11 @@ def _is_back(inputs: Inputs, generation: Generation, action: Action) -> bool:
     return all(inputs.last.has_written(package.hash(path)) for path in own)
 
 
-def _added_lines(inputs: Inputs, package: Package, action: Action) -> Counter[str]:
+def added_lines(inputs: Inputs, package: Package, action: Action) -> Counter[str]:
     """Return the lines that the user added to a generated text, without their indents."""
     base = inputs.last.base(inputs.last.base_of(action.path, action.role)) or ""
     generated = package.content(inputs.folder.path(action.path)).decode()
-    return _lines(inputs.files.text(action.path) or "") - (_lines(generated) | _lines(base))
-
-
-def _lines(text: str) -> Counter[str]:
-    return Counter(line.strip() for line in text.splitlines() if line.strip())
+    return lines_of(inputs.files.text(action.path) or "") - (lines_of(generated) | lines_of(base))
 
 
 def _element(action: Action) -> ElementKey | None:

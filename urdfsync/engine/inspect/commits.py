@@ -62,7 +62,14 @@ def read_commits(root: Path, files: PackageFiles) -> Iterator[PastCommit]:
         return
     # after a squash, the branch may be deleted: look at the commits that were checked out last
     recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
-    names = ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", "MERGE_HEAD", *(str(entry.oid_new) for entry in recent)]
+    names = [
+        "ORIG_HEAD",
+        "CHERRY_PICK_HEAD",
+        "REBASE_HEAD",
+        "MERGE_HEAD",
+        "refs/stash",
+        *(str(entry.oid_new) for entry in recent),
+    ]
     names += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
     for commit in dict.fromkeys(filter(None, (_commit_id(repository, name) for name in names))):
         with contextlib.suppress(SourceError):  # there is no such commit

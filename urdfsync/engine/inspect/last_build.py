@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from operator import itemgetter
 from pathlib import PurePath
@@ -93,6 +94,11 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def edits(self) -> Mapping[str, str]:
         """The id of the file that each edited text belongs to, by the text's hash, for all edits that builds saw."""
         return {**self.record.edits, **self.notes.edits}
+
+    def ids_of_lines(self, lines: Iterable[str]) -> set[str]:
+        """Return the ids of the files in which builds here have seen edits with all of these lines."""
+        found = [set(self.notes.lines.get(line_hash(line), ())) for line in lines]
+        return set.intersection(*found) if found else set()
 
     def has_written(self, sha256: str) -> bool:
         """Whether a build once wrote the text with this hash, or a choice restores it as generated."""
@@ -214,3 +220,13 @@ def option_values(options: msgspec.Struct) -> dict[str, Any]:
     """Return a domain's options for the record: plain data, without None and empty tables."""
     values = msgspec.json.decode(msgspec.json.encode(options))
     return {name: value for name, value in values.items() if value not in (None, {})}
+
+
+def lines_of(text: str) -> Counter[str]:
+    """Return the lines of a text that have more than blanks, without their indents."""
+    return Counter(line.strip() for line in text.splitlines() if line.strip())
+
+
+def line_hash(line: str) -> str:
+    """Return the hash by which notes know a line of an edit."""
+    return digest(line.encode())[:16]

@@ -18,7 +18,7 @@ from urdfsync.common.diagnostics import SourceError
 from urdfsync.domain import Role
 from urdfsync.engine.inspect.commits import plain
 from urdfsync.engine.inspect.inputs import Inputs
-from urdfsync.engine.inspect.last_build import LastBuild
+from urdfsync.engine.inspect.last_build import LastBuild, lines_of
 from urdfsync.engine.inspect.package_files import encode, text_hash
 from urdfsync.engine.package.generate import Package
 from urdfsync.modelica import markers
@@ -29,6 +29,7 @@ from urdfsync.project.state.record import role_of
 if TYPE_CHECKING:
     from urdfsync.merge import Merge
 
+_Version: TypeAlias = tuple[str, Stamp | None]
 _Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
 """Changed lines and their replacements. The order of lines does not count: a diff can cut added blocks in several
 ways."""
@@ -43,6 +44,8 @@ class Sides(NamedTuple):
     theirs: str
     stamps: tuple[Stamp | None, Stamp | None, Stamp | None]
     """The stamps of all three."""
+    deleted: int = 0
+    """The side that has deleted the file, 1 or 2; it has the other side's text."""
 
 
 def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) -> Inputs:
@@ -55,7 +58,8 @@ def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) ->
     contents: dict[str, bytes] = {}
     left: dict[str, Merge | None] = {}
     generated = {folder.key(path): package.hash(path) for path in package.artifacts}
-    apart = _by_parts(inputs, (key for key in {**generated, **last.files} if key in inputs.unmerged), ids)
+    unmerged = (key for key in {**generated, **last.files} if key in inputs.unmerged)
+    apart = _by_parts(inputs, package, unmerged, ids)
     for key in dict.fromkeys((*generated, *last.files)):
         role, text = role_of(folder.path(key)), generated.get(key)
         if role is Role.IMPORT:
@@ -102,33 +106,53 @@ def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
     return _Meant(text, split(content)[1]) if _are_generated(last, [other]) else _merge_edits(last, staged)
 
 
-def _by_parts(inputs: Inputs, keys: Iterable[str], ids: Mapping[str, str]) -> dict[str, _Meant | Merge]:
+def _by_parts(
+    inputs: Inputs, package: Package, keys: Iterable[str], ids: Mapping[str, str]
+) -> dict[str, _Meant | Merge]:
     """Return the texts that both branches meant with files whose names have meant several parts, by key.
 
     Git pairs the versions of unmerged files by paths. This pairs them by the parts that their stamps name.
     """
     home = {file_id: inputs.folder.key(path) for path, file_id in ids.items()}
-    versions, apart = defaultdict[str, dict[int, tuple[str, Stamp | None]]](dict), set[str]()
-    staged = {key: sides for key in keys if (sides := _untouched(inputs, key))}
+    versions, apart = defaultdict[str, dict[int, _Version]](dict), set[str]()
+    staged = {key: sides for key in keys if (sides := _untouched(inputs, key)) and _are_apart(sides, key, home)}
     for key, sides in staged.items():
         for side, (text, stamp) in enumerate(zip(sides[:3], sides.stamps, strict=True)):
             target = home.get(stamp.id, key) if stamp else key
-            if text is None:
+            if text is None or side == sides.deleted:
                 continue
             if side and target != key:
                 apart |= {key, target}
             if side and side in versions[target]:
                 return {}  # a copy has the same stamp
             versions[target].setdefault(side, (text, stamp))
+    merged = sorted(apart - staged.keys())  # by git
+    for key in merged:
+        side = 2 if 1 in versions[key] else 1
+        text, stamp = split(plain((inputs.files.read(key) or b"").decode(errors="surrogateescape")))
+        own, generated = ids.get(inputs.folder.path(key)), inputs.last.base(stamp.base if stamp else None) or ""
+        lines = inputs.last.ids_of_lines(lines_of(text) - lines_of(generated))
+        seen = inputs.last.edits.get(text_hash(text)) or next(iter(lines if len(lines) == 1 else ()), "")
+        if own and stamp and own != seen in home:  # git has brought the edit of another part
+            target = home[seen]
+            if 3 - side in versions[target]:
+                return {}
+            versions[target][3 - side] = text, Stamp(seen, stamp.base)
+            merged += [target] if target not in {*staged, *apart} else []
+            apart.add(target)
+            text = package.content(inputs.folder.path(key)).decode()
+            stamp = Stamp(own, text_hash(text))
+        versions[key].setdefault(side, (text, stamp))
     meant: dict[str, _Meant | Merge] = {}
     for key in sorted(apart):
         found = versions[key]
-        if key not in staged:  # git has merged it
-            content = plain((inputs.files.read(key) or b"").decode(errors="surrogateescape"))
-            found.setdefault(2 if 1 in found else 1, split(content))
         (base, before), ours, theirs = found.get(0, (None, None)), found.get(1), found.get(2)
-        if ours is None and theirs is None:
-            return {}  # the versions of this part are elsewhere
+        if ours is None and theirs is None:  # the versions of this part are elsewhere
+            former = staged[key]
+            if former.base is None or inputs.folder.path(key) in ids:
+                return {}
+            meant[key] = _Meant(former.base, former.stamps[0])  # an unedited file of a name that is gone goes
+            continue
         if ours is None or theirs is None:
             meant[key] = _Meant(*(ours or theirs or ("", None)))
         elif _are_generated(inputs.last, (ours[0], theirs[0])):
@@ -138,11 +162,19 @@ def _by_parts(inputs: Inputs, keys: Iterable[str], ids: Mapping[str, str]) -> di
     return meant
 
 
+def _are_apart(sides: Sides, key: str, home: Mapping[str, str]) -> bool:
+    """Return whether two versions are of different parts, or of the part at this path; else their file just moves."""
+    _, ours, theirs = sides.stamps
+    if ours is None or theirs is None:
+        return False
+    return bool(sides.deleted) or ours.id != theirs.id or home.get(ours.id, key) == key
+
+
 def _untouched(inputs: Inputs, key: str) -> Sides | None:
     """Return two different versions of a file that git could not merge, if the user has not settled it."""
     sides = _read_staged(inputs.files.path(key))
     content = plain((inputs.files.read(key) or b"").decode(errors="surrogateescape"))
-    if sides is None or sides.ours == sides.theirs:
+    if sides is None or (sides.ours == sides.theirs and not sides.deleted):
         return None
     text = split(content)[0]
     if markers.find_markers(content):
@@ -212,6 +244,7 @@ def _read_staged(file: Path) -> Sides | None:
                 base, ours, theirs = (None if blob is None else plain(blob.decode(errors="replace")) for blob in blobs)
                 # if both branches renamed a file, each of them has only one of the two paths
                 sides = _sides(base, ours or theirs or "", theirs or ours or "")
+                sides = sides._replace(deleted=1 if ours is None else 2 if theirs is None else 0)
                 # if renames of both branches end here, git has merged two other files
                 return None if any(map(markers.find_markers, sides[1:3])) else sides
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):

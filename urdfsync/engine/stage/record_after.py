@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
@@ -11,12 +12,12 @@ from urdfsync.domain.matching import Matching
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
-from urdfsync.engine.decide.doubts import EDITED
+from urdfsync.engine.decide.doubts import EDITED, added_lines
 from urdfsync.engine.decide.parts import find_part_ids, other_meanings
 from urdfsync.engine.decide.rules import file_records_after
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
-from urdfsync.engine.inspect.last_build import hash_of, option_values
+from urdfsync.engine.inspect.last_build import hash_of, line_hash, option_values
 from urdfsync.engine.inspect.package_files import bare_hash, encode, text_hash
 from urdfsync.engine.sources.source import expansion_hash
 from urdfsync.project.state.notes import Notes, Use
@@ -169,6 +170,18 @@ def notes_after(
         expansion=expansion_hash(expanded) if expanded and inputs.source.is_made_here else "",
         written=frozenset(made | (set(old.written) & recorded)),
         edits={**old.edits, **seen_edits(inputs, decision), **({} if is_dry else seen_merges(inputs, decision))},
+        lines=_seen_lines(inputs, generation, decision),
         uses=old.uses if is_dry else uses,
         model=old.model if is_dry else hash_of(record.snapshot) if uses else "",
     )
+
+
+def _seen_lines(inputs: Inputs, generation: Generation, decision: Decision) -> Mapping[str, Sequence[str]]:
+    """Return the ids of files by hashes of lines, with those of the edits that no build has seen so far."""
+    old, ids, found = inputs.last.notes, decision.differences.ids, defaultdict[str, set[str]](set)
+    edited = (one for one in decision.actions if one.reason in EDITED and one.mine and one.mine not in old.edits)
+    for action in edited:
+        if (path := inputs.folder.path(action.path)) in ids:
+            for line in added_lines(inputs, generation.package, action):
+                found[line_hash(line)].add(ids[path])
+    return {**old.lines, **{key: sorted(found[key].union(old.lines.get(key, ()))) for key in found}}

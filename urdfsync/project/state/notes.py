@@ -5,7 +5,7 @@ They are not committed, and safe to lose. Builds skip work only by these notes, 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -39,6 +39,8 @@ class Notes(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Hashes of recorded texts and imported files that this machine generated."""
     edits: Mapping[str, str] = {}
     """The id of the file that each edited text belongs to, by the text's hash: all edits that builds here have seen."""
+    lines: Mapping[str, Sequence[str]] = {}
+    """The ids of the files to which these edits have added a line, by the line's hash."""
     uses: Mapping[str, Use] = {}
     """Names that mean other parts now, by absolute path of a user's file."""
     model: str = ""
