@@ -48,7 +48,7 @@ from typing import Any, ClassVar
 import pytest
 from support import branches, networks
 from support.commands import Editor, Execute, Printed
-from support.files import fresh_models, models, unchanged
+from support.files import delete, fresh_models, models, unchanged
 from support.git import Repository
 from support.networks import conflicts, edit, kinds, run
 from support.replay import contents
@@ -201,13 +201,7 @@ class Scenario:
         self.path(file).write_text(text)
 
     def delete(self, file: str) -> None:
-        path = self.path(file)
-        if path.is_dir():
-            for each in path.rglob("*"):
-                each.chmod(0o700)  # Windows deletes no read-only files, as those of git are
-            shutil.rmtree(path)
-        else:
-            path.unlink()
+        delete(self.path(file))
 
     def move(self, rest: str) -> None:
         old, new = map(self.path, rest.split())

@@ -29,6 +29,7 @@ from lxml import etree
 from support import edits, hand_edits, replay, tree_changes
 from support.commands import Execute, Printed
 from support.edits import Line
+from support.files import delete
 from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link
 
@@ -309,7 +310,8 @@ class Walk(RuleBasedStateMachine):
 
     def __init__(self) -> None:
         super().__init__()
-        shutil.rmtree(self.root, ignore_errors=True)
+        if self.root.exists():
+            delete(self.root)
         self.count, self.branch, self.other = 0, "main", "other"
         self.expected = Expected()
         self.branches = {"main": self.expected}
@@ -589,7 +591,8 @@ class Walk(RuleBasedStateMachine):
         self.has_news = False
         self.repository.commit()
         clone = self.root / "clone"
-        shutil.rmtree(clone, ignore_errors=True)
+        if clone.exists():
+            delete(clone)
         self.git("clone", "-q", "--recurse-submodules", str(self.repository.folder), str(clone))
         built = self.execute("build", "--format=json", "--config", clone / "urdfsync.toml", code=None)
         self.build(full=False)

@@ -99,13 +99,13 @@ MISTAKES = {
     'output = ""': '`output` must be a path, not "" [wrong-value]',
     "ground = 1": "`ground` must be true or false, not 1 [wrong-value]",
     "x = ": "invalid value; put strings into quotes [toml-syntax]",
-    'x = "C:\\Users"': ":10 invalid hex value; write paths with `/`, or in single quotes [toml-syntax]",
     'class = "2nd"': "'2nd' can't be the class of a robot model; set `class` to a name that begins with a capital and "
     "is not reserved by Modelica or urdfsync [modelica-name]",
 }
 """By a line of a robot's table."""
 DEEP = " tables and lists are nested more than 50 deep [toml-syntax]"
 OTHER_MISTAKES = {
+    robot('x = "C:\\Users"'): "5:10 invalid hex value; write paths with `/`, or in single quotes [toml-syntax]",
     robot("[check]\nlibary = 'x'"): "6 unknown key `libary` in `[check]`; did you mean `library`? [unknown-key]",
     robot().replace("work", "wok"): '4 there is no domain `rcnetwok`; did you mean "rcnetwork"? [unknown-domain]',
     robot().replace('package = "Arm"', ""): "1 robot `arm` has no `package`; add a line `package = …` [missing-key]",
