@@ -45,7 +45,7 @@ class Printed(NamedTuple):
 
 def _with_slashes(text: str) -> str:
     """A text, or JSON, with paths as tests write them, on Windows, too."""
-    return text if os.sep == "/" else re.sub(r"\\{1,2}(?=[\w.])", "/", text)
+    return text if os.sep == "/" else re.sub(r"\\+(?=[\w.])", "/", text)
 
 
 class Terminal:
