@@ -26,6 +26,7 @@ A text begins with what its scenarios share, each `-- NAME`; then each begins wi
     fresh                    all models are as in a first build from the source, but for remarks
     aside TEXT               a text that was replaced has it
     conflicts FILE…          the conflicts that a dry build finds
+    posix REASON             what follows needs what Windows lacks
 
 Files are those of the package, or begin with `/`: then they are of the project. `@FILE` is such a path in a command and
 in what it prints, `\\n` a line end. `A || B` in a title and in lines makes two scenarios of one, of which the first is
@@ -37,6 +38,7 @@ before is.
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 import shlex
 import shutil
@@ -260,6 +262,10 @@ class Scenario:
     def conflicts(self, rest: str) -> None:
         assert conflicts(dry=True) == [self.path(file).as_posix() for file in rest.split()]
 
+    def posix(self, reason: str) -> None:
+        if os.name == "nt":
+            pytest.skip(f"not on Windows: {reason}")
+
     _EXPORTS = "set", "add", "drop", "rename"
     VERBS: ClassVar[Mapping[str, Any]] = {
         "$": command,
@@ -270,7 +276,7 @@ class Scenario:
         **{each.__name__: each for each in (configure, config, edit, insert, note, write, delete, move, copy)},
         **{each.__name__: each for each in (template, editor, commit, branch, git, clone)},
         **{each.__name__: each for each in (keep, same, has, lacks, aside, only, fresh, exists, gone, order)},
-        **{each.__name__: each for each in (run, conflicts)},
+        **{each.__name__: each for each in (run, conflicts, posix)},
     }
 
 
