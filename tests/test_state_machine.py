@@ -33,7 +33,7 @@ from support.files import delete
 from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link
 
-from urdfsync.engine.decide import decision as decide
+from urdfsync.engine.decide import steps
 from urdfsync.modelica.stamp import split
 
 pytestmark = [NEEDS_GIT, pytest.mark.slow]
@@ -319,6 +319,8 @@ class Walk(RuleBasedStateMachine):
         """Fresh packages by their source."""
         self.conflicts = dict[str, str]()
         """The path of the user's file, by the path of the new file."""
+        self.waiting: Sequence[str] = ()
+        """The edited files that wait for conflicts, at their present paths."""
         self.is_exported = False
         """Whether a source has changed since the last verdict."""
         self.broken: Sequence[str] = ()
@@ -437,6 +439,28 @@ class Walk(RuleBasedStateMachine):
         self.has_news = True
         code = self.run(f"resolve {'--all' if all_ else path} {answer}")
         assert self.verdict() == (code == 0)
+
+    @precondition(lambda self: not self.has_markers())
+    @rule(answer=st.sampled_from(ANSWERS), random=seeds)
+    def answer_anything(self, answer: str, random: Random) -> None:
+        """Answer about any file, mostly one that waits: the command refuses and changes nothing, or loses nothing."""
+        waiting = [path for path in map(Path, self.waiting) if path.suffix == ".mo" and path.exists()]
+        path = random.choice(waiting if waiting and random.random() < 0.8 else sorted(PACKAGE.rglob("*.mo")))
+        before = self.everything()
+        given_up = {*self.expected.given_up}
+        self.give_up([path.as_posix()] if answer.endswith(("take", "generated")) else [])
+        code = self.run(f"resolve {path} {answer}", may_refuse=True)
+        if code == 2:
+            self.expected.given_up = given_up
+            assert self.everything() == before, "refused, but written"
+            return
+        self.expected.loose.add(inside(path))
+        self.has_news = True
+        self.verdict()
+
+    def has_markers(self) -> bool:
+        """Whether a build would stop because of markers."""
+        return any("<<<<<<< " in text for text in texts().values())
 
     def give_up(self, paths: Collection[str]) -> None:
         places = {*map(inside, paths)}
@@ -608,10 +632,13 @@ class Walk(RuleBasedStateMachine):
 
     # What must hold
 
-    def run(self, command: str) -> int:
+    def run(self, command: str, may_refuse: bool = False) -> int:
         """Run a command that writes; no edit may be lost. The exit code."""
         before = {path.as_posix(): path.read_bytes() for path in PACKAGE.rglob("*.mo")}
         printed = self.execute(*command.split(), "--format=json", code=None)
+        if may_refuse and printed.code == 2:
+            self.tally["refused"] += 1
+            return 2
         assert printed.code in (0, 3) or SOURCE.name in printed.words, printed
         (robot,) = printed.json["results"]
         self.renews = robot.get("renews", False)
@@ -645,6 +672,9 @@ class Walk(RuleBasedStateMachine):
         self.conflicts = {
             one["path"]: one["origin"] or one["path"] for one in check["actions"] if one["kind"] == "conflict"
         }
+        self.waiting = sorted(
+            one["origin"] or one["path"] for one in check["actions"] if one["is_waiting"] and one["reason"] != "update"
+        )
         ours = [one for one in status["actions"] if one["status"] and one["reason"] != "unknown"]
         reasons = {one["origin"] or one["path"]: one["reason"] for one in ours}
         files = {one["file"] for one in check["diagnostics"] if one["severity"] != "note" and one["file"]}
@@ -756,6 +786,6 @@ def test_a_verdict_in_step_of_what_is_broken_would_be_found(walks: type[Walk], m
     walk.begin(random=Random(1), merging=False, driver=False, layout="file")
     model = PACKAGE / "Arm.mo"
     model.write_text(model.read_text().replace("equation\n", "equation\n  connect(base.frame_a, none.frame_a);\n"))
-    monkeypatch.setattr(decide, "look_for_misfits", lambda *_: ())
+    monkeypatch.setattr(steps, "look_for_misfits", lambda *_: ())
     with pytest.raises(AssertionError, match="in step, and names nothing"):
         walk.build(full=False)

@@ -194,7 +194,8 @@ def _model(mujoco: Any, root: ET.Element) -> tuple[Any, dict[str, tuple[str, flo
     for joint in spec.joints:
         losses = _numbers(root.find(f"joint[@name='{joint.name}']/dynamics"))
         joint.armature, joint.frictionloss = losses.get("armature", 0.0), losses.get("friction", 0.0)
-        joint.damping = [losses.get("damping", 0.0), 0, 0]
+        damping = losses.get("damping", 0.0)
+        joint.damping = [damping, 0, 0] if np.ndim(joint.damping) else damping  # a polynomial since MuJoCo 4
         joint.solref_friction[:], joint.solimp_friction[:2] = (0.001, 1), (0.9999, 0.9999)
         joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
     return spec.compile(), mimics

@@ -18,6 +18,7 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Choice, Reason, UsersChoice
 from urdfsync.engine.build import build
 from urdfsync.engine.decide.conflicts import PREFERENCES
+from urdfsync.engine.decide.settle import without_effect
 from urdfsync.engine.inspect.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.output.build_section import show_result
@@ -195,22 +196,5 @@ def _compare(
             reason = refused or f"`--prefer` settles nothing here: {file.relation}"
             problems.append(Diagnostic(Severity.WARNING, "no-merge", reason, place, hint=settle_hint([file])))
         elif choice in (Choice.UNDO, Choice.MOVED) or not (before.is_conflict or before.is_left_by_git):
-            problems.append(_without_effect(choice, before, place))
+            problems.append(without_effect(choice, before, place))
     return accepted, problems
-
-
-def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
-    """Return why a choice has no effect on a file without a conflict."""
-    code, message, hint = "no-conflict", "the file has no conflict", "see `urdfsync status`"
-    if choice is Choice.UNDO:
-        code, hint = "no-undo", "texts that were replaced are below .urdfsync/aside"
-        message = "nothing to undo: nothing was replaced here, or the file has changed since"
-    elif action.is_conflict:
-        code, hint = "wrong-rename", "choose again: `urdfsync status` lists the choices"
-        message = "--moved is only for an edit that may belong to another part; this edit belongs here"
-    elif action.present.endswith("/package.mo") and not action.is_on_disk:
-        message, hint = "you turned the class into a folder", "delete the folder and build to get the generated file"
-    elif action.reason is Reason.ORPHAN:
-        code, message = "no-merge", "the file is no longer generated: there is nothing to merge"
-        hint = "make it yours with --keep, or delete it with --take"
-    return Diagnostic(Severity.ERROR, code, message, place, hint=hint)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import msgspec
 
-from urdfsync.common.diagnostics import ConfigError, OutputError
+from urdfsync.common.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.common.files import shown
 from urdfsync.common.spelling import nearest
 from urdfsync.domain import Role
@@ -33,20 +33,44 @@ _EDITED = frozenset({Reason.KEEP, Reason.MOVE, Reason.MERGE})
 def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settled:
     """Apply the choices of the options.
 
-    A choice is ignored if one of the two texts has changed, or if the choice does not fit the file. Raises
-    OutputError for `--keep` on a file with markers of git.
+    A choice is ignored if one of the two texts has changed, or if the choice does not fit the file. Raises OutputError
+    if no choice has an effect, so nothing is written, and for `--keep` on a file with markers of git.
     """
     choices, wanted = _Choices(inputs, generation, decision), dict(inputs.options.choices)
-    by_path = {action.path: action for action in decision.actions}
+    by_path, refused = {action.path: action for action in decision.actions}, list[Diagnostic]()
     if inputs.options.adopts:
         unowned = (one for one in decision.actions if one.reason is Reason.UNOWNED)
         wanted |= {one.path: UsersChoice(Choice.KEEP, one.sides) for one in unowned}
     for key, chosen in wanted.items():
         role = role_of(inputs.folder.path(key))
         action = by_path.get(key, Action(key, Reason.FORGET, role))  # the decision lacks a deleted file, for example
-        if chosen.sides == action.sides and choices.apply(action, chosen):
-            choices.settled.keys.add(key)
+        if chosen.sides == action.sides:
+            if choices.apply(action, chosen):
+                choices.settled.keys.add(key)
+            elif chosen.choice in (Choice.UNDO, Choice.MOVED) or not (action.is_conflict or action.is_left_by_git):
+                refused.append(without_effect(chosen.choice, action, shown(inputs.files.path(action.present))))
+    if refused and not choices.settled.keys:
+        raise OutputError(*refused)
     return choices.settled
+
+
+def without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
+    """Return why a choice has no effect on a file."""
+    code, message, hint = "no-conflict", "the file has no conflict", "see `urdfsync status`"
+    if choice is Choice.UNDO:
+        code, hint = "no-undo", "texts that were replaced are below .urdfsync/aside"
+        message = "nothing to undo: nothing was replaced here, or the file has changed since"
+    elif action.is_conflict:
+        code, hint = "wrong-rename", "choose again: `urdfsync status` lists the choices"
+        message = "--moved is only for an edit that may belong to another part; this edit belongs here"
+    elif action.present.endswith("/package.mo") and not action.is_on_disk:
+        message, hint = "you turned the class into a folder", "delete the folder and build to get the generated file"
+    elif action.reason is Reason.ORPHAN:
+        code, message = "no-merge", "the file is no longer generated: there is nothing to merge"
+        hint = "make it yours with --keep, or delete it with --take"
+    elif action.is_waiting:
+        message, hint = "the file waits for other conflicts, and has none", "settle these first: see `urdfsync status`"
+    return Diagnostic(Severity.ERROR, code, message, place, hint=hint)
 
 
 class _Choices:

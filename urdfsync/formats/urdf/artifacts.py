@@ -11,7 +11,7 @@ from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.formats.urdf.assembly import Assembly
 from urdfsync.formats.urdf.model.joint import joint_model, joint_title
 from urdfsync.formats.urdf.model.loop import loop_note, loop_reaches, loop_title
-from urdfsync.formats.urdf.model.numbers import joint_part, link_numbers, loop_numbers, shape_part
+from urdfsync.formats.urdf.model.numbers import joint_numbers, joint_record, link_numbers, loop_numbers, shape_part
 from urdfsync.formats.urdf.model.record import obstacles, record_data
 from urdfsync.formats.urdf.model.robot import bench_data, robot_data, sensor_rows
 from urdfsync.formats.urdf.model.shapes import link_model, link_shapes, standing_height
@@ -29,46 +29,9 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     Raises KeyError or ValueError if the robot is invalid, or if an imported mesh lacks its hull or bounds.
     """
     assembly = Assembly(robot, options, target)
-    tree, package, folders = assembly.tree, target.package, dict[str, list[Artifact]]()
-    is_whole, starts = "package" in options.approach, {j.name: tree.joint(j.name).component for j in tree.starts()}
-    files, parameters = list[Artifact](), list[Artifact]()
-    if "record" in options.approach:
-        parameters.append(_of_robot(assembly, _PARAMETERS, record_data(assembly, imports), Role.RECORD))
-    if is_whole:
-        whole = robot_data(tree.structure(), assembly.connectors, assembly.closed.dependent)
-        files.append(_of_robot(assembly, "", whole))
-        benches = bench_data(assembly, whole)
-        files.append(_of_robot(assembly, "Run", benches))
-        files.append(_of_robot(assembly, "Test", benches))
-    else:
-        files += parameters
-    if has_bench(tree.joints, options):
-        axes = {f"{motion}_axes": [starts.get(joint.name) for joint in tree.axes(motion)] for motion in MOTIONS}
-        files.append(_of_robot(assembly, "Generic", axes))
-    if is_whole and options.base == "floating":
-        files.append(_of_robot(assembly, "Stance", {"height": standing_height(tree, imports)}, Role.RECORD))
-    if is_whole and tree.sensors:
-        rows = {"sensors": sensor_rows(tree, assembly.connectors)}
-        files.append(_of_robot(assembly, "Sensors", rows, Role.RECORD))
-    if starts:
-        begin = [
-            {"component": starts[joint.name], "motion": MOTION_KINDS[joint.type], "joint": joint}
-            for joint in tree.starts()
-        ]
-        data = {"starts": begin, "reaches": list(loop_reaches(assembly.closed).values()), "has_loops": bool(tree.loops)}
-        files.append(_of_robot(assembly, "Start", data, Role.RECORD))
-    if is_whole:
-        files += parameters
-        root, *others = tree.links
-        if not any(link.inertial for link in tree.links):
-            # Modelica's frames need a root body: a robot without masses gets a massless one
-            root = msgspec.structs.replace(root, inertial=Inertial())
-        folders["Links"] = [file for link in (root, *others) for file in _link(assembly, link, imports)]
-        joints = [file for joint in tree.joints for file in _joint(assembly, joint)]
-        joints += [file for loop in tree.loops for file in _loop(assembly, loop)]
-        if joints:
-            folders["Joints"] = joints
-    parent, _, last = package.rpartition(".")
+    files = list(_robot_files(assembly, imports))
+    folders = dict(_folders(assembly, imports)) if "package" in options.approach else {}
+    parent, _, last = target.package.rpartition(".")
     data = {
         "within": parent,
         "name": last,
@@ -77,19 +40,65 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         else f"Robot {target.name} in one record",
         "uses": () if parent else USES,
         "robot": target.name,
-        "bench": has_bench(tree.joints, options),
+        "bench": has_bench(assembly.tree.joints, options),
     }
     orders: list[Artifact | Order] = [
         Artifact("package.mo", Role.PACKAGE, "package/robot.mo.jinja", data, "robot"),
         Order("package.order", (*_classes(files), *folders)),
     ]
     for folder, elements in folders.items():
-        data = {"within": package, "name": folder, "title": f"{folder} of robot {target.name}"}
+        data = {"within": target.package, "name": folder, "title": f"{folder} of robot {target.name}"}
         template = f"package/{folder.lower()}.mo.jinja"
         orders.append(Artifact(f"{folder}/package.mo", Role.PACKAGE, template, data, "robot"))
         orders.append(Order(f"{folder}/package.order", _classes(elements)))
         files += elements
     return [*orders, *files]
+
+
+def _robot_files(assembly: Assembly, imports: Mapping[str, Import]) -> Iterator[Artifact]:
+    """Yield the files of the robot itself, in the order of the package."""
+    tree, options, is_whole = assembly.tree, assembly.options, "package" in assembly.options.approach
+    starts, record = {joint.name: tree.joint(joint.name).component for joint in tree.starts()}, list[Artifact]()
+    if "record" in options.approach:
+        record = [_of_robot(assembly, _PARAMETERS, record_data(assembly, imports), Role.RECORD)]
+    if is_whole:
+        whole = robot_data(tree.structure(), assembly.connectors, assembly.closed.dependent)
+        yield _of_robot(assembly, "", whole)
+        benches = bench_data(assembly, whole)
+        yield _of_robot(assembly, "Run", benches)
+        yield _of_robot(assembly, "Test", benches)
+    else:
+        yield from record
+    if has_bench(tree.joints, options):
+        axes = {f"{motion}_axes": [starts.get(joint.name) for joint in tree.axes(motion)] for motion in MOTIONS}
+        yield _of_robot(assembly, "Generic", axes)
+    if is_whole and options.base == "floating":
+        yield _of_robot(assembly, "Stance", {"height": standing_height(tree, imports)}, Role.RECORD)
+    if is_whole and tree.sensors:
+        yield _of_robot(assembly, "Sensors", {"sensors": sensor_rows(tree, assembly.connectors)}, Role.RECORD)
+    if starts:
+        begin = [
+            {"component": starts[joint.name], "motion": MOTION_KINDS[joint.type], "joint": joint}
+            for joint in tree.starts()
+        ]
+        data = {"starts": begin, "reaches": list(loop_reaches(assembly.closed).values()), "has_loops": bool(tree.loops)}
+        yield _of_robot(assembly, "Start", data, Role.RECORD)
+    if is_whole:
+        yield from record
+
+
+def _folders(assembly: Assembly, imports: Mapping[str, Import]) -> Iterator[tuple[str, list[Artifact]]]:
+    """Yield the folders of links and joints, each with its files; none without joints and loops."""
+    tree = assembly.tree
+    root, *others = tree.links
+    if not any(link.inertial for link in tree.links):
+        # Modelica's frames need a root body: a robot without masses gets a massless one
+        root = msgspec.structs.replace(root, inertial=Inertial())
+    yield "Links", [file for link in (root, *others) for file in _link(assembly, link, imports)]
+    joints = [file for joint in tree.joints for file in _joint(assembly, joint)]
+    joints += [file for loop in tree.loops for file in _loop(assembly, loop)]
+    if joints:
+        yield "Joints", joints
 
 
 def _classes(files: Sequence[Artifact]) -> tuple[str, ...]:
@@ -147,7 +156,8 @@ def _joint(assembly: Assembly, joint: Joint) -> Iterator[Artifact]:
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}."
     is_driven = joint.name in assembly.closed.driven
-    data = joint_model(joint, assembly.options, is_driven), joint_part(joint) | {"source": "URDF"}
+    record = {"base": joint_record(joint), "numbers": joint_numbers(joint), "source": "URDF"}
+    data = joint_model(joint, assembly.options, is_driven), record
     templates = "joint/axis" if joint.type in MOTION_KINDS else f"joint/{joint.type}", "joint/record"
     return _element(assembly, "joint", joint.name, joint_title(joint), templates, data, note)
 

@@ -19,7 +19,7 @@ from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.meshes import lookup
 from urdfsync.formats.urdf.meshes.convert import stated_triangles as stated_triangles
 from urdfsync.formats.urdf.meshes.convert import triangles as triangles
-from urdfsync.formats.urdf.model.shapes import GREY, link_shapes, standing_height
+from urdfsync.formats.urdf.model.shapes import GREY, DrawnShape, link_shapes, standing_height
 from urdfsync.formats.urdf.named_poses import named_poses as named_poses
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.robot import (
@@ -122,10 +122,8 @@ def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.LoopConst
     )
 
 
-def _body(
-    tree: KinematicTree, link: Link, data: Iterable[Sequence[Mapping[str, Any]]], meshes: Mapping[str, str]
-) -> Body:
-    shapes = [_shape(shape, meshes) for of_kind in data for shape in of_kind]
+def _body(tree: KinematicTree, link: Link, drawn: Iterable[Sequence[DrawnShape]], meshes: Mapping[str, str]) -> Body:
+    shapes = [_shape(shape, meshes) for of_kind in drawn for shape in of_kind]
     body = Body(f"link {link.name}", tree.link(link.name).component, tuple(_facts(link)), tuple(shapes))
     inertial = link.inertial
     if inertial is None or not inertial.mass > 0:
@@ -134,9 +132,8 @@ def _body(
     return msgspec.structs.replace(body, mass=inertial.mass, center=center, inertia=inertia)
 
 
-def _shape(data: Mapping[str, Any], meshes: Mapping[str, str]) -> Shape:
-    """Return a shape from the data of templates."""
-    geometry, pose, size = data["geometry"], _matrix(poses.pose(data["origin"])), ()
+def _shape(drawn: DrawnShape, meshes: Mapping[str, str]) -> Shape:
+    geometry, pose, size = drawn.geometry, _matrix(poses.pose(drawn.origin)), ()
     if isinstance(geometry, Mesh):
         scale = (*geometry.scale, 1.0)
         pose = tuple(number * scale[place // 4] for place, number in enumerate(pose))
@@ -144,12 +141,12 @@ def _shape(data: Mapping[str, Any], meshes: Mapping[str, str]) -> Shape:
         numbers = msgspec.structs.astuple(geometry)
         size = numbers[0] if isinstance(numbers[0], tuple) else numbers
     return Shape(
-        "collision" if data["is_collision"] else "visual",
-        data["type"].lower(),
+        "collision" if drawn.model.is_collision else "visual",
+        drawn.model.type.lower(),
         size,
         pose,
-        (*(part / 255 for part in data["color"]), data["opacity"]),
-        meshes.get(data["uri"], ""),
+        (*(part / 255 for part in drawn.color), drawn.opacity),
+        meshes.get(drawn.uri, ""),
     )
 
 

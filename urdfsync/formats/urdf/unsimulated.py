@@ -9,12 +9,11 @@ from msgspec.structs import replace
 from urdfsync.formats.urdf.assembly import Assembly
 from urdfsync.formats.urdf.drives import can_be_driven, sharing_joint
 from urdfsync.formats.urdf.kinematics.massless import find_massless_joints
+from urdfsync.formats.urdf.kinematics.poses import AXES
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.model.record import obstacles
-from urdfsync.formats.urdf.robot import MOTION_KINDS, Joint, Vector
+from urdfsync.formats.urdf.robot import MOTION_KINDS, Joint
 from urdfsync.formats.urdf.validate import Finding, unit_vector
-
-_AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 def find_unsimulated(assembly: Assembly) -> Iterator[Finding]:
@@ -46,7 +45,7 @@ def find_unsimulated(assembly: Assembly) -> Iterator[Finding]:
 def _has_massless_axis(tree: KinematicTree, ball: Joint) -> bool:
     """Return whether a ball turns no inertia about an axis of its frame or the line to its child's centre of mass."""
     inertial = next(link.inertial for link in tree.links if link.name == ball.child)
-    for axis in (*_AXES, unit_vector(inertial.origin.xyz if inertial else _AXES[0])):
+    for axis in (*AXES, unit_vector(inertial.origin.xyz if inertial else AXES[0])):
         hinge = replace(ball, type="continuous", axis=axis)
         joints = tuple(hinge if joint is ball else joint for joint in tree.joints)
         if ball.name in find_massless_joints(replace(tree, joints=joints), {ball.name}):

@@ -10,7 +10,8 @@ import pinocchio as pin
 import pytest
 from support.urdfs import joint, limit, link, links, parsed, robot
 
-from urdfsync.formats.urdf.kinematics.loads import GRAVITY, find_extremes, find_grids, positions
+from urdfsync.formats.urdf.kinematics.loads import find_extremes, find_grids, positions
+from urdfsync.formats.urdf.kinematics.poses import GRAVITY
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.robot import Joint, JointType
 

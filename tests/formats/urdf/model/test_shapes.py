@@ -16,7 +16,7 @@ from support.robots import any_number, origin, tree
 from urdfsync.domain import Import
 from urdfsync.formats.urdf.kinematics.poses import pose
 from urdfsync.formats.urdf.meshes.lookup import key
-from urdfsync.formats.urdf.model.shapes import GREY, link_model, link_shapes, standing_height
+from urdfsync.formats.urdf.model.shapes import GREY, DrawnShape, link_model, link_shapes, standing_height
 from urdfsync.formats.urdf.options import Options
 from urdfsync.formats.urdf.robot import (
     Box,
@@ -51,7 +51,7 @@ def imported(points: list[list[float]]) -> Mapping[str, Import]:
 
 def shapes_of(
     *geometries: Geometry, imports: Mapping[str, Import] | None = None, **options: Any
-) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+) -> tuple[list[DrawnShape], list[DrawnShape]]:
     link = Link("l", visuals=tuple(map(Visual, geometries)), collisions=tuple(map(Collision, geometries)))
     return link_shapes(link, imports or {}, "Plant.Arm", Options(**options))
 
@@ -67,7 +67,7 @@ def test_colours_are_integers_that_tools_take(
 ) -> None:
     link = Link("l", visuals=(Visual(Sphere(1), name='a "b"', material=material),))
     ((visual,), _) = link_shapes(link, {}, "Arm", Options())
-    assert (visual["color"], visual["opacity"], visual["title"]) == (color, opacity, 'Visual 1: "a "b""')
+    assert (visual.color, visual.opacity, visual.title) == (color, opacity, 'Visual 1: "a "b""')
 
 
 @pytest.mark.parametrize(("base", "points", "names"), [

@@ -20,7 +20,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from urdfsync.domain import ElementKey, Features, displaced
-from urdfsync.formats.urdf.kinematics.poses import Pose, link_poses, pose, turned_inertia
+from urdfsync.formats.urdf.kinematics.poses import Pose, link_poses, pose, principal_moments, turned_inertia
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.robot import (
     Dynamics,
@@ -77,7 +77,8 @@ def coarse_features(robot: Robot) -> Mapping[ElementKey, Features]:
     moving, features = _moving(robot, set()), dict[ElementKey, Features]()
     above = {joint.child: joint.name for joint in moving.joints}
     for link in moving.links:
-        contents = {"mass": list(map(_coarse, _body(link.inertial)))} if link.inertial else {}
+        body = [link.inertial.mass, *principal_moments(link.inertial.inertia)] if link.inertial else ()
+        contents = {"mass": list(map(_coarse, body))} if body else {}
         neighbours = {"joint": ("joint", above[link.name])} if link.name in above else {}
         features["link", link.name] = Features(contents, neighbours)
     for joint in moving.joints:
@@ -87,17 +88,6 @@ def coarse_features(robot: Robot) -> Mapping[ElementKey, Features]:
         existing = {relation: end for relation, end in ends.items() if end in features}
         features["joint", joint.name] = Features(contents, existing)
     return features
-
-
-def _body(inertial: Inertial) -> list[float]:
-    """Return mass and principal moments."""
-    i = inertial.inertia
-    tensor = [[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]]
-    try:
-        moments = np.linalg.eigvalsh(tensor)
-    except np.linalg.LinAlgError:  # of absurd numbers
-        moments = np.zeros(3)
-    return [inertial.mass, *map(float, moments)]
 
 
 def _coarse(number: float) -> float:

@@ -21,7 +21,6 @@ from msgspec.structs import replace
 from urdfsync.common.spelling import counted
 from urdfsync.formats.urdf.kinematics.loops import NOTABLE, ClosedLoops, Closure, Gap
 from urdfsync.formats.urdf.kinematics.mechanism import (
-    AXES,
     ORIGIN,
     Array,
     Equation,
@@ -30,7 +29,7 @@ from urdfsync.formats.urdf.kinematics.mechanism import (
     array_of,
     joints_of_loops,
 )
-from urdfsync.formats.urdf.kinematics.poses import SWEEP, across, own_range, position_ranges, sweep_way
+from urdfsync.formats.urdf.kinematics.poses import AXES, SWEEP, across, own_range, position_ranges, sweep_way
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.robot import MOTION_KINDS, Joint, Loop, Vector
 from urdfsync.formats.urdf.validate import Finding

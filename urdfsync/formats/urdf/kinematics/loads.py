@@ -15,7 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfsync.formats.urdf.kinematics.mechanism import turns
-from urdfsync.formats.urdf.kinematics.poses import Pose, compose, motion, pose, position_ranges, start_positions
+from urdfsync.formats.urdf.kinematics.poses import (
+    GRAVITY,
+    Pose,
+    compose,
+    motion,
+    pose,
+    position_ranges,
+    start_positions,
+)
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.robot import MOTION_KINDS, Joint, Link
 
@@ -23,7 +31,6 @@ Array = NDArray[np.float64]
 _Moment = tuple[float, Array]
 """Mass, and mass times centre of mass."""
 
-GRAVITY = 9.80665  # of the Modelica Standard Library's World
 _MOST = 2000
 """The greatest number of poses of a grid. So many poses take 10 ms with seven joints."""
 _QUARTER = math.pi / 2

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfsync.formats.urdf.kinematics.loops import Gap
-from urdfsync.formats.urdf.kinematics.poses import dot, start_positions
+from urdfsync.formats.urdf.kinematics.poses import AXES, dot, start_positions
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Loop, Origin, Vector
 
@@ -20,7 +20,6 @@ Array = NDArray[Any]
 Equation = tuple[Vector, tuple[float, float, float, float], float]
 """u, v and product of a row: see `Rows`."""
 
-AXES: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 ORIGIN = (0.0, 0.0, 0.0, 1.0)
 _TAU = Decimal("6.283185307179586476925286766559005768394")
 

@@ -5,12 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+import msgspec
+
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.robot import MOTION_KINDS, Inertia, Joint, Origin, Vector
 
 Matrix = tuple[Vector, Vector, Vector]
 Pose = tuple[Matrix, Vector]
 """Rotation R and translation p: v_world = R·v + p."""
+
+GRAVITY = 9.80665
+"""In m/s²: that of the Modelica Standard Library's World."""
 
 # Positions are cut off here, since larger numbers overflow. The library's leaderPosition has the same bound.
 _FAR = 1e60
@@ -19,7 +24,9 @@ SWEEP = {"rotational": 1.0, "translational": 0.1}
 """In rad and m: the longest motion of a sweep in the library."""
 _MARGIN, _PERIOD = 0.9, 10.0
 
-IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
+AXES: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+IDENTITY: Pose = (AXES, (0.0, 0.0, 0.0))
+_EXACT = 1e-12
 
 
 def pose(origin: Origin) -> Pose:
@@ -178,6 +185,29 @@ def turned_inertia(rotation: Matrix, inertia: Inertia) -> Matrix:
     along_z = dot(z, a), dot(z, b), dot(z, c)
     xy, xz, yz = dot(along_x, y), dot(along_x, z), dot(along_y, z)
     return (dot(along_x, x), xy, xz), (xy, dot(along_y, y), yz), (xz, yz, dot(along_z, z))
+
+
+def principal_moments(inertia: Inertia) -> Vector:
+    """Return the eigenvalues of the inertia tensor in ascending order, in kg·m².
+
+    The trigonometric solution of the characteristic equation gives eight digits or more. The import of numpy would take
+    longer than a build of a small robot.
+    """
+    values = msgspec.structs.astuple(inertia)
+    if not (values[1] or values[2] or values[4]):
+        low, middle, high = sorted((values[0], values[3], values[5]))
+        return low, middle, high
+    scale = max(map(abs, values)) or 1.0  # without this, squares of large numbers overflow
+    xx, xy, xz, yy, yz, zz = (value / scale for value in values)
+    mean = (xx + yy + zz) / 3
+    xx, yy, zz = xx - mean, yy - mean, zz - mean
+    spread = math.sqrt((xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)) / 6)
+    if spread < _EXACT:
+        return mean * scale, mean * scale, mean * scale
+    determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    angle = math.acos(min(max(determinant / 2 / spread**3, -1.0), 1.0)) / 3
+    low, middle, high = sorted(mean + 2 * spread * math.cos(angle + turn * math.tau / 3) for turn in range(3))
+    return low * scale, middle * scale, high * scale
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:

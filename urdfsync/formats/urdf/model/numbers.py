@@ -5,14 +5,28 @@ A value that the URDF leaves out is no modifier, unless the record has no defaul
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
 
 from urdfsync.formats.urdf.kinematics.loops import Closure
+from urdfsync.formats.urdf.model.shapes import DrawnShape
 from urdfsync.formats.urdf.robot import Inertial, Joint, Loop, Mesh
 from urdfsync.modelica.literals import INFINITY, Expression, matrix
+
+
+class RecordPart(msgspec.Struct, frozen=True):
+    """A record of numbers as a component of another record."""
+
+    base: str
+    """The class in the library's `Records`."""
+    component: str
+    title: str
+    numbers: Mapping[str, Any]
+    hull: Sequence[Sequence[float]] = ()
+    """The outermost points of a mesh, which the record of a link has beside those of the mesh."""
+
 
 _ABSENT = Expression(INFINITY)
 _NO_LIMITS = {"lower": Expression(f"-{INFINITY}"), "upper": _ABSENT, "velocity": _ABSENT, "effort": _ABSENT}
@@ -26,30 +40,23 @@ def link_numbers(name: str, inertial: Inertial | None) -> dict[str, Any]:
     return {"name": name, "inertial": {"origin": _given(inertial.origin), "mass": inertial.mass, "inertia": inertia}}
 
 
-def _shape_numbers(shape: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the numbers of a visual or a collision; `shape` has the data of `link_shapes`."""
-    geometry = shape["geometry"]
-    if isinstance(geometry, Mesh):
-        lower, upper = shape["bounds"]
-        size = {"uri": shape["uri"], "lower": lower, "upper": upper}
+def shape_numbers(shape: DrawnShape) -> dict[str, Any]:
+    """Return the numbers of a visual or a collision."""
+    if isinstance(shape.geometry, Mesh):
+        lower, upper = shape.bounds
+        size = {"uri": shape.uri, "lower": lower, "upper": upper}
     else:
-        size = msgspec.structs.asdict(geometry)
-    return {"origin": _given(shape["origin"]), **size, "color": shape["color"], "opacity": shape["opacity"]}
+        size = msgspec.structs.asdict(shape.geometry)
+    return {"origin": _given(shape.origin), **size, "color": shape.color, "opacity": shape.opacity}
 
 
-def shape_part(shape: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the record of a visual or a collision as a component: its class, name, numbers and description."""
-    named = {key: shape[key] for key in ("component", "title", "hull")}
-    return {"base": shape["type"], "numbers": _shape_numbers(shape), **named}
+def joint_record(joint: Joint) -> str:
+    """Return the class of a joint's record in the library's `Records`."""
+    return f"{joint.type.capitalize()}Joint"
 
 
-def joint_part(joint: Joint) -> dict[str, Any]:
-    """Return the record of an effective joint: its class and numbers."""
-    return {"base": f"{joint.type.capitalize()}Joint", "numbers": _joint_numbers(joint)}
-
-
-def _joint_numbers(joint: Joint) -> dict[str, Any]:
-    """Return the numbers of a joint."""
+def joint_numbers(joint: Joint) -> dict[str, Any]:
+    """Return the numbers of an effective joint."""
     numbers, dynamics = {"name": joint.name, "origin": _given(joint.origin)}, _given(joint.dynamics)
     match joint.type:
         case "fixed" | "floating":
@@ -75,6 +82,11 @@ def _joint_numbers(joint: Joint) -> dict[str, Any]:
     }
     given = {name: part for name, part in parts.items() if part}
     return numbers | {"axis": joint.axis, "limits": _limits(joint)} | given
+
+
+def shape_part(shape: DrawnShape) -> RecordPart:
+    """Return the record of a visual or a collision as a component of the record of its link."""
+    return RecordPart(shape.model.type, shape.model.component, shape.title, shape_numbers(shape), shape.hull)
 
 
 def loop_numbers(loop: Loop, closure: Closure) -> dict[str, Any]:

@@ -17,7 +17,14 @@ from urdfsync.domain import Import
 from urdfsync.formats.urdf.assembly import Assembly
 from urdfsync.formats.urdf.connectors import free_name, taken_names
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
-from urdfsync.formats.urdf.model.numbers import camel, joint_part, link_numbers, shape_part
+from urdfsync.formats.urdf.model.numbers import (
+    RecordPart,
+    camel,
+    joint_numbers,
+    joint_record,
+    link_numbers,
+    shape_numbers,
+)
 from urdfsync.formats.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.formats.urdf.options import USES
 from urdfsync.formats.urdf.robot import (
@@ -43,21 +50,19 @@ def record_data(assembly: Assembly, imports: Mapping[str, Import]) -> dict[str, 
     """
     tree, options, package = assembly.tree, assembly.options, assembly.target.package
     is_generic, taken = not obstacles(tree.joints), taken_names(tree)
-    parts, drawn = list[list[dict[str, Any]]](), list[_Drawn]()
+    parts, drawn = list[list[RecordPart]](), list[_Drawn]()
     for number, link in enumerate(tree.links, 1):
         identifier, (visuals, _) = tree.link(link.name), link_shapes(link, imports, package, options)
         numbers, title = link_numbers(link.name, link.inertial), f'Link {number}: "{link.name}"'
-        shapes = []
+        parts.append([RecordPart("Link", identifier.component, title, numbers)])
         for visual in visuals:
-            component = free_name(identifier, visual["component"].capitalize(), taken)
-            named = {"component": component, "title": f'{visual["title"]} of link "{link.name}"'}
-            shapes.append(shape_part(visual | named))
-            drawn += _drawn(number, component, visual["type"])
-        part = {"base": "Link", "component": identifier.component, "numbers": numbers, "title": title}
-        parts.append([part, *shapes])
+            component = free_name(identifier, visual.model.component.capitalize(), taken)
+            whole_title = f'{visual.title} of link "{link.name}"'
+            parts[-1].append(RecordPart(visual.model.type, component, whole_title, shape_numbers(visual)))
+            drawn += _drawn(number, component, visual.model.type)
     for number, joint in enumerate(tree.joints, 1):
-        named = {"component": tree.joint(joint.name).component, "title": f'Joint {number}: "{joint.name}"'}
-        parts.append([joint_part(joint) | named])
+        component, title = tree.joint(joint.name).component, f'Joint {number}: "{joint.name}"'
+        parts.append([RecordPart(joint_record(joint), component, title, joint_numbers(joint))])
     axes = [  # drivable joints, turning joints first; the record has a constant with the number of each flange
         {"constant": drive.axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}
         for motion in MOTIONS

@@ -6,7 +6,7 @@ The data depend only on the robot's structure, not on numbers of the URDF.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -35,6 +35,43 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     The last result is cached: a build needs the data of the last build and of this one, mostly for equal trees. Serves
     the rows "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
     """
+    diagram, frames, drives = layout(tree, names), list(_frames(tree, names)), list(_drives(tree, names))
+    return {
+        "frames": frames,
+        "drives": drives,
+        "links": [{"name": link.name, **_names(tree.link(link.name))} for link in tree.links],
+        "joints": list(_joints(tree, names, dependent)),
+        "loops": [{"title": loop_title(loop), **_names(tree.loop(loop.name))} for loop in tree.loops],
+        "starts": bool(tree.starts()),
+        "sensors": sensor_rows(tree, names),
+        "top": max([_PICTURE, *(row["y"] + 10 for row in (*frames, *drives))]),
+        "extent": _extent(diagram.extent),
+        "diagram": {name: _extent(box) for name, box in diagram.placements.items()},
+        "lines": [
+            {"start": start, "end": end, "kind": kind, "points": ", ".join([f"{{{x}, {y}}}" for x, y in points])}
+            for (start, end), (kind, points) in diagram.lines.items()
+        ],
+    }
+
+
+def _frames(tree: KinematicTree, names: Connectors) -> Iterator[dict[str, Any]]:
+    """Yield the frames at the right side of the icon, those of links first."""
+    frames = [(f'link "{link}"', tree.link(link).component, frame) for link, frame in names.frames.items()]
+    frames += [(f'sensor "{sensor}"', sensor, frame) for sensor, frame in names.sensor_frames.items()]
+    heights = _heights(connector for *_, connector in frames)
+    for owner, label, connector in frames:
+        yield {"connector": connector, "owner": owner, "label": label, "y": heights[connector]}
+
+
+def _drives(tree: KinematicTree, names: Connectors) -> Iterator[dict[str, Any]]:
+    """Yield the joints that can be driven, with their flanges at the left side of the icon."""
+    heights = _heights(drive.axis for drive in names.drives.values())
+    for name, drive in names.drives.items():
+        yield {"joint": tree.joint(name).component, "name": name, "y": heights[drive.axis], **asdict(drive)}
+
+
+def _joints(tree: KinematicTree, names: Connectors, dependent: frozenset[str]) -> Iterator[dict[str, Any]]:
+    """Yield the joints with their drives, the couplings and gears that move them, and those of their followers."""
     motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
     # a fixed leader holds its follower: in the model the follower has no leader
     leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if motions[mimic.joint]}
@@ -47,49 +84,22 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
             gear = {"component": tree.joint(name).component, "motor": drive.motor}
             gears[name].append(gear | {"factor": "reduction"})
             gears[drive.other].append(gear | {"factor": "otherReduction"})
-    with_motor = {name for name, drive in names.drives.items() if drive.motor and not drive.gear}
-    diagram, axes = layout(tree, names), _heights(drive.axis for drive in names.drives.values())
-    frames = [("link", name, tree.link(name).component, connector) for name, connector in names.frames.items()]
-    frames += [("sensor", name, name, connector) for name, connector in names.sensor_frames.items()]
-    heights = axes | _heights(connector for *_, connector in frames)
-    return {
-        "frames": [
-            {"connector": connector, "owner": f'{kind} "{name}"', "label": label, "y": heights[connector]}
-            for kind, name, label, connector in frames
-        ],
-        "drives": [
-            {"joint": tree.joint(name).component, "name": name, "y": axes[drive.axis], **asdict(drive)}
-            for name, drive in names.drives.items()
-        ],
-        "links": [{"name": link.name, **_names(tree.link(link.name))} for link in tree.links],
-        "joints": [
-            {
-                **_names(tree.joint(joint.name)),
-                "source": joint,
-                "title": joint_title(joint),
-                "motion": motions[joint.name],
-                "axis": names.drives[joint.name].axis if joint.name in names.drives else None,
-                "motor": joint.name in with_motor,
-                "coupling": names.couplings.get(joint.name),
-                "leader": tree.joint(leaders[joint.name]).component if joint.name in leaders else None,
-                "leader_motion": motions[leaders[joint.name]] if joint.name in leaders else None,
-                "followers": followers[joint.name],
-                "gears": gears[joint.name],
-                "dependent": joint.name in dependent,
-            }
-            for joint in tree.joints
-        ],
-        "loops": [{"title": loop_title(loop), **_names(tree.loop(loop.name))} for loop in tree.loops],
-        "starts": bool(tree.starts()),
-        "sensors": sensor_rows(tree, names),
-        "top": max(heights.values()) + 10 if heights else _PICTURE,
-        "extent": _extent(diagram.extent),
-        "diagram": {name: _extent(box) for name, box in diagram.placements.items()},
-        "lines": [
-            {"start": start, "end": end, "kind": kind, "points": ", ".join([f"{{{x}, {y}}}" for x, y in points])}
-            for (start, end), (kind, points) in diagram.lines.items()
-        ],
-    }
+    for joint in tree.joints:
+        own, leads = names.drives.get(joint.name), leaders.get(joint.name)
+        yield {
+            **_names(tree.joint(joint.name)),
+            "source": joint,
+            "title": joint_title(joint),
+            "motion": motions[joint.name],
+            "axis": own and own.axis,
+            "motor": bool(own and own.motor and not own.gear),
+            "coupling": names.couplings.get(joint.name),
+            "leader": leads and tree.joint(leads).component,
+            "leader_motion": leads and motions[leads],
+            "followers": followers[joint.name],
+            "gears": gears[joint.name],
+            "dependent": joint.name in dependent,
+        }
 
 
 def sensor_rows(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:

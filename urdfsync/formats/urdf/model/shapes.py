@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from msgspec import to_builtins
+import msgspec
 
 from urdfsync.domain import Import, further_key
 from urdfsync.formats.urdf.kinematics.poses import compose, dot, link_poses, pose, start_positions
@@ -34,61 +34,91 @@ _Body: TypeAlias = Primitive | Sequence[Sequence[float]]
 GREY = (180, 180, 180)
 PINK = (255, 105, 180)
 _ROW = 30  # distance of the shapes in the link's diagram
-_IN_MODEL = ("component", "type", "label", "is_collision", "y")
+
+
+class ModelShape(msgspec.Struct, frozen=True):
+    """A shape in the model of a link, without numbers of the URDF."""
+
+    component: str
+    type: str
+    """The class in the library's `Records` and `Visualizers`."""
+    label: str
+    is_collision: bool
+    y: int
+    """The height of the component in the link's diagram."""
+
+
+class DrawnShape(msgspec.Struct, frozen=True):
+    """A collision, or a visual in one colour: a mesh with several colours gives several."""
+
+    model: ModelShape
+    title: str
+    origin: Origin
+    geometry: Geometry
+    color: Sequence[int]
+    opacity: float
+    uri: str = ""
+    """The imported file of a mesh."""
+    bounds: Sequence[Sequence[float]] = ()
+    """The lowest and the greatest coordinates in this file."""
+    hull: Sequence[Sequence[float]] = ()
+    """The outermost points of a mesh that can touch the ground."""
+    touches: bool = False
+    """Whether the shape is a collision that can touch the ground."""
 
 
 def link_shapes(
     link: Link, imports: Mapping[str, Import], package: str, options: Options
-) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Return a link's visuals and collisions, each with all data for models and records.
+) -> tuple[list[DrawnShape], list[DrawnShape]]:
+    """Return a link's visuals and collisions.
 
     A shape whose mesh is not imported is left out; it has a number, so other shapes keep their names if the mesh is
     found later. If the base is floating, each collision can touch the ground, except a mesh without
     outermost points.
     """
-    visuals: list[dict[str, Any]] = []
+    visuals, collisions = list[DrawnShape](), list[DrawnShape]()
     for number, visual in by_number(link.visuals).items():
-        for part in _visual(number, visual, imports, package):
-            part["y"] = _ROW * (len(visuals) + 1)
-            visuals.append(part)
-    collisions: list[dict[str, Any]] = []
+        parts = _colored_parts(visual, imports)
+        for part, (file, color, opacity) in enumerate(parts, 1):
+            model = _model(visual, number, part if len(parts) > 1 else 0, _ROW * (len(visuals) + 1))
+            visuals.append(_drawn(visual, model, file, package, color, opacity))
     for number, collision in by_number(link.collisions if options.collisions else ()).items():
-        if shape := _shape("collision", number, collision, imports, package):
-            shape.update(y=-_ROW * (len(collisions) + 1), is_collision=True, color=PINK, opacity=0.5)
+        for file in _files(collision.geometry, imports):
+            model = _model(collision, number, 0, -_ROW * (len(collisions) + 1))
+            shape = _drawn(collision, model, file, package, PINK, 0.5)
             if options.base == "floating":
-                shape["hull"] = hull(collision.geometry, imports)
-                shape["touches"] = not isinstance(collision.geometry, Mesh) or bool(shape["hull"])
+                points = hull(collision.geometry, imports)
+                touches = bool(points) or not isinstance(collision.geometry, Mesh)
+                shape = msgspec.structs.replace(shape, hull=points, touches=touches)
             collisions.append(shape)
     return visuals, collisions
 
 
 def link_model(
-    visuals: Sequence[Mapping[str, Any]],
-    collisions: Sequence[Mapping[str, Any]],
-    contact: Contact | None = None,
+    visuals: Sequence[DrawnShape], collisions: Sequence[DrawnShape], contact: Contact | None = None
 ) -> dict[str, Any]:
-    """Return the structure of a link for its model, without numbers and names of the URDF.
+    """Return the structure of a link for its model.
 
-    Each collision that can touch the ground has a contact; see `link_shapes`. From `contact`, the model needs only the
-    names of the given numbers.
+    Each collision that can touch the ground has a contact. From `contact`, the model needs only the names of the given
+    numbers.
     """
+    drawn, hidden = [shape.model for shape in visuals], [shape.model for shape in collisions]
     contacts = [
         {
-            "component": shape["component"].replace("collision", "contact"),
-            "type": "Points" if shape["type"] == "Mesh" else shape["type"],
-            "record": shape["component"],
-            "y": shape["y"],
+            "component": model.component.replace("collision", "contact"),
+            "type": "Points" if model.type == "Mesh" else model.type,
+            "record": model.component,
+            "y": model.y,
         }
-        for shape in collisions
-        if shape["touches"]
+        for model in (shape.model for shape in collisions if shape.touches)
     ]
     return {
-        "visuals": [{key: shape[key] for key in _IN_MODEL} for shape in visuals],
-        "collisions": [{key: shape[key] for key in _IN_MODEL} for shape in collisions],
+        "visuals": drawn,
+        "collisions": hidden,
         "contacts": contacts,
-        "surface": list(to_builtins(contact)) if contact and contacts else [],
-        "top": max([100, *(shape["y"] + 20 for shape in visuals)]),
-        "bottom": min([-100, *(shape["y"] - 20 for shape in collisions)]),
+        "surface": list(msgspec.to_builtins(contact)) if contact and contacts else [],
+        "top": max([100, *(shape.y + 20 for shape in drawn)]),
+        "bottom": min([-100, *(shape.y - 20 for shape in hidden)]),
     }
 
 
@@ -137,56 +167,48 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
     return None if lowest is None else round(-lowest, 12)
 
 
-def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package: str) -> Iterator[dict[str, Any]]:
-    """Yield a visual with its colour; a mesh with several colours gives one part per colour."""
-    shape = _shape("visual", number, visual, imports, package)
-    if shape is None:
-        return
+def _files(geometry: Geometry, imports: Mapping[str, Import]) -> list[Import | None]:
+    """Return the imported file of a mesh, None for any other shape, or nothing for a mesh that is not imported."""
+    if not isinstance(geometry, Mesh):
+        return [None]
+    file = imports.get(lookup.key(geometry))
+    return [file] if file else []
+
+
+def _colored_parts(visual: Visual, imports: Mapping[str, Import]) -> list[tuple[Import | None, Sequence[int], float]]:
+    """Return the parts of a visual, each with its file, its colour and its opacity."""
+    files = _files(visual.geometry, imports)
     if visual.material is not None and visual.material.rgba is not None:
         *tones, opacity = (min(max(part, 0.0), 1.0) for part in visual.material.rgba)
-        yield shape | {"color": tuple(round(255 * tone) for tone in tones), "opacity": opacity}
-        return
-    if not isinstance(visual.geometry, Mesh):
-        yield shape | {"color": GREY, "opacity": 1.0}
-        return
+        return [(file, tuple(round(255 * tone) for tone in tones), opacity) for file in files]
+    if not isinstance(visual.geometry, Mesh) or not files:
+        return [(file, GREY, 1.0) for file in files]
     key = lookup.key(visual.geometry)
     facts = imports[key].facts
-    colors = facts.get(lookup.PARTS) or facts.get(lookup.COLORS) or [None]
-    files = [key, *(further_key(key, part) for part in range(1, len(colors) + 1))]
-    if lookup.COLORS in facts and len(colors) > 1:
-        del files[0]  # the whole mesh, which other shapes use
-    for part, (color, file) in enumerate(zip(colors, files, strict=False), 1):
-        colored = shape | {"color": tuple(color) if color else GREY, "opacity": 1.0}
-        if len(colors) > 1:
-            label = f"{shape['label']}, colour {part}"
-            colored |= {
-                "component": f"{shape['component']}_{part}",
-                "label": label,
-                "title": shape["title"].replace(shape["label"], label, 1),
-                "uri": f"modelica://{package}/{imports[file].target}",
-                "bounds": imports[file].facts["bounds"],
-            }
-        yield colored
+    colors = [tuple(color or GREY) for color in facts.get(lookup.PARTS) or facts.get(lookup.COLORS) or [None]]
+    if len(colors) > 1:
+        keys = [key, *(further_key(key, part) for part in range(1, len(colors) + 1))]
+        if lookup.COLORS in facts:
+            del keys[0]  # the whole mesh, which other shapes use
+        files = [imports[name] for name in keys[: len(colors)]]
+    return [(file, color, 1.0) for file, color in zip(files, colors, strict=True)]
 
 
-def _shape(
-    word: str, number: int, shape: Visual | Collision, imports: Mapping[str, Import], package: str
-) -> dict[str, Any] | None:
-    """Return the common data of visuals and collisions; None for a mesh that is not imported."""
-    mesh = imports.get(lookup.key(shape.geometry)) if isinstance(shape.geometry, Mesh) else None
-    if isinstance(shape.geometry, Mesh) and mesh is None:
-        return None
-    label = f"{word.capitalize()} {number}"
-    return {
-        "component": f"{word}{number}",
-        "type": type(shape.geometry).__name__,
-        "label": label,
-        "title": f'{label}: "{shape.name}"' if shape.name else label,
-        "is_collision": False,
-        "touches": False,
-        "origin": shape.origin,
-        "geometry": shape.geometry,
-        "uri": f"modelica://{package}/{mesh.target}" if mesh else "",
-        "bounds": mesh.facts["bounds"] if mesh else (),
-        "hull": (),
-    }
+def _model(shape: Visual | Collision, number: int, part: int, y: int) -> ModelShape:
+    """Return a shape of a link's model; `part` is 0 for a shape of one colour."""
+    word, ending, colour = type(shape).__name__, f"_{part}" if part else "", f", colour {part}" if part else ""
+    component, label = f"{word.lower()}{number}{ending}", f"{word} {number}{colour}"
+    return ModelShape(component, type(shape.geometry).__name__, label, isinstance(shape, Collision), y)
+
+
+def _drawn(
+    shape: Visual | Collision,
+    model: ModelShape,
+    file: Import | None,
+    package: str,
+    color: Sequence[int],
+    opacity: float,
+) -> DrawnShape:
+    title = f'{model.label}: "{shape.name}"' if shape.name else model.label
+    uri, bounds = (f"modelica://{package}/{file.target}", file.facts["bounds"]) if file else ("", ())
+    return DrawnShape(model, title, shape.origin, shape.geometry, color, opacity, uri, bounds)

@@ -7,12 +7,12 @@ from xml.etree.ElementTree import Element
 
 from msgspec.structs import replace
 
+from urdfsync.formats.urdf.kinematics.poses import AXES
 from urdfsync.formats.urdf.parse.closures import Closures
 from urdfsync.formats.urdf.parse.fields import Reader, quoted
-from urdfsync.formats.urdf.robot import Dynamics, Joint, Link, Loop, Vector
-from urdfsync.formats.urdf.validate import Finding
+from urdfsync.formats.urdf.robot import Dynamics, Joint, Link, Loop
 
-_DIRECTIONS: Mapping[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+_DIRECTIONS = dict(zip("xyz", AXES, strict=True))
 _DRAKE = {"ball": "", "planar": "", "universal": "xy"}
 """Types of `<drake:joint>` with the axes of their chains, by Drake's parser of URDF and its class UniversalJoint."""
 
@@ -36,7 +36,7 @@ def find_axes(reader: Reader, root: Element, closures: Closures) -> Mapping[str,
             _leave_axis_out(joints[name], "continuous" if letters else "fixed", "axis", "limit", "dynamics")
         else:
             message = f"there is no joint {quoted(name)}, whose type the file states"
-            reader.extend([Finding("unknown-reference", f"axes of joint {name}", message)])
+            reader.tell("unknown-reference", f"axes of joint {name}", message)
     return {name: letters for name, letters in axes.items() if letters}
 
 

@@ -80,30 +80,8 @@ class _LoopsError(Exception):
 
 def _lists(content: bytes) -> Iterator[tuple[str, Sequence[Any]]]:
     """Yield the nodes of each list, also of an empty one; checks the size of the file and the shape of the lists."""
-    import yaml
-
-    if len(content) > _LARGEST:
-        raise _LoopsError(f"the file has more than {_LARGEST:,} bytes")
-    document = yaml.compose(content, yaml.SafeLoader)
-    if document is None or document.id != "mapping":
-        raise _LoopsError(_NOTHING)
-    parts = dict[str, Any]()
-    for key, value in document.value:
-        if key.id != "scalar":
-            continue
-        if key.value in parts:
-            raise _LoopsError(f"the key `{key.value}` stands twice", key)
-        parts[key.value] = value
-    for key, node in parts.items():
-        if key.startswith("closed_loop") and "closed_loop" not in parts and node.id == "sequence":
-            raise _LoopsError(f"the key `{key}` is unknown; perhaps `closed_loop` is meant", node)
-    if parts.keys().isdisjoint(_KEYS):
-        raise _LoopsError(_NOTHING)
     size = 0
-    for key in _KEYS:
-        node = parts.get(key)
-        if node is None:
-            continue
+    for key, node in _keys(content).items():
         if node.value in ("", "null", "~"):
             yield key, ()
             continue
@@ -119,6 +97,29 @@ def _lists(content: bytes) -> Iterator[tuple[str, Sequence[Any]]]:
                 if size > _MOST:
                     raise _LoopsError(f"the names have more than {_MOST:,} bytes")
         yield key, node.value
+
+
+def _keys(content: bytes) -> dict[str, Any]:
+    """Return the node of each key in `_KEYS` at the top of the file, in their order."""
+    import yaml
+
+    if len(content) > _LARGEST:
+        raise _LoopsError(f"the file has more than {_LARGEST:,} bytes")
+    document = yaml.compose(content, yaml.SafeLoader)
+    if document is None or document.id != "mapping":
+        raise _LoopsError(_NOTHING)
+    parts = dict[str, Any]()
+    for key, value in document.value:
+        if key.id == "scalar" and key.value in parts:
+            raise _LoopsError(f"the key `{key.value}` stands twice", key)
+        if key.id == "scalar":
+            parts[key.value] = value
+    for key, node in parts.items():
+        if key.startswith("closed_loop") and "closed_loop" not in parts and node.id == "sequence":
+            raise _LoopsError(f"the key `{key}` is unknown; perhaps `closed_loop` is meant", node)
+    if parts.keys().isdisjoint(_KEYS):
+        raise _LoopsError(_NOTHING)
+    return {key: parts[key] for key in _KEYS if key in parts}
 
 
 def _pairs(lists: Mapping[str, Sequence[Any]], key: str, kinds_key: str, noun: str) -> Iterator[tuple[Any, Any]]:

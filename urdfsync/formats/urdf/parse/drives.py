@@ -99,6 +99,9 @@ class DriveStatement(NamedTuple):
     """Whether the element only measures the joint."""
 
 
+_NOTHING = DriveStatement("", "")
+
+
 def read_drives(reader: Reader, element: Element, path: str) -> Iterator[DriveStatement]:
     """Yield a drive for each joint of a `<ros2_control>`, a `<transmission>` or a `<gazebo>`."""
     if element.tag == "gazebo":
@@ -338,72 +341,96 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[DriveS
     driven = [
         _with_drives(reader, joint, by_joint[joint.name]) if joint.name in by_joint else joint for joint in joints
     ]
-    starts, loose = {joint.name: joint.start or 0.0 for joint in driven}, dict[str, Finding]()
-    turning = {joint.name for joint in driven if MOTION_KINDS.get(joint.type) == "rotational" and joint.mimic is None}
-    for number, joint in enumerate(driven):
-        gear = joint.transmission
-        if gear and gear.joint is not None and not turning.issuperset((joint.name, gear.joint)):
-            driven[number] = msgspec.structs.replace(joint, transmission=None)
-            path = next(drive.path for drive in by_joint[joint.name] if drive.transmission == gear)
-            name, pair = path.partition(" / ")[0], f"{joint.name} and {gear.joint}"
-            message = f"{name} couples {pair}, but not both joints turn by themselves: neither has a gear"
-            if gear.joint in starts:  # other code reports a missing joint
-                loose.setdefault(name, Finding("coupled-transmission", path, message))
-    reader.extend(loose.values())
-    for joint in driven:
-        if joint.mimic and joint.start is not None and joint.mimic.joint in starts:
-            position = joint.mimic.multiplier * starts[joint.mimic.joint] + joint.mimic.offset
-            if abs(position - joint.start) > _SAME:
-                message = f"joint {joint.name!r} can't begin at {joint.start:g}: the joint that it follows holds it at "
-                reader.extend([Finding("bad-start", f"joint {joint.name} / start", f"{message}{position:g}")])
-    return driven
+    _tell_held_starts(reader, driven)
+    return _without_loose_gears(reader, driven, by_joint)
 
 
-def _with_drives(reader: Reader, joint: Joint, drives: list[DriveStatement]) -> Joint:
+def _with_drives(reader: Reader, joint: Joint, drives: Sequence[DriveStatement]) -> Joint:
     is_driven = any(drive.is_driven for drive in drives)
     if joint.type not in MOTION_KINDS:
         if is_driven and joint.type == "ball":
             message = f"joint {joint.name!r} is a ball: its drive has no effect"
-            reader.extend([Finding("ball-not-driven", f"joint {joint.name}", message)])
+            reader.tell("ball-not-driven", f"joint {joint.name}", message)
         return msgspec.structs.replace(joint, actuated=is_driven or None)
     reader.used.update(drive.element for drive in drives if drive.element is not None)
-
-    def first(field: str) -> DriveStatement | None:
-        """Return the first drive that states a field; report later drives that contradict the first."""
-        stated = [drive for drive in drives if getattr(drive, field) is not None]
-        for other in stated[1:] if stated and stated[0].path else ():
-            if getattr(other, field) != getattr(stated[0], field):
-                message = f"joint {joint.name!r} has two {_KINDS[field]} that differ: "
-                message += f"that of {stated[0].path} counts, that of {other.path} does not"
-                hint = "correct one, or choose by `commands` in the configuration" if field == "command" else ""
-                reader.extend([Finding("drive-contradiction", other.path, message, hint)])
-        return stated[0] if stated else None
-
     place = f"joint {joint.name} / mimic"
-    if joint.mimic:
-        drives.insert(0, DriveStatement(place, joint.name, mimic=joint.mimic, is_driven=False))
-    mimic = first("mimic")
-    if mimic and not joint.mimic:
+    own = [DriveStatement(place, joint.name, mimic=joint.mimic)] if joint.mimic else []
+    mimic = _first(reader, "mimic", [*own, *drives])
+    if mimic.mimic and not own:
         reader.lines[place] = reader.lines[mimic.path]  # later findings about the coupling need the line
-    for drive in drives:
-        stated = drive.element.get("mimic", "").lower() if drive.element is not None else ""
-        if stated == ("false" if mimic else "true"):
-            fact = "follows another joint all the same" if mimic else "has no <mimic>, and moves by itself"
-            message = f"{drive.path} has mimic={quoted(stated)}, but joint {joint.name!r} {fact}"
-            reader.extend([Finding("drive-contradiction", drive.path, message)])
-    gear, command, start = first("transmission"), None if mimic else first("command"), first("start")
-    lower, upper = own_range(joint)
-    if start and start.path and not lower - _SAME <= (start.start or 0.0) <= upper + _SAME:
-        message = f"joint {joint.name!r} begins at {start.start:g}, outside of its limits {lower:g} to {upper:g}"
-        reader.extend([Finding("bad-start", f"joint {joint.name} / start", f"{message}: the start is ignored")])
-        start = None
+    _check_flags(reader, drives, follows=mimic.mimic is not None)
+    command = _NOTHING if mimic.mimic else _first(reader, "command", drives)
     return msgspec.structs.replace(
         joint,
         actuated=is_driven or None,
         measured=(not is_driven and (joint.measured or any(drive.is_measured for drive in drives))) or None,
-        transmission=gear.transmission if gear else None,
-        mimic=mimic.mimic if mimic else None,
-        start=start.start if start else None,
-        command=command.command if command and command.command != "position" else None,
-        servo=command.servo if command else None,
+        transmission=_first(reader, "transmission", drives).transmission,
+        mimic=mimic.mimic,
+        start=_start_within_limits(reader, joint, _first(reader, "start", drives)),
+        command=command.command if command.command != "position" else None,
+        servo=command.servo,
     )
+
+
+def _first(reader: Reader, field: str, drives: Iterable[DriveStatement]) -> DriveStatement:
+    """Return the first statement of a field about a joint; report later statements that contradict it."""
+    first, *others = [drive for drive in drives if getattr(drive, field) is not None] or [_NOTHING]
+    for other in others if first.path else ():
+        if getattr(other, field) != getattr(first, field):
+            message = f"joint {first.joint!r} has two {_KINDS[field]} that differ: "
+            message += f"that of {first.path} counts, that of {other.path} does not"
+            hint = "correct one, or choose by `commands` in the configuration" if field == "command" else ""
+            reader.tell("drive-contradiction", other.path, message, hint)
+    return first
+
+
+def _check_flags(reader: Reader, drives: Iterable[DriveStatement], *, follows: bool) -> None:
+    """Add a warning for each `mimic="…"` that contradicts whether the joint follows another one."""
+    for drive in drives:
+        stated = drive.element.get("mimic", "").lower() if drive.element is not None else ""
+        if stated == ("false" if follows else "true"):
+            fact = "follows another joint all the same" if follows else "has no <mimic>, and moves by itself"
+            message = f"{drive.path} has mimic={quoted(stated)}, but joint {drive.joint!r} {fact}"
+            reader.tell("drive-contradiction", drive.path, message)
+
+
+def _start_within_limits(reader: Reader, joint: Joint, drive: DriveStatement) -> float | None:
+    """Return the start of a joint; None, after a warning, if the source states one outside of the joint's limits."""
+    (lower, upper), start = own_range(joint), drive.start
+    if start is not None and drive.path and not lower - _SAME <= start <= upper + _SAME:
+        message = f"joint {joint.name!r} begins at {start:g}, outside of its limits {lower:g} to {upper:g}"
+        reader.tell("bad-start", f"joint {joint.name} / start", f"{message}: the start is ignored")
+        return None
+    return start
+
+
+def _tell_held_starts(reader: Reader, joints: Iterable[Joint]) -> None:
+    """Add a warning for each follower that its leader holds elsewhere than it is to begin."""
+    starts = {joint.name: joint.start or 0.0 for joint in joints}
+    for joint in joints:
+        if joint.mimic and joint.start is not None and joint.mimic.joint in starts:
+            position = joint.mimic.multiplier * starts[joint.mimic.joint] + joint.mimic.offset
+            if abs(position - joint.start) > _SAME:
+                message = f"joint {joint.name!r} can't begin at {joint.start:g}: the joint that it follows holds it at "
+                reader.tell("bad-start", f"joint {joint.name} / start", f"{message}{position:g}")
+
+
+def _without_loose_gears(
+    reader: Reader, joints: Sequence[Joint], drives: Mapping[str, Sequence[DriveStatement]]
+) -> list[Joint]:
+    """Return the joints without the gears that couple two joints of which not both turn by themselves."""
+    names, loose, found = {joint.name for joint in joints}, dict[str, Finding](), list[Joint]()
+    turning = {joint.name for joint in joints if MOTION_KINDS.get(joint.type) == "rotational" and joint.mimic is None}
+    for joint in joints:
+        gear = joint.transmission
+        if gear is None or gear.joint is None or turning.issuperset((joint.name, gear.joint)):
+            found.append(joint)
+            continue
+        found.append(msgspec.structs.replace(joint, transmission=None))
+        path = next(drive.path for drive in drives[joint.name] if drive.transmission == gear)
+        name, pair = path.partition(" / ")[0], f"{joint.name} and {gear.joint}"
+        message = f"{name} couples {pair}, but not both joints turn by themselves: neither has a gear"
+        if gear.joint in names:  # other code reports a missing joint
+            loose.setdefault(name, Finding("coupled-transmission", path, message))
+    reader.extend(loose.values())
+    return found

@@ -22,7 +22,7 @@ from urdfsync.formats.urdf.robot import (
     Material,
     Visual,
 )
-from urdfsync.formats.urdf.validate import Finding, perhaps
+from urdfsync.formats.urdf.validate import perhaps
 
 _TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 """Attributes of the lower half of an inertia, with their equals in the upper half: some exporters write both."""
@@ -121,11 +121,11 @@ def resolve_materials(
     for path, material in {**materials, **inline}.items() if inline else ():
         if material.name and material.rgba and table.setdefault(material.name, material) != material:
             message = f"material {material.name!r} is defined again, with other values; the first definition counts"
-            reader.extend([Finding("material-redefined", path, message)])
+            reader.tell("material-redefined", path, message)
     defined = {material.get("name") for material in root.iter("material") if len(material)}  # a colour or a texture
     for path, material in inline.items():
         if material.name and material.name not in defined:
-            reader.extend([Finding("unknown-material", path, f"material {material.name!r} is not defined")])
+            reader.tell("unknown-material", path, f"material {material.name!r} is not defined")
 
     def resolved(visual: Visual) -> Visual:
         material = visual.material and table.get(visual.material.name, visual.material)

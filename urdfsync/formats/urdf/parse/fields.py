@@ -101,13 +101,17 @@ class Reader:
         self.diagnostics.append(entry)
 
     def extend(self, findings: Iterable[Finding]) -> None:
-        """Add findings; each gets the line of its element, or of the nearest known element around it."""
-        for code, path, message, hint in findings:
-            place = path
-            while place not in self.lines and " / " in place:
-                place = place.rpartition(" / ")[0]
-            entry = diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint)
-            self.diagnostics.append(msgspec.structs.replace(entry, file=self.files.get(place, "")))
+        """Add findings, as `tell` does."""
+        for finding in findings:
+            self.tell(*finding)
+
+    def tell(self, code: str, path: str, message: str, hint: str = "") -> None:
+        """Add a finding about the element at a path, with the line of the nearest known element around it."""
+        place = path
+        while place not in self.lines and " / " in place:
+            place = place.rpartition(" / ")[0]
+        entry = diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint)
+        self.diagnostics.append(msgspec.structs.replace(entry, file=self.files.get(place, "")))
 
     def drop_newer(self, element: Element, path: str, attributes: Iterable[str], version: tuple[int, int]) -> None:
         """Remove attributes of URDF `version` from an element of an older file, with a warning."""

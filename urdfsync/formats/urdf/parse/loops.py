@@ -23,7 +23,7 @@ import msgspec
 from msgspec.structs import replace
 
 from urdfsync.formats.urdf import validate
-from urdfsync.formats.urdf.kinematics.poses import Pose, across, angles, compose, inverse, link_poses, pose
+from urdfsync.formats.urdf.kinematics.poses import AXES, Pose, across, angles, compose, inverse, link_poses, pose
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.options import LoopFrame, LoopOption, Options
 from urdfsync.formats.urdf.parse.closures import Closures
@@ -57,6 +57,7 @@ _CONSTRAINS = re.compile("constraint|equality|coupl|weld|gear|tendon|spring")
 _CLOSING = re.compile(r"(closing_.+)_([12])")
 _DETACHABLE = ("parent_link", "child_link")
 _DIGITS = 12
+_X, _, _Z = AXES
 
 
 class _NameAttribute(msgspec.Struct):
@@ -114,61 +115,59 @@ def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Elem
 
 def read_loops(reader: Reader, root: Element, robot: Robot, options: Options, closures: Closures) -> tuple[Loop, ...]:
     """Return the loops of a robot. `robot` is a tree, with all parts but the loops. Faulty loops are left out."""
-    loops = list[Loop]()
-    elements = list(_find_loop_elements(root))
-    poses = link_poses(KinematicTree.of(robot), {}) if elements else {}
     links = {link.name for link in robot.links}
     ends = {joint.name: joint.child for joint in robot.joints if joint.name not in links}
-    names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
-    in_gazebo = {link.get("name") for part in root.iterfind("gazebo") for link in part.iterfind("link")} - links
-    paths = validate.element_paths("loop", [*names, *(loop.name for loop, _ in closures.loops)])
-    for element, name, path in zip(elements, names, paths, strict=False):
-        reader.place(element, path)
-        if element.tag == "joint":
-            loop = _read_joint(reader, element, path, name, poses, in_gazebo)
-        else:
-            reader.expect(element, path, ("name", "type") if element.tag == "loop_joint" else ("name",))
-            for part in element:
-                if part.tag == "axis":
-                    reader.expect(part, f"{path} / axis", ("xyz", "frame"))
-                elif part.tag not in _PARTS[element.tag]:
-                    reader.keep(part, path, _PARTS[element.tag], path, moves=True)
-            if element.tag == "loop_joint":
-                loop = _read_loop_joint(reader, element, path, name, poses)
-            else:
-                loop = _read_ball(reader, element, path, name)
-        if loop is not None and loop.parent and loop.child:  # reader.read reports a missing name
-            loops.append(loop)
-    for (loop, line), path in zip(closures.loops, paths[len(names) :], strict=True):
-        reader.put(path, line, closures.file)
-        loops.append(loop)
     # a loop may name a joint instead of the joint's child link: both have one frame
-    loops = [
+    stated = [
         replace(loop, parent=ends.get(loop.parent, loop.parent), child=ends.get(loop.child, loop.child))
-        for loop in loops
+        for loop in _stated_loops(reader, root, robot, closures)
     ]
     configured = configured_loops(options.loops)
     faulty = {finding.path for finding in validate.check_loops(configured, links)}
     paths = validate.element_paths("loop", (loop.name for loop in configured))
     # option_names reports faulty loops
     chosen = [loop for path, loop in zip(paths, configured, strict=True) if path not in faulty]
-    of_source = list[Loop]()
-    for loop in map(_with_axes_of_its_kind, loops):
-        rival = _find_rival(loop, configured)
-        if rival is None:
-            of_source.append(loop)
-        elif _unit(rival) != _unit(loop):
-            message = f"loop {loop.name!r} differs from `loops` in the configuration: the configuration counts"
-            reader.extend([validate.Finding("loop-contradiction", f"loop {loop.name}", message)])
-    of_source += _frames_by_name(reader, robot.links, configured)
+    of_source = [*_without_rivals(reader, stated, configured), *_frames_by_name(reader, robot.links, configured)]
     reader.extend(validate.check_loops(of_source, links))
     return tuple(map(_unit, (*chosen, *of_source)))
 
 
+def _stated_loops(reader: Reader, root: Element, robot: Robot, closures: Closures) -> Iterator[Loop]:
+    """Yield the loops of the URDF, then those of the YAML."""
+    elements = list(_find_loop_elements(root))
+    poses = link_poses(KinematicTree.of(robot), {}) if elements else {}
+    names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
+    of_gazebo = {link.get("name") for part in root.iterfind("gazebo") for link in part.iterfind("link")}
+    paths = validate.element_paths("loop", [*names, *(loop.name for loop, _ in closures.loops)])
+    for element, name, path in zip(elements, names, paths, strict=False):
+        reader.place(element, path)
+        if element.tag == "loop_joint":
+            loop = _read_loop_joint(reader, element, path, name, poses)
+        elif element.tag == _BALL:
+            loop = _read_ball(reader, element, path, name)
+        else:
+            loop = _read_joint(reader, element, path, name, poses, of_gazebo - poses.keys())
+        if loop is not None and loop.parent and loop.child:  # reader.read reports a missing name
+            yield loop
+    for (loop, line), path in zip(closures.loops, paths[len(names) :], strict=True):
+        reader.put(path, line, closures.file)
+        yield loop
+
+
+def _without_rivals(reader: Reader, loops: Iterable[Loop], configured: Sequence[Loop]) -> Iterator[Loop]:
+    """Yield the loops that the configuration does not replace; report each loop that it has with other numbers."""
+    for loop in loops:
+        rival = _find_rival(loop, configured)
+        if rival is None:
+            yield loop
+        elif _unit(rival) != _unit(loop):
+            message = f"loop {loop.name!r} differs from `loops` in the configuration: the configuration counts"
+            reader.tell("loop-contradiction", f"loop {loop.name}", message)
+
+
 def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
     """Return the loops of the option `loops`; their axes are not normalised."""
-    read = (_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops)
-    return list(map(_with_axes_of_its_kind, read))
+    return [_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops]
 
 
 def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
@@ -176,16 +175,14 @@ def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
     return next((other for other in configured if other.name == loop.name or _ends(other) == _ends(loop)), None)
 
 
-def _with_axes_of_its_kind(loop: Loop) -> Loop:
-    """Return a loop with default values for the axes that its kind lacks: sources fill these in differently."""
-    axis = loop.axis if loop.kind in ("revolute", "universal") else (0.0, 0.0, 1.0)
-    return replace(loop, axis=axis, child_axis=loop.child_axis if loop.kind == "universal" else (1.0, 0.0, 0.0))
-
-
-def _between(name: str, kind: LoopKind, frames: Iterable[str | LoopFrame], axis: Vector, child_axis: Vector) -> Loop:
+def _between(
+    name: str, kind: LoopKind, frames: Iterable[str | LoopFrame], axis: Vector = _Z, child_axis: Vector = _X
+) -> Loop:
+    """Return a loop between two frames; axes that its kind lacks are the default: sources fill these in differently."""
     parent, child = (LoopFrame(end) if isinstance(end, str) else end for end in frames)
     origins = Origin(parent.xyz, parent.rpy), Origin(child.xyz, child.rpy)
-    return Loop(name, kind, parent.link, child.link, *origins, axis, child_axis)
+    axes = (axis if kind in ("revolute", "universal") else _Z), (child_axis if kind == "universal" else _X)
+    return Loop(name, kind, parent.link, child.link, *origins, *axes)
 
 
 def _ends(loop: Loop) -> frozenset[tuple[str, Origin]]:
@@ -213,7 +210,18 @@ def _kind(reader: Reader, element: Element, path: str) -> LoopKind | None:
     return _KINDS.get(text)
 
 
+def _expect_parts(reader: Reader, element: Element, path: str, *attributes: str) -> None:
+    """Report unexpected attributes and parts of an element that closes a loop."""
+    reader.expect(element, path, ("name", *attributes))
+    for part in element:
+        if part.tag not in _PARTS[element.tag]:
+            reader.keep(part, path, _PARTS[element.tag], path, moves=True)
+        elif part.tag == "axis":
+            reader.expect(part, f"{path} / axis", ("xyz", "frame"))
+
+
 def _read_loop_joint(reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose]) -> Loop | None:
+    _expect_parts(reader, element, path, "type")
     ends = [child for child in element if child.tag in ("link1", "link2")]  # Isaac Sim's exporter writes link1 twice
     kind = _kind(reader, element, path)
     if not ends and {"parent", "child"} <= {part.tag for part in element}:
@@ -228,7 +236,7 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str, pos
     if (frame := element.find("axis[@frame]")) is not None and frame.get("frame") != "parent":
         message = f"{path} has its <axis> in the frame {quoted(frame.get('frame', ''))}"
         reader.add(element, "loop-joint", message, 'write the axis in the frame of the parent: frame="parent"')
-    axis = _vector(reader, element, "axis@xyz", path) or (1.0, 0.0, 0.0)
+    axis = _vector(reader, element, "axis@xyz", path) or _X
     return kind and _between(name, kind, frames, axis, _second_axis(axis))
 
 
@@ -255,6 +263,7 @@ def _read_ends(reader: Reader, element: Element, path: str, poses: Mapping[str, 
 
 
 def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
+    _expect_parts(reader, element, path)
     frames = []
     for body, point in (_PARTS[_BALL][:2], _PARTS[_BALL][2:]):
         part = reader.find(element, body)
@@ -263,7 +272,7 @@ def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop |
             return None
         place = _vector(reader, element, f"{point}@value", path) or (0.0, 0.0, 0.0)
         frames.append(LoopFrame(reader.read(part, path, _NameAttribute, path).name, place))
-    return _between(name, "ball", frames, (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
+    return _between(name, "ball", frames)
 
 
 def _read_joint(
@@ -290,14 +299,15 @@ def _read_joint(
             reader.add(element, "loop-joint", message, hint)
             kind = None
     numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6
-    axis = _vector(reader, element, "axis/xyz", path) or (0.0, 0.0, 1.0)
+    axis = _vector(reader, element, "axis/xyz", path) or _Z
     second = _vector(reader, element, "axis2/xyz", path)
     if kind is None or parent not in poses or child not in poses:
         known = kind is None or not (parent and child)
         return None if known else Loop(name, kind or "ball", parent, child)  # validate reports a missing link
-    child_origin = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
-    origin = _origin(compose(inverse(poses[parent]), compose(poses[child], pose(child_origin))))
-    return Loop(name, kind, parent, child, origin, child_origin, axis, second or _second_axis(axis))
+    own = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
+    origin = _origin(compose(inverse(poses[parent]), compose(poses[child], pose(own))))
+    frames = LoopFrame(parent, origin.xyz, origin.rpy), LoopFrame(child, own.xyz, own.rpy)
+    return _between(name, kind, frames, axis, second or _second_axis(axis))
 
 
 def _origin(of: Pose) -> Origin:
@@ -321,11 +331,11 @@ def _frames_by_name(reader: Reader, links: Sequence[Link], configured: Sequence[
                 other = f"{name}_{'2' if '1' in pair else '1'}"
                 message = f"link {end!r} closes no loop by its name: there is no link {other!r}"
                 hint = validate.perhaps(other, {link.name for link in links} - {end})
-                reader.extend([validate.Finding("loop-one-end", f"link {end}", message, hint)])
+                reader.tell("loop-one-end", f"link {end}", message, hint)
             continue
         loop = Loop(name, "ball", pair["1"], pair["2"])
         if _find_rival(loop, configured) is None:
             reader.lines.setdefault(f"loop {name}", reader.lines[f"link {pair['1']}"])
             message = f"links {pair['1']!r} and {pair['2']!r} close a loop by their names, as a ball"
-            reader.extend([validate.Finding("loop-by-name", f"loop {name}", message)])
+            reader.tell("loop-by-name", f"loop {name}", message)
             yield loop

@@ -276,7 +276,7 @@ def _without_balls_in_loops(
         return robot
     for name in held:
         message = f"joint {name!r} is a ball in a loop: three continuous joints replace the ball"
-        reader.extend([validate.Finding("loop-ball", f"joint {name}", message)])
+        reader.tell("loop-ball", f"joint {name}", message)
     links, joints = split(reader, robot.links, robot.joints, dict.fromkeys(held, "xyz"))
     hinges = with_drives(reader, joints[-3 * len(held) :], drives)  # `split` adds the hinges at the end
     joints[-3 * len(held) :] = with_rows(reader, hinges, rows)

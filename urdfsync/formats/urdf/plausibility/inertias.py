@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import msgspec
 
-from urdfsync.formats.urdf.kinematics.poses import Matrix, dot, pose, turned_inertia
+from urdfsync.formats.urdf.kinematics.poses import Matrix, dot, pose, principal_moments, turned_inertia
 from urdfsync.formats.urdf.plausibility.shapes import LIGHT, TUNGSTEN, LinkShape, volume
 from urdfsync.formats.urdf.robot import Box, Collision, Cylinder, Inertia, Inertial, Origin, Sphere, Vector, Visual
 from urdfsync.formats.urdf.validate import Finding
@@ -27,7 +27,6 @@ _POINT = 1e-6
 """In m: a smaller radius of gyration is a rounding error of 0."""
 _TOLERANCE = 1e-6
 """Relative to the largest principal moment."""
-_EXACT = 1e-12
 _OUTSTANDING = 5
 """A missing point makes a number of an inertia so much larger than all others, or more."""
 _FITS, _DIFFERS = 0.05, 0.2
@@ -198,26 +197,3 @@ def _repair(inertia: Inertia) -> str:
         if low >= 0 and high <= low + middle:
             return f"; {name} = {scaled:.6g} instead of {getattr(inertia, name):g} would fit"
     return ""
-
-
-def principal_moments(inertia: Inertia) -> Vector:
-    """Return the eigenvalues of the inertia tensor in ascending order, in kg·m².
-
-    The trigonometric solution of the characteristic equation gives eight digits or more. The import of numpy would take
-    longer than a build of a small robot.
-    """
-    values = msgspec.structs.astuple(inertia)
-    if not (values[1] or values[2] or values[4]):
-        low, middle, high = sorted((values[0], values[3], values[5]))
-        return low, middle, high
-    scale = max(map(abs, values)) or 1.0  # without this, squares of large numbers overflow
-    xx, xy, xz, yy, yz, zz = (value / scale for value in values)
-    mean = (xx + yy + zz) / 3
-    xx, yy, zz = xx - mean, yy - mean, zz - mean
-    spread = math.sqrt((xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)) / 6)
-    if spread < _EXACT:
-        return mean * scale, mean * scale, mean * scale
-    determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
-    angle = math.acos(min(max(determinant / 2 / spread**3, -1.0), 1.0)) / 3
-    low, middle, high = sorted(mean + 2 * spread * math.cos(angle + turn * math.tau / 3) for turn in range(3))
-    return low * scale, middle * scale, high * scale

@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from urdfsync.formats.urdf.kinematics.poses import Pose, dot, link_poses, moved, own_range, start_positions
+from urdfsync.formats.urdf.kinematics.poses import GRAVITY, Pose, dot, link_poses, moved, own_range, start_positions
 from urdfsync.formats.urdf.kinematics.tree import KinematicTree
 from urdfsync.formats.urdf.plausibility.shapes import LIGHT, LinkShape
 from urdfsync.formats.urdf.robot import (
@@ -33,7 +33,6 @@ _SAME, _SWITCHED_OFF = 1e-3, 5
 """Soft limits may be outside by this part of the joint's range; far outside, in rad or m, they are switched off."""
 _FOLLOWED = 0.02
 """A joint may follow another one outside of its limits by this part of its range."""
-_GRAVITY = 9.80665
 _SLOW, _FAST = 30, 720
 """In degrees per second: usual velocities of arms."""
 _LONGEST_WAY = 300
@@ -180,13 +179,13 @@ def _least_load(joint: Joint, mass: float, moment: Vector, at: Pose, start: floa
     (row_x, row_y, row_z), (at_x, at_y, at_z) = at
     a, b, c = dot(row_x, joint.axis), dot(row_y, joint.axis), dot(row_z, joint.axis)
     if MOTION_KINDS.get(joint.type) == "translational":
-        return _GRAVITY * mass * abs(c)
+        return GRAVITY * mass * abs(c)
     if joint.type != "revolute":
         return 0.0  # a joint without limits can hang down
     x, y, z = moment[0] - mass * at_x, moment[1] - mass * at_y, moment[2] - mass * at_z
     # the moment about the axis changes as a sine of the position; `slope` is its derivative
-    value = _GRAVITY * (b * x - a * y)
-    slope = _GRAVITY * ((a * a + b * b) * z - c * (a * x + b * y))
+    value = GRAVITY * (b * x - a * y)
+    slope = GRAVITY * ((a * a + b * b) * z - c * (a * x + b * y))
     return _least_sine(value, slope, start, own_range(joint))
 
 

@@ -46,6 +46,8 @@ _SERVOS = {
     "effort": "minEffort maxEffort;",
 }
 """Numbers of a drive's law by its command; without any of those before the semicolon there is no law."""
+_STATED = ("is_driven", "is_measured")
+"""What an element may tell about a joint, beside its numbers."""
 _SUBSTITUTES = {"capsule": "cylinder", "ellipsoid": "box"}
 _WHEEL = re.compile("(left|right)((Front|Rear)?Joint|_joint)")
 _SENSORS = {
@@ -97,10 +99,7 @@ class SecondElement(msgspec.Struct):
     """The quantity that Run commands; empty for a joint that Run does not drive."""
     is_named: bool = False
     """Whether the source or the configuration names the joint as driven."""
-    is_measured: bool = False
-    """Whether the source only measures the joint."""
     in_loop: bool = False
-    has_limit: bool = False
     shares: str = ""
     """Another joint that the joint's motor turns."""
     file: str = ""
@@ -344,13 +343,12 @@ def _put_shape(link: SecondElement, path: str, shape: Any, drawn: Any, colors: M
 def _joints(
     root: Any, robot: Any, gears: Mapping[str, Gear], found: Sequence[dict[str, Any]], options: Options
 ) -> Iterator[SecondElement]:
-    drives, joints = defaultdict[str, list[dict[str, Any]]](list), list[SecondElement]()
+    drives, chosen = defaultdict[str, list[dict[str, Any]]](list), options.driven
     for drive in found:
         drives[drive["joint"]].append(drive)
+    has_drives = any(drive.get("is_driven") for theirs in robot for drive in drives[theirs.name])
     for element, theirs in zip(root.iterchildren("joint"), robot, strict=True):
         joint = SecondElement(theirs.name, element.sourceline, theirs.type, theirs.parent, theirs.child)
-        joint.is_named = any(drive.get("is_driven") for drive in drives[joint.name])
-        joint.is_measured = any(drive.get("is_measured") for drive in drives[joint.name])
         joint.put("name", joint.name, element)
         _put_origin(joint, element, theirs=theirs.origin)
         if joint.type in (*MOVES, "planar"):
@@ -361,24 +359,23 @@ def _joints(
         if joint.type in MOVES:
             _put_axis(joint, element, theirs)
             _put_drive(joint, element, theirs.mimic, drives[joint.name], gears.get(joint.name), options)
-        joints.append(joint)
-    has_drives = any(joint.is_named for joint in joints)
-    for joint in joints:  # joints without a drive in the source may be driven, too
-        is_free = has_drives and joint.type == "continuous" and not joint.has_limit
-        is_passive = not joint.is_named and (joint.is_measured or is_free)
-        chosen = options.driven
-        if not (joint.name in chosen if chosen is not None else joint.name in options.commands or not is_passive):
+        is_driven, is_measured = (any(drive.get(key) for drive in drives[joint.name]) for key in _STATED)
+        # joints without a drive in the source may be driven, too
+        is_free = has_drives and joint.type == "continuous" and element.find("limit") is None
+        is_passive = not is_driven and (is_measured or is_free)
+        is_wanted = joint.name in options.commands or not is_passive
+        joint.is_named = is_driven or joint.name in options.commands
+        if chosen is not None:
+            joint.is_named = is_wanted = joint.name in chosen
+        if not is_wanted:
             joint.command = ""
-        joint.is_named = (
-            joint.name in chosen if chosen is not None else joint.is_named or joint.name in options.commands
-        )
         yield joint
 
 
 def _put_axis(joint: SecondElement, element: Any, theirs: Any) -> None:
     """State limits, inertia, calibration and safety controller of a joint that turns or slides."""
     limit = element.find("limit")
-    joint.has_limit, at = limit is not None, element if limit is None else limit
+    at = element if limit is None else limit
     for field, infinite in (("lower", -INF), ("upper", INF)):
         is_open = limit is None or joint.type == "continuous"
         joint.put(f"limits.{field}", infinite if is_open else _number(theirs.limit, field, 0.0), at)
