@@ -55,7 +55,7 @@ def _guard(kind: str, what: str) -> None:
     else:
         is_temporary = place.is_relative_to(_TEMPORARY)  # which is in the home folder on Windows
         inside = place.is_relative_to(_HOME) and _HOME.parent != _HOME and not is_temporary
-        is_stray = inside and place.relative_to(_HOME).parts[:1] not in ((".cache",), (".matplotlib",), (".config",))
+        is_stray = inside and place.relative_to(_HOME).parts[0] not in (".cache", ".matplotlib", ".config", "AppData")
     if is_stray:
         _strays.append(what)
 

@@ -27,6 +27,7 @@ A text begins with what its scenarios share, each `-- NAME`; then each begins wi
     fresh                    all models are as in a first build from the source, but for remarks
     aside TEXT               a text that was replaced has it
     conflicts FILE…          the conflicts that a dry build finds
+    posix REASON             what follows needs what Windows lacks
 
 Files are those of the package, or begin with `/`: then they are of the project. `@FILE` is such a path in a command and
 in what it prints, `\\n` a line end. `A || B` in a title and in lines makes two scenarios of one, of which the first is
@@ -38,6 +39,7 @@ before is.
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 import shlex
 import shutil
@@ -49,7 +51,7 @@ from typing import Any, ClassVar
 import pytest
 from support import branches, networks
 from support.commands import Editor, Execute, Printed
-from support.files import fresh_models, models, unchanged
+from support.files import delete, fresh_models, models, unchanged
 from support.git import Repository
 from support.networks import conflicts, edit, kinds, run
 from support.replay import contents
@@ -205,13 +207,7 @@ class Scenario:
         self.path(file).write_text(text)
 
     def delete(self, file: str) -> None:
-        path = self.path(file)
-        if path.is_dir():
-            for each in path.rglob("*"):
-                each.chmod(0o700)  # Windows deletes no read-only files, as those of git are
-            shutil.rmtree(path)
-        else:
-            path.unlink()
+        delete(self.path(file))
 
     def move(self, rest: str) -> None:
         old, new = map(self.path, rest.split())
@@ -270,6 +266,10 @@ class Scenario:
     def conflicts(self, rest: str) -> None:
         assert conflicts(dry=True) == [self.path(file).as_posix() for file in rest.split()]
 
+    def posix(self, reason: str) -> None:
+        if os.name == "nt":
+            pytest.skip(f"not on Windows: {reason}")
+
     _EXPORTS = "set", "add", "drop", "rename"
     VERBS: ClassVar[Mapping[str, Any]] = {
         "$": command,
@@ -280,7 +280,7 @@ class Scenario:
         **{each.__name__: each for each in (configure, config, edit, insert, note, write, delete, move, copy)},
         **{each.__name__: each for each in (unstamp, template, editor, commit, branch, git, clone)},
         **{each.__name__: each for each in (keep, same, has, lacks, aside, only, fresh, exists, gone, order)},
-        **{each.__name__: each for each in (run, conflicts)},
+        **{each.__name__: each for each in (run, conflicts, posix)},
     }
 
 

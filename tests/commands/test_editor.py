@@ -60,7 +60,7 @@ def test_without_a_base_the_editor_sees_both_texts(execute: Execute, editor: Edi
     own = 'within Ladder;\nmodel Ladder "of both"\nend Ladder;\n'
     copy = project.parent / "seen"
     editor(f"Path({str(copy)!r}).write_text(file.read_text()); file.write_text({own!r})")
-    assert f"  merge      {Path(MODEL)}  as you edited it" in execute("resolve", MODEL, "--edit").lines
+    assert f"  merge      {MODEL}  as you edited it" in execute("resolve", MODEL, "--edit").lines
     assert split(Path(MODEL).read_text())[0] == own
     seen = copy.read_text()
     assert seen.startswith('<<<<<<< mine\nmodel Ladder "of mine"\n=======\nwithin ')

@@ -63,7 +63,7 @@ def test_edited_files_and_what_the_users_files_need_stay_and_are_named(plant: Pa
         f"  orphan     {FILTER}/Elements/package.mo  no longer generated, but your files need it; kept",
         f"  orphan     {FILTER}/package.mo  no longer generated, but your files need it; kept",
     ]
-    assert f"{FILTER}/Bench.mo:3: warning: there is no class `Elements.R1`" in printed.err
+    assert f"{FILTER}/Bench.mo:3: warning: there is no class `Elements.R1`" in printed.words
     execute(*REMOVE)
     assert "// mine" in Path(f"{FILTER}/Elements/C1.mo").read_text()
     assert Path(f"{FILTER}/Elements/package.order").read_text() == "C1Parameters\nC1\n"

@@ -44,8 +44,8 @@ class Printed(NamedTuple):
 
 
 def _with_slashes(text: str) -> str:
-    """A text with paths as tests write them, on Windows, too."""
-    return text if os.sep == "/" else re.sub(r"\\(?=[\w.])", "/", text)
+    """A text, or JSON, with paths as tests write them, on Windows, too."""
+    return text if os.sep == "/" else re.sub(r"\\+(?=[\w.])", "/", text)
 
 
 class Terminal:

@@ -21,6 +21,13 @@ def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
     return {name: (path.stat().st_mtime_ns, path.read_bytes()) for name, path in files.items()}
 
 
+def delete(path: Path) -> None:
+    """Delete a file or folder; Windows deletes no read-only files, as those of git are."""
+    for each in (path, *path.rglob("*")):
+        each.chmod(0o700)
+    shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
 @contextlib.contextmanager
 def unchanged(folder: Path, but: str = "") -> Iterator[None]:
     """Assert that the block writes no file below a folder, except one."""

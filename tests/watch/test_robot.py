@@ -41,7 +41,7 @@ def read(folder: Path) -> Reads:
         assert scan_folder(folder / "models", facts.MODELICA)
         assert Tree(folder).read(folder / "Arm.mo")
         assert Tree(folder).read(folder / "New.mo") is None
-        assert read_variable("HOME") is not None
+        assert read_variable("PATH") is not None
     return reads
 
 

@@ -21,7 +21,7 @@ from urdfsync.common.dependencies.facts import LISTINGS, UNMERGED, VARIABLE, Ent
 from urdfsync.common.dependencies.places import Clone
 from urdfsync.common.dependencies.reads import Reads
 from urdfsync.common.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError, findings_of
-from urdfsync.common.files import shown
+from urdfsync.common.files import placed, shown
 from urdfsync.common.spelling import counted
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -291,7 +291,7 @@ class _OutOfStepRobot:
 
     def _is_for_git(self, path: str) -> bool:
         """Return whether a file belongs into a commit: parts of the recorded state and the user's models do not."""
-        place = f"{self._commit.repository.top}/{path}"
+        place = placed(f"{self._commit.repository.top}{os.sep}", path)
         if place.startswith(f"{self._state}{os.sep}"):
             return place.removeprefix(f"{self._state}{os.sep}").startswith(_COMMITTED)
         return not path.endswith(".mo") or path.startswith(self.folders) or path in self._commit.files

@@ -42,9 +42,9 @@ def outside(project: Path, tmp_path: Path) -> Path:
 def test_a_build_needs_the_users_word(execute: Execute, outside: Path, trusted: Path, command: str) -> None:
     said = execute(*command.split(), code=2).words
     assert list(outside.iterdir()) == []
-    assert f"urdfsync.toml:5: error: `output` leads out of the configuration's folder, to {outside}" in said
+    assert f"urdfsync.toml:5: error: `output` leads out of the configuration's folder, to {outside.as_posix()}" in said
     assert "use --trust" in said
-    assert f"into {trusted}" in said
+    assert f"into {trusted.as_posix()}" in said
 
 
 def test_resolve_needs_the_users_word(outside: Path, execute: Execute) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -14,13 +15,15 @@ from urdfsync.project.git import Repository as Around
 
 pytestmark = NEEDS_GIT
 
+ODD = "in/ä b" if sys.platform == "win32" else "in/ä b\n"
+
 
 @pytest.fixture
 def repository(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
     """One with files in several states; the working folder is one inside of it."""
     found = Repository(folder / "top", monkeypatch)
     monkeypatch.chdir(found.folder)
-    for path in ("same", "staged", "edited", "gone", "hidden", "skipped", "in/ä b\n", "in/deep/file"):
+    for path in ("same", "staged", "edited", "gone", "hidden", "skipped", ODD, "in/deep/file"):
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).write_text("old")
     Path(".gitignore").write_text("*.log\n")
@@ -39,7 +42,7 @@ def repository(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
 def test_files_are_named_from_the_top_by_how_they_stand(repository: Repository) -> None:
     index, before = Index(), Path(repository.folder, ".git/index").read_bytes()
     assert Around().top == str(repository.folder)
-    inside = {"in/ä b\n", "in/deep/file"}
+    inside = {ODD, "in/deep/file"}
     assert index.tracked == {".gitignore", "same", "staged", "edited", "gone", "hidden", "skipped", *inside}
     assert (index.unstaged, index.hidden) == ({"edited", "gone"}, {"hidden", "skipped"})
     assert index.untracked == {"new", "in/new"}

@@ -28,7 +28,8 @@ def repository(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     (tmp_path / "project/.urdfsync/robots/gone.state").unlink()
     found = Repository(tmp_path / "project", monkeypatch)
     Path(found.folder / "notes.txt").write_text("notes\n")
-    Path(found.folder / "new\nline ä.txt").write_text("name\n")
+    name = "new line ä.txt" if sys.platform == "win32" else "new\nline ä.txt"
+    Path(found.folder / name).write_text("name\n")
     found.commit()
     monkeypatch.chdir(found.folder)
     remembered.until(is_answered, lambda: cli.main(["hook", "check"]))

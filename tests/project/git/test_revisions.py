@@ -10,6 +10,7 @@ from unittest import mock
 
 import pygit2
 import pytest
+from support.files import delete
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync.common.dependencies.reads import file_type, is_file, list_folder, read_file
@@ -126,7 +127,7 @@ def test_a_repository_of_committed_files_is_passed_over(repository: Path, monkey
     pygit2.Repository(arm.parent).config["core.worktree"] = str(arm.parent)
     assert Revision(arm.parent, "HEAD").read(arm) == b"two\n"
     assert Revision(arm.parent, "HEAD").holds(arm)
-    shutil.rmtree(repository / ".git")
+    delete(repository / ".git")
     assert open_repository(arm.parent) is None
 
 
@@ -158,7 +159,7 @@ def test_a_content_that_the_clone_lacks(repository: Path) -> None:
     """As in one that was made without files."""
     for place in (repository / ".git/objects").glob("??/*"):
         if b"two\n" in zlib.decompress(place.read_bytes()):
-            place.unlink()
+            delete(place)
     with pytest.raises(SourceError, match=r"git does not have its content: .*; fetch it, or use --against ./FILE"):
         Revision(repository, "HEAD").read(repository / "cad/arm.urdf")
 

@@ -88,7 +88,7 @@ def test_a_damaged_line_is_a_warning_until_a_build_writes_the_file_anew(project:
     line = before.count("\n") + 1
     for dry in (True, False):
         (warning,) = [found for found in run(dry=dry).diagnostics if found.code == "broken-state"]
-        assert (warning.file, warning.line) == (file.as_posix(), line)
+        assert (warning.file, warning.line) == (str(file), line)
     assert file.read_text() == before
     assert not run().diagnostics
 

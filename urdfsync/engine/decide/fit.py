@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import cached_property
-from pathlib import Path, PurePosixPath
+from pathlib import Path, PurePath, PurePosixPath
 
 import msgspec
 
@@ -217,7 +217,7 @@ class _Resolver:
         own.update(self._after.around.items())
         edited = (self._after[path] for path, file in self._after.files.items() if file.is_edited and file.is_expected)
         words, used = set().union(*map(code_words, edited)), set[str | Path]()
-        while new := {path for path in own.keys() - used if class_of(str(path)) in words}:
+        while new := {path for path in own.keys() - used if class_of(PurePath(path).as_posix()) in words}:
             used |= new
             words |= set().union(*(code_words(own[path]) for path in new))
         return used

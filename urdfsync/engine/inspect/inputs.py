@@ -121,7 +121,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         """The keys of the package's files that git could not merge."""
         below = os.path.join(os.path.realpath(self.robot.folder), "")  # noqa: PTH118 - git's paths are strings
         inside = (path.removeprefix(below) for path in self.unmerged_paths if path.startswith(below))
-        return frozenset(map(self.folder.key, inside))
+        return frozenset(self.folder.key(path.replace(os.sep, "/")) for path in inside)
 
     @cached_property
     def commits(self) -> tuple[PastCommit, ...]:

@@ -75,7 +75,7 @@ class Closing:
             known = self._start + share * (positions - self._start)
             for _ in range(_ITERATIONS):
                 gaps, jacobian = self._equations(self._q(known + self._others @ others))
-                step = np.linalg.lstsq(jacobian @ self._others, gaps)[0]
+                step = np.linalg.lstsq(jacobian @ self._others, gaps, rcond=None)[0]
                 others, largest = others - step, np.abs([*gaps, *step]).max()
                 if not CLOSED < largest < _FARTHEST:
                     break
@@ -91,9 +91,9 @@ class Closing:
         """
         q = self._q(positions)
         jacobian = self._equations(q)[1]
-        ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes)[0]
+        ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes, rcond=None)[0]
         drift = self._drift(q, ways @ speeds)
-        return ways, -self._others @ np.linalg.lstsq(jacobian @ self._others, drift)[0]
+        return ways, -self._others @ np.linalg.lstsq(jacobian @ self._others, drift, rcond=None)[0]
 
     def reactions(self, q: Array, load: Array) -> list[Reaction]:
         """Return gaps and forces of the loops.
@@ -102,7 +102,7 @@ class Closing:
         forces λ in the loops.
         """
         jacobian, data = self._equations(q)[1], self._multibody.move(q)
-        forces = iter(np.linalg.lstsq((jacobian @ self._others).T, self._others.T @ load)[0])
+        forces = iter(np.linalg.lstsq((jacobian @ self._others).T, self._others.T @ load, rcond=None)[0])
         reactions = []
         for parent, child, closure in self._ends(data):
             axes = parent.axes.T @ child.axes

@@ -246,7 +246,7 @@ class Reference:
     def _solved(mass: Array, efforts: Array) -> Array:
         if not len(efforts) or not np.isfinite(mass).all() or not np.isfinite(efforts).all():
             return np.zeros(len(efforts))  # no simulation accepts infinite numbers
-        return np.asarray(np.linalg.lstsq(mass, efforts)[0])
+        return np.asarray(np.linalg.lstsq(mass, efforts, rcond=None)[0])
 
     def measured(self, state: Configuration, sensor: SecondElement, ends: Sequence[str] = ()) -> Mapping[str, Array]:
         """Return what a sensor shows, by the library's names; `ends` are the links of the sensor's joint, if any."""
