@@ -200,7 +200,7 @@ def _strays(inputs: Inputs, decision: Decision) -> Iterator[Diagnostic]:
             text, stamp = split(text_of(content))
             if stamp and stamp.id in places and text_hash(text) != stamp.base:
                 message = f"it has edits of `{shown(inputs.files.path(places[stamp.id]))}`"
-                hint = "move it there, then build, or delete it"
+                hint = "merge them into that file by hand, or delete its stamp if the class is your own"
                 yield Diagnostic(Severity.WARNING, "left-behind", message, shown(path), hint=hint)
 
 
