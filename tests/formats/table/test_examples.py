@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 from support.commands import Execute
-from support.modelica import Run, Task, simulate
+from support.modelica import Run, compile_task, simulate
 from support.networks import edit
 
 from urdfsync.analysis.checks.compilers import omc
@@ -37,8 +37,7 @@ def build(folder: Path, execute: Execute, modelica_library: Path) -> Callable[[s
 def result(library: Path, model: str, values: list[str], run: Run, tool: str) -> dict[str, float]:
     """The values at the end of a run."""
     package = model.partition(".")[0]
-    source = f"model Whole\n  extends {model};\nend Whole;\n"
-    task = Task(source, "Whole", (run,), values)
+    task = compile_task(model, runs=(run,), values=values)
     (series,) = simulate(library, [Path("modelica", package).absolute()], [task], tool=tool)
     return {name: float(series.values[name][-1]) for name in values}
 
