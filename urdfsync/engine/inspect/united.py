@@ -77,7 +77,8 @@ def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) ->
             contents[key], left[key] = with_stamp(encode(found.text), found.stamp), None
         elif found is not None:
             left[key] = found
-    inputs = msgspec.structs.replace(inputs, apart=frozenset(apart))
+    sure = frozenset(key for key in apart if key in inputs.unmerged or not _is_unknown(inputs, key, ids))
+    inputs = msgspec.structs.replace(inputs, apart=sure)
     return inputs.laid_over(contents, left) if left else inputs
 
 
@@ -160,6 +161,12 @@ def _by_parts(
         else:
             meant[key] = _merge_edits(inputs.last, Sides(base, ours[0], theirs[0], (before, ours[1], theirs[1])))
     return meant
+
+
+def _is_unknown(inputs: Inputs, key: str, ids: Mapping[str, str]) -> bool:
+    """Return whether a file that git merged has an edit that no build has seen in this part's file."""
+    stamp, text = inputs.files.stamp(key), inputs.files.hash(key, Role.MODEL) or ""
+    return stamp is not None and stamp.base != text and inputs.last.edits.get(text) != ids.get(inputs.folder.path(key))
 
 
 def _are_apart(sides: Sides, key: str, home: Mapping[str, str]) -> bool:
