@@ -465,8 +465,11 @@ def _nothing_remembered() -> Iterator[None]:
 
 def _output(command: list[str]) -> tuple[int, str]:
     """The exit code of a command, and what goes to the standard output."""
-    with contextlib.redirect_stdout(io.StringIO()) as output, contextlib.redirect_stderr(io.StringIO()):
-        return cli.main(command), output.getvalue()
+    output, errors = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2))
+    with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
+        code = cli.main(command)
+    output.flush()
+    return code, output.buffer.getvalue().decode()
 
 
 def _document() -> object:

@@ -131,7 +131,7 @@ def test_a_hook_passes_a_commit_in_step(project: Path, execute: Execute, monkeyp
     repository.commit()
     edit("<mass>1.5</mass>", "<mass>1.75</mass>")
     repository.git("add", "sdf")
-    assert "robot `arm`: out of step: 1 file to write" in execute("hook", "check", code=1).err
+    assert "robot `arm`: the package is out of step: 1 file to write" in execute("hook", "check", code=1).err
     execute("build")
     repository.git("add", "-A")
     execute("hook", "check")
