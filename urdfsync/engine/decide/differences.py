@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from functools import cached_property
 from pathlib import PurePosixPath
 
 import msgspec
@@ -23,7 +24,7 @@ GONE = "_gone"
 """The end of the new name of a removed element whose name another element has now."""
 
 
-class Differences(msgspec.Struct, frozen=True):
+class Differences(msgspec.Struct, frozen=True, dict=True):
     """The differences between the last complete build and the present build."""
 
     matching: Matching
@@ -50,6 +51,11 @@ class Differences(msgspec.Struct, frozen=True):
     """Whether an element has the former name of another element."""
     undeclared: Mapping[ElementKey, str]
     """The renames without the declarations that are not made yet: the user may delete a declaration."""
+
+    @cached_property
+    def paths(self) -> Mapping[str, str]:
+        """The path of each generated file, by its lasting id."""
+        return {file_id: path for path, file_id in self.ids.items()}
 
     @property
     def renames(self) -> Mapping[ElementKey, str]:

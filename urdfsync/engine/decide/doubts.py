@@ -54,9 +54,7 @@ def find_doubts(
     for action in unknown if others or commits or inputs.last.notes.lines else ():
         lines = added_lines(inputs, package, action)
         shared = [(commit, lines & lines_of(texts.get(action.path, nothing)[0])) for commit, texts in commits]
-        meanings = (
-            _meanings_in(inputs, package, differences.ids, commit, action, both) for commit, both in shared if both
-        )
+        meanings = (_meanings_in(inputs, package, differences, commit, action, both) for commit, both in shared if both)
         for found in (others, *meanings):
             if (element := _element(action)) is None:
                 doubt = _named(inputs, lines, found, generation.now.snapshot)
@@ -64,9 +62,9 @@ def find_doubts(
                 doubt = found.get(element)
             doubts[action.path] = doubts.get(action.path) or doubt
         renamed = (one for one, texts in commits if action.path not in texts and _element(action))
-        mixed = (_mixed_by_git(inputs, package, differences.ids, one, action, lines) for one in renamed)
+        mixed = (_mixed_by_git(inputs, package, differences, one, action, lines) for one in renamed)
         doubts[action.path] = doubts.get(action.path) or next(filter(None, mixed), None)
-        doubts[action.path] = doubts[action.path] or _seen_elsewhere(inputs, package, differences.ids, action, lines)
+        doubts[action.path] = doubts[action.path] or _seen_elsewhere(inputs, package, differences, action, lines)
     reopened = inputs.settled.doubts
     doubts |= {one.path: reopened[one.path] for one in actions if one.path in reopened and one.reason in EDITED}
     return {path: doubt for path, doubt in doubts.items() if doubt}
@@ -79,71 +77,72 @@ def _of_other_parts(
 
     Such an edit moves there, unless that file is edited, too: as git leaves two edits of one part.
     """
-    doubts, targets = dict[str, Doubt | None](), {file_id: path for path, file_id in differences.ids.items()}
+    doubts = dict[str, Doubt | None]()
     for action in actions:
         own, seen = differences.ids.get(inputs.folder.path(action.path)), inputs.last.edits.get(action.mine or "")
         if own and seen and own != seen and _element(action):
-            moved_to = generation.package.owners[targets[seen]].partition(" ")[2] if seen in targets else ""
-            doubts[action.path] = Doubt(action.owner, "", (), moved_to, is_certain=True)
+            doubts[action.path] = _moved(generation.package, action.owner, differences.paths.get(seen))
     return doubts
 
 
 def _meanings_in(
-    inputs: Inputs, package: Package, ids: Mapping[str, str], commit: PastCommit, action: Action, shared: Counter[str]
+    inputs: Inputs, package: Package, differences: Differences, commit: PastCommit, action: Action, shared: Counter[str]
 ) -> dict[ElementKey, Doubt]:
     """Return a doubt for each element of which a commit with some lines of this edit (`shared`) has another part.
 
-    An edit that is in the file of its part already is no doubt. `ids` are the present ids of files, by path.
+    An edit that is in the file of its part already is no doubt.
     """
-    doubts, targets, key_of = dict[ElementKey, Doubt](), {ids[path]: path for path in ids}, inputs.folder.key
+    doubts, key_of = dict[ElementKey, Doubt](), inputs.folder.key
     owners = {key_of(path): owner for path, owner in package.owners.items() if owner == action.owner or " " in owner}
     keys = [key for key, owner in owners.items() if owner == action.owner or not _element(action)]
     for key, (_, stamp) in commit.texts(keys).items():
         kind, _, name = owners[key].partition(" ")
-        if not name or stamp is None or is_of_part(stamp, ids[inputs.folder.path(key)]):
+        if not name or stamp is None or is_of_part(stamp, differences.ids[inputs.folder.path(key)]):
             continue
-        target = targets.get(stamp.id)
+        target = differences.paths.get(stamp.id)
         if _element(action) and target and not shared - lines_of(inputs.files.any_text(key_of(target))):
             continue
-        moved_to = package.owners[target].partition(" ")[2] if target else ""
-        doubts[kind, name] = Doubt(owners[key], "", (), moved_to, is_certain=True)
+        doubts[kind, name] = _moved(package, owners[key], target)
     return doubts
 
 
+def _moved(package: Package, owner: str, path: str | None) -> Doubt:
+    """Return the doubt about an edit in an owner's file that belongs to the part at a path; None if that is gone."""
+    return Doubt(owner, "", (), package.owners[path].partition(" ")[2] if path else "", is_certain=True)
+
+
 def _mixed_by_git(
-    inputs: Inputs, package: Package, ids: Mapping[str, str], commit: PastCommit, action: Action, lines: Counter[str]
+    inputs: Inputs, package: Package, differences: Differences, commit: PastCommit, action: Action, lines: Counter[str]
 ) -> Doubt | None:
     """Return a doubt about an edit that a commit has in the file of another part.
 
     If a file is gone and a similar one is new, git takes this for a rename, and brings edits of the one into the other.
     """
-    targets = {file_id: path for path, file_id in ids.items()}
+    own = differences.ids[inputs.folder.path(action.path)]
     for text, stamp in commit.texts(commit.beside(action.path)).values() if lines else ():
-        if stamp and is_of_part(stamp, ids[inputs.folder.path(action.path)]):
+        if stamp and is_of_part(stamp, own):
             continue
-        target, brought = targets.get(stamp.id) if stamp else None, lines & lines_of(text)
+        target, brought = differences.paths.get(stamp.id) if stamp else None, lines & lines_of(text)
         if target:  # what stands in its file is there, too
             brought -= lines_of(package.content(target).decode())
             brought -= lines_of(inputs.files.any_text(inputs.folder.key(target)))
         elif brought != lines:
             continue
-        if not brought:
-            continue
-        moved_to = package.owners[target].partition(" ")[2] if target else ""
-        return Doubt(action.owner, "", (), moved_to, is_certain=True)
+        if brought:
+            return _moved(package, action.owner, target)
     return None
 
 
 def _seen_elsewhere(
-    inputs: Inputs, package: Package, ids: Mapping[str, str], action: Action, lines: Counter[str]
+    inputs: Inputs, package: Package, differences: Differences, action: Action, lines: Counter[str]
 ) -> Doubt | None:
     """Return a doubt about an edit with a line that builds have seen in another part's file, which has it no more."""
-    own, targets = ids.get(inputs.folder.path(action.path)), {file_id: path for path, file_id in ids.items()}
+    own, paths = differences.ids.get(inputs.folder.path(action.path)), differences.paths
     for line in lines if own and _element(action) else ():
         seen = inputs.last.ids_of_lines([line])
-        for target in sorted(targets[one] for one in seen & targets.keys() if own not in seen):
+        for target in sorted(paths[one] for one in seen & paths.keys() if own not in seen):
             if line not in lines_of(inputs.files.any_text(inputs.folder.key(target))):
-                return Doubt(action.owner, "", (), package.owners[target].partition(" ")[2], is_certain=True)
+                return _moved(package, action.owner, target)
     return None
 
 

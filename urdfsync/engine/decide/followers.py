@@ -63,13 +63,12 @@ def follow(inputs: Inputs, generation: Generation, decision: Decision) -> Decisi
 def _find_users_classes(inputs: Inputs, decision: Decision) -> Iterator[Action]:
     """Yield an action for each of the user's own classes in the package, which changes nothing."""
     known, files = {key for action in decision.actions for key in (action.path, action.origin) if key}, inputs.files
-    paths = {file_id: path for path, file_id in decision.differences.ids.items()}
     others = tuple(f"{files.key(one.folder)}/" for one in inputs.config.robots if one.name != inputs.robot.name)
     for key in sorted(files.classes(inputs.folder) - known):
         if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
             state = files.state(key) if files.can_read(key) else None
             mine, stamp = (state.text_sha256, state.stamp) if state else (None, None)
-            copy_of = paths.get(stamp.id, "") if stamp else ""
+            copy_of = decision.differences.paths.get(stamp.id, "") if stamp else ""
             yield Action(key, Reason.UNKNOWN, Role.MODEL, mine=mine, copy_of=copy_of)
 
 

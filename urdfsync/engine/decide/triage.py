@@ -27,7 +27,7 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
     package, moves = generation.package, differences.moves
     decided = decide(find_places(inputs, generation, differences.ids, moves), moves)
     doubts = find_doubts(inputs, generation, differences, decided)
-    actions = tuple(_adjust(inputs, package, action, doubts, differences.ids) for action in decided)
+    actions = tuple(_adjust(inputs, package, action, doubts, differences) for action in decided)
     names: Mapping[str, str] = {}
     is_disputed = any(one.reason in DISPUTED and one.role is not Role.IMPORT for one in actions)
     if differences.other_elements or inputs.last.aside or is_disputed:
@@ -38,7 +38,7 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
 
 
 def _adjust(
-    inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt], ids: Mapping[str, str]
+    inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt], differences: Differences
 ) -> Action:
     """Correct an action by contents and options: the rules see only hashes."""
     left = inputs.files.left_by_git
@@ -46,7 +46,7 @@ def _adjust(
         return msgspec.structs.replace(action, reason=Reason.MARKERS)
     if left.get(action.path, True) is None:
         action = msgspec.structs.replace(action, is_left_by_git=True)
-    file_id = ids.get(inputs.folder.path(action.path))
+    file_id = differences.ids.get(inputs.folder.path(action.path))
     if file_id and action.mine and action.reason in (Reason.UNCHANGED, Reason.KEEP):
         stamp = inputs.files.stamp(action.path)
         if action.reason is Reason.UNCHANGED:
@@ -61,8 +61,7 @@ def _adjust(
         if not (action.mine in package.paths_by_hash or inputs.last.has_written(action.mine)):
             return msgspec.structs.replace(action, reason=Reason.ORPHAN)
         stamp = inputs.files.stamp(action.path)
-        copied = (path for path, one in ids.items() if stamp and one == stamp.id)
-        return msgspec.structs.replace(action, copy_of=next(copied, ""))
+        return msgspec.structs.replace(action, copy_of=differences.paths.get(stamp.id, "") if stamp else "")
     return action
 
 

@@ -92,13 +92,11 @@ class _Meant(NamedTuple):
 
 def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
     """Return the text that both branches meant, or their merge if they contradict each other; None for other files."""
-    last, content = inputs.last, plain((inputs.files.read(key) or b"").decode(errors="surrogateescape"))
+    last, content = inputs.last, _text_on_disk(inputs, key)
     staged, text = _read_staged(inputs.files.path(key)) if key in inputs.unmerged else None, split(content)[0]
     if markers.find_markers(content):
         if staged and _is_untouched(text, staged):
-            if _are_generated(last, staged[1:3]):
-                return _Meant(staged.ours, staged.stamps[1])
-            return _merge_edits(last, staged)
+            return _meant(last, staged)
         (ours, stamp), (theirs, _) = (split(side) for side in markers.read_sides(content))
         return _Meant(ours, stamp) if _are_generated(last, (ours, theirs)) else None  # no edit is lost
     if staged is None or text not in staged[1:3] or _is_chosen(inputs, key, text, staged):
@@ -130,7 +128,7 @@ def _by_parts(
     merged = sorted(apart - staged.keys())  # by git
     for key in merged:
         side = 2 if 1 in versions[key] else 1
-        text, stamp = split(plain((inputs.files.read(key) or b"").decode(errors="surrogateescape")))
+        text, stamp = split(_text_on_disk(inputs, key))
         own, generated = ids.get(inputs.folder.path(key)), inputs.last.base(stamp.base if stamp else None) or ""
         lines = inputs.last.ids_of_lines(lines_of(text) - lines_of(generated))
         seen = inputs.last.edits.get(text_hash(text)) or next(iter(lines if len(lines) == 1 else ()), "")
@@ -156,11 +154,14 @@ def _by_parts(
             continue
         if ours is None or theirs is None:
             meant[key] = _Meant(*(ours or theirs or ("", None)))
-        elif _are_generated(inputs.last, (ours[0], theirs[0])):
-            meant[key] = _Meant(*ours)
         else:
-            meant[key] = _merge_edits(inputs.last, Sides(base, ours[0], theirs[0], (before, ours[1], theirs[1])))
+            meant[key] = _meant(inputs.last, Sides(base, ours[0], theirs[0], (before, ours[1], theirs[1])))
     return meant
+
+
+def _text_on_disk(inputs: Inputs, key: str) -> str:
+    """Return a file's text with its stamp; empty if it is missing."""
+    return plain((inputs.files.read(key) or b"").decode(errors="surrogateescape"))
 
 
 def _is_unknown(inputs: Inputs, key: str, ids: Mapping[str, str]) -> bool:
@@ -180,7 +181,7 @@ def _are_apart(sides: Sides, key: str, home: Mapping[str, str]) -> bool:
 def _untouched(inputs: Inputs, key: str) -> Sides | None:
     """Return two different versions of a file that git could not merge, if the user has not settled it."""
     sides = _read_staged(inputs.files.path(key))
-    content = plain((inputs.files.read(key) or b"").decode(errors="surrogateescape"))
+    content = _text_on_disk(inputs, key)
     if sides is None or (sides.ours == sides.theirs and not sides.deleted):
         return None
     text = split(content)[0]
@@ -193,6 +194,11 @@ def _sides(base: str | None, ours: str, theirs: str) -> Sides:
     """Return the versions of a file by their texts with stamps."""
     (base_text, base_stamp), (our_text, our_stamp), (their_text, their_stamp) = map(split, (base or "", ours, theirs))
     return Sides(None if base is None else base_text, our_text, their_text, (base_stamp, our_stamp, their_stamp))
+
+
+def _meant(last: LastBuild, sides: Sides) -> _Meant | Merge:
+    """Return our version if builds wrote both, else the merge of their edits."""
+    return _Meant(sides.ours, sides.stamps[1]) if _are_generated(last, sides[1:3]) else _merge_edits(last, sides)
 
 
 def _merge_edits(last: LastBuild, sides: Sides) -> _Meant | Merge:

@@ -194,12 +194,12 @@ def _twin(inputs: Inputs) -> Iterator[Diagnostic]:
 
 def _strays(inputs: Inputs, decision: Decision) -> Iterator[Diagnostic]:
     """Yield a warning for each edited file outside of the package whose stamp says that it belongs to the package."""
-    places = {file_id: inputs.folder.key(path) for path, file_id in decision.differences.ids.items()}
+    paths = decision.differences.paths
     for path, content in inputs.users_files.mentioning.items():
         if b"__urdfsync" in content:
             text, stamp = split(text_of(content))
-            if stamp and stamp.id in places and text_hash(text) != stamp.base:
-                message = f"it has edits of `{shown(inputs.files.path(places[stamp.id]))}`"
+            if stamp and stamp.id in paths and text_hash(text) != stamp.base:
+                message = f"it has edits of `{shown(inputs.files.path(inputs.folder.key(paths[stamp.id])))}`"
                 hint = "merge them into that file by hand, or delete its stamp if the class is your own"
                 yield Diagnostic(Severity.WARNING, "left-behind", message, shown(path), hint=hint)
 
