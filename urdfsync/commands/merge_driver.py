@@ -116,13 +116,6 @@ def install(folder: Path, console: Console) -> None:
 
 def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     """Write the merge, and return a warning if there are conflicts. Raises OSError."""
-    from urdfsync.engine.inspect.package_files import text_hash
-    from urdfsync.merge.texts import merge_branches  # the other commands seldom merge
-    from urdfsync.modelica.stamp import split, stamped
-
-    size = args.marker_size if args.marker_size > 0 else _MARKER_SIZE  # as git does
-    labels = _label(args.ours, "ours"), _label(args.theirs, "theirs")
-    markers = [(f"{'<' * size} {labels[0]}", "mine"), (f"{'=' * size}", "generated"), (f"{'>' * size} {labels[1]}", "")]
     file = shown(args.path or args.mine)
     contents = [path.read_bytes() for path in (args.base, args.mine, args.other)]
     try:
@@ -130,23 +123,42 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     except UnicodeDecodeError:
         message, hint = "the file is not UTF-8, so it can't be merged", "this side's text stays: settle it by hand"
         return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)]
-    (base, before), (mine, stamp), (other, others) = map(split, (base, mine, other))
-    found = merge_branches(base, mine, other, markers)
-    merged, conflicts = found.proposal, found.contradictions
-    unedited = [side and side.base == text_hash(text) for text, side in ((mine, stamp), (other, others))]
-    if stamp and all(unedited) and not conflicts:
-        stamp = stamp._replace(base=text_hash(merged))  # nobody has edited the file
-    elif stamp == before:  # if both sides exported the part, the next build takes our stamp as it is
-        stamp = others
-    merged = stamped(merged, stamp) if stamp else merged
+    size = args.marker_size if args.marker_size > 0 else _MARKER_SIZE  # as git does
+    labels = _label(args.ours, "ours"), _label(args.theirs, "theirs")
+    markers = f"{'<' * size} {labels[0]}", "=" * size, f"{'>' * size} {labels[1]}"
+    merged, message, hint = _merge_texts(base, mine, other, markers)
     if merged.encode() != contents[1]:
         args.mine.write_bytes(merged.encode())  # a temporary file of git's
-    if not conflicts:
-        return []
-    message, hint = f"{counted(len(conflicts), 'conflict')} between markers", "settle them in the file"
-    if any(unedited):  # the next build decides about this file
-        hint = "resolve the source first, then run `urdfsync build`: it writes this file anew, or asks about edits"
-    return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)]
+    return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)] if message else []
+
+
+def _merge_texts(base: str, mine: str, other: str, markers: tuple[str, str, str]) -> tuple[str, str, str]:
+    """Return the merge of two versions of a file, and for conflicts their message and hint, else empty texts."""
+    from urdfsync.engine.inspect.package_files import text_hash
+    from urdfsync.merge.texts import merge_branches  # the other commands seldom merge
+    from urdfsync.modelica.stamp import split, stamped
+
+    first, middle, last = markers
+    (bare_base, before), (bare, stamp), (bare_other, others) = map(split, (base, mine, other))
+    by_build = "resolve the source first, then run `urdfsync build`: it writes this file anew, or asks about edits"
+    if stamp and others and stamp.id != others.id:  # the build merges each version with those of its own part
+        message = "the two versions are of different parts, so both stand between markers"
+        return f"{first}\n{_ended(mine)}{middle}\n{_ended(other)}{last}\n", message, by_build
+    unedited = [side and side.base == text_hash(text) for text, side in ((bare, stamp), (bare_other, others))]
+    found = merge_branches(bare_base, bare, bare_other, [(first, "mine"), (middle, "generated"), (last, "")])
+    if stamp and all(unedited) and not found.contradictions:
+        stamp = stamp._replace(base=text_hash(found.proposal))  # nobody has edited the file
+    elif stamp == before:  # if both sides exported the part, the next build takes our stamp as it is
+        stamp = others
+    merged = stamped(found.proposal, stamp) if stamp else found.proposal
+    if not (count := len(found.contradictions)):
+        return merged, "", ""
+    hint = by_build if any(unedited) else "settle them in the file"
+    return merged, f"{counted(count, 'conflict')} between markers", hint
+
+
+def _ended(text: str) -> str:
+    return text if text.endswith("\n") else f"{text}\n"
 
 
 def _label(given: str, default: str) -> str:
