@@ -48,6 +48,24 @@ class Sides(NamedTuple):
     """The side that has deleted the file, 1 or 2; it has the other side's text."""
 
 
+class _Unmerged(NamedTuple):
+    """A file that git could not merge."""
+
+    sides: Sides
+    text: str
+    """The bare text on disk."""
+    is_untouched: bool
+    """Whether the text is what git left."""
+
+
+class _Meant(NamedTuple):
+    """The text that both branches meant."""
+
+    text: str
+    stamp: Stamp | None
+    """The stamp with the base of this text."""
+
+
 def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) -> Inputs:
     """Return the inputs, in which each file that git left unmerged has the text that both branches meant.
 
@@ -58,9 +76,10 @@ def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) ->
     contents: dict[str, bytes] = {}
     left: dict[str, Merge | None] = {}
     generated = {folder.key(path): package.hash(path) for path in package.artifacts}
-    unmerged = (key for key in {**generated, **last.files} if key in inputs.unmerged)
+    known = dict.fromkeys((*generated, *last.files))
+    unmerged = {key: file for key in known if key in inputs.unmerged and (file := _read_unmerged(inputs, key))}
     apart = _by_parts(inputs, package, unmerged, ids)
-    for key in dict.fromkeys((*generated, *last.files)):
+    for key in known:
         role, text = role_of(folder.path(key)), generated.get(key)
         if role is Role.IMPORT:
             continue
@@ -70,7 +89,7 @@ def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) ->
         is_edited = isinstance(on_disk, str) and on_disk not in (text, last.base_of(key, role))
         found = apart.get(key)
         if found is None and (is_edited or key in inputs.unmerged):
-            found = _find_meant_text(inputs, key)
+            found = _find_meant_text(inputs, key, unmerged.get(key))
         if isinstance(found, _Meant):
             if (text_hash(found.text), found.stamp) == (files.hash(key, role), files.stamp(key)):
                 continue  # the file has the meant text already, and only `git add` is missing
@@ -82,39 +101,33 @@ def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) ->
     return inputs.laid_over(contents, left) if left else inputs
 
 
-class _Meant(NamedTuple):
-    """The text that both branches meant."""
-
-    text: str
-    stamp: Stamp | None
-    """The stamp with the base of this text."""
-
-
-def _find_meant_text(inputs: Inputs, key: str) -> _Meant | Merge | None:
+def _find_meant_text(inputs: Inputs, key: str, unmerged: _Unmerged | None) -> _Meant | Merge | None:
     """Return the text that both branches meant, or their merge if they contradict each other; None for other files."""
     last, content = inputs.last, _text_on_disk(inputs, key)
-    staged, text = _read_staged(inputs.files.path(key)) if key in inputs.unmerged else None, split(content)[0]
-    if markers.find_markers(content):
-        if staged and _is_untouched(text, staged):
-            return _meant(last, staged)
+    has_markers = bool(markers.find_markers(content))
+    if unmerged and unmerged.is_untouched:
+        _, ours, theirs, *_ = sides = unmerged.sides
+        if has_markers:
+            return _meant(last, sides)
+        other = theirs if unmerged.text == ours else ours
+        return _Meant(*split(content)) if _are_generated(last, [other]) else _merge_edits(last, sides)
+    if has_markers:
         (ours, stamp), (theirs, _) = (split(side) for side in markers.read_sides(content))
         return _Meant(ours, stamp) if _are_generated(last, (ours, theirs)) else None  # no edit is lost
-    if staged is None or text not in staged[1:3] or _is_chosen(inputs, key, text, staged):
-        return None
-    other = staged.theirs if text == staged.ours else staged.ours
-    return _Meant(text, split(content)[1]) if _are_generated(last, [other]) else _merge_edits(last, staged)
+    return None
 
 
 def _by_parts(
-    inputs: Inputs, package: Package, keys: Iterable[str], ids: Mapping[str, str]
+    inputs: Inputs, package: Package, unmerged: Mapping[str, _Unmerged], ids: Mapping[str, str]
 ) -> dict[str, _Meant | Merge]:
     """Return the texts that both branches meant with files whose names have meant several parts, by key.
 
-    Git pairs the versions of unmerged files by paths. This pairs them by the parts that their stamps name.
+    Git pairs the versions of unmerged files by paths. This pairs them by the parts that their stamps name. Returns
+    nothing if two versions of one side are of one part: a copy has the same stamp.
     """
     home = {file_id: inputs.folder.key(path) for path, file_id in ids.items()}
+    staged = {key: one.sides for key, one in unmerged.items() if one.is_untouched and _are_apart(one.sides, key, home)}
     versions, apart = defaultdict[str, dict[int, _Version]](dict), set[str]()
-    staged = {key: sides for key in keys if (sides := _untouched(inputs, key)) and _are_apart(sides, key, home)}
     for key, sides in staged.items():
         for side, (text, stamp) in enumerate(zip(sides[:3], sides.stamps, strict=True)):
             target = home.get(stamp.id, key) if stamp else key
@@ -123,40 +136,45 @@ def _by_parts(
             if side and target != key:
                 apart |= {key, target}
             if side and side in versions[target]:
-                return {}  # a copy has the same stamp
+                return {}
             versions[target].setdefault(side, (text, stamp))
     merged = sorted(apart - staged.keys())  # by git
     for key in merged:
-        side = 2 if 1 in versions[key] else 1
+        path, side = inputs.folder.path(key), 2 if 1 in versions[key] else 1
         text, stamp = split(_text_on_disk(inputs, key))
-        own, generated = ids.get(inputs.folder.path(key)), inputs.last.base(stamp.base if stamp else None) or ""
-        lines = inputs.last.ids_of_lines(lines_of(text) - lines_of(generated))
-        seen = inputs.last.edits.get(text_hash(text)) or next(iter(lines if len(lines) == 1 else ()), "")
-        if own and stamp and own != seen in home:  # git has brought the edit of another part
+        seen = _id_of_seen_edit(inputs, text, stamp)
+        if stamp and path in ids and ids[path] != seen in home:  # git has brought the edit of another part
             target = home[seen]
             if 3 - side in versions[target]:
                 return {}
             versions[target][3 - side] = text, Stamp(seen, stamp.base)
             merged += [target] if target not in {*staged, *apart} else []
             apart.add(target)
-            text = package.content(inputs.folder.path(key)).decode()
-            stamp = Stamp(own, text_hash(text))
+            text = package.content(path).decode()
+            stamp = Stamp(ids[path], text_hash(text))
         versions[key].setdefault(side, (text, stamp))
-    meant: dict[str, _Meant | Merge] = {}
-    for key in sorted(apart):
-        found = versions[key]
-        (base, before), ours, theirs = found.get(0, (None, None)), found.get(1), found.get(2)
-        if ours is None and theirs is None:  # the versions of this part are elsewhere
-            former = staged[key]
-            if former.base is None or inputs.folder.path(key) in ids:
-                return {}
-            meant[key] = _Meant(former.base, former.stamps[0])  # an unedited file of a name that is gone goes
-            continue
-        if ours is None or theirs is None:
-            meant[key] = _Meant(*(ours or theirs or ("", None)))
-        else:
-            meant[key] = _meant(inputs.last, Sides(base, ours[0], theirs[0], (before, ours[1], theirs[1])))
-    return meant
+    gone = {key: sides for key, sides in staged.items() if key in apart and versions[key].keys() <= {0}}
+    if any(sides.base is None or inputs.folder.path(key) in ids for key, sides in gone.items()):
+        return {}
+    # an unedited file of a name that is gone goes
+    meant = {key: _Meant(sides.base or "", sides.stamps[0]) for key, sides in gone.items()}
+    return meant | {key: _unite(inputs.last, versions[key]) for key in sorted(apart - gone.keys())}
+
+
+def _id_of_seen_edit(inputs: Inputs, text: str, stamp: Stamp | None) -> str:
+    """Return the id of the file in which builds have seen the edit in a text; empty if none or several have."""
+    generated = inputs.last.base(stamp.base if stamp else None) or ""
+    found = inputs.last.ids_of_lines(lines_of(text) - lines_of(generated))
+    return inputs.last.edits.get(text_hash(text)) or (min(found) if len(found) == 1 else "")
+
+
+def _unite(last: LastBuild, versions: Mapping[int, _Version]) -> _Meant | Merge:
+    """Return what both branches meant by one or two versions of a part, by their side in git's index; 0 is the base."""
+    if len(sides := [versions[side] for side in (1, 2) if side in versions]) == 1:
+        return _Meant(*sides[0])
+    (ours, stamp), (theirs, their_stamp) = sides
+    base, before = versions.get(0, (None, None))
+    return _meant(last, Sides(base, ours, theirs, (before, stamp, their_stamp)))
 
 
 def _text_on_disk(inputs: Inputs, key: str) -> str:
@@ -173,21 +191,20 @@ def _is_unknown(inputs: Inputs, key: str, ids: Mapping[str, str]) -> bool:
 def _are_apart(sides: Sides, key: str, home: Mapping[str, str]) -> bool:
     """Return whether two versions are of different parts, or of the part at this path; else their file just moves."""
     _, ours, theirs = sides.stamps
-    if ours is None or theirs is None:
+    if ours is None or theirs is None or (sides.ours == sides.theirs and not sides.deleted):
         return False
     return bool(sides.deleted) or ours.id != theirs.id or home.get(ours.id, key) == key
 
 
-def _untouched(inputs: Inputs, key: str) -> Sides | None:
-    """Return two different versions of a file that git could not merge, if the user has not settled it."""
-    sides = _read_staged(inputs.files.path(key))
-    content = _text_on_disk(inputs, key)
-    if sides is None or (sides.ours == sides.theirs and not sides.deleted):
+def _read_unmerged(inputs: Inputs, key: str) -> _Unmerged | None:
+    """Return a file that git could not merge; None if its versions can't be read."""
+    if (sides := _read_staged(inputs.files.path(key))) is None:
         return None
+    content = _text_on_disk(inputs, key)
     text = split(content)[0]
     if markers.find_markers(content):
-        return sides if _is_untouched(text, sides) else None
-    return sides if text in sides[1:3] and not _is_chosen(inputs, key, text, sides) else None
+        return _Unmerged(sides, text, _is_untouched(text, sides))
+    return _Unmerged(sides, text, text in sides[1:3] and not _is_chosen(inputs, key, text, sides))
 
 
 def _sides(base: str | None, ours: str, theirs: str) -> Sides:
