@@ -89,7 +89,12 @@ def shift(random: Random) -> Names:
 
 
 EXPORTS: tuple[Callable[[Random], Names], ...] = (insert, remove, exchange, rotate, shift)
-WAYS = ("merge {theirs}", "merge {mine}", "rebase {mine}", "cherry-pick {theirs}", "stash")
+WAYS = (
+    *("merge {theirs}", "merge {mine}", "rebase {mine}", "cherry-pick {theirs}"),
+    *("stash", "apply", "apply --3way", "am --3way", "checkout {theirs} --"),
+)
+UNRECORDED = "stash", "apply", "apply --3way", "checkout {theirs} --"
+"""Ways that leave no commit of the edit behind, or only one of another branch."""
 
 
 def export(names: Names) -> None:
@@ -127,7 +132,7 @@ def test_edits_follow_their_parts_or_are_asked_about(
         repository.commit()
         theirs, ours, way = edits_of(random, 1), edits_of(random, 51), random.choice(WAYS)
         ours = [] if random.random() < 0.5 else ours
-        are_seen = random.random() < 0.7 or way == "stash"  # nothing tells what a former stash had
+        are_seen = random.random() < 0.7 or way in UNRECORDED
         # theirs: edits of the robot as it was
         repository.git("checkout", "-q", "-b", "theirs")
         for edit in theirs:
@@ -146,19 +151,37 @@ def test_edits_follow_their_parts_or_are_asked_about(
         repository.commit()
         if code != 0:
             return  # the export alone asks already
-        if way == "stash":
-            subprocess.run(["git", "stash", "pop", "-q"], capture_output=True, check=False)
-        else:
-            if way in ("merge {mine}", "rebase {mine}"):
-                repository.git("checkout", "-q", "theirs")
-            words = way.format(theirs="theirs", mine="main").split()
-            subprocess.run(
-                ["git", *words, *(["--no-edit"] if words[0] == "merge" else [])], capture_output=True, check=False
-            )
+        free = [edit for edit in theirs if edit.file(old) not in {one.file(new) for one in ours if one.part in new}]
+        if way.startswith("checkout"):
+            theirs = free  # git replaces the whole file
+        if not bring(repository, way, [edit.file(old) for edit in theirs]):
+            return
         settings = f"{way}, {new}, driver {has_driver}, seen {are_seen}, {theirs}, {ours}"
         look(execute, [*theirs, *ours], new, settings)
         repository.git("add", "-A")
         look(execute, [*theirs, *ours], new, f"added: {settings}")
+
+
+def bring(repository: Repository, way: str, files: list[Path]) -> bool:
+    """Bring the edits of the other branch; return whether git does so."""
+
+    def is_done(*words: str | Path) -> bool:
+        """Whether git does it, or leaves files unmerged."""
+        code = subprocess.run(["git", *words], cwd=repository.folder, capture_output=True, check=False).returncode
+        return code == 0 or repository.git("ls-files", "--unmerged") != ""
+
+    command, *options = way.format(theirs="theirs", mine="main").split()
+    if command == "stash":
+        return is_done("stash", "pop", "-q")
+    if command in ("apply", "am"):
+        patch = repository.folder.with_suffix(".patch")
+        patch.write_text(repository.git("format-patch", "--stdout", "-1", "theirs"))
+        return is_done(command, *options, patch)
+    if command == "checkout":
+        return bool(files) and is_done(command, *options, *files)
+    if options == ["main"]:
+        repository.git("checkout", "-q", "theirs")
+    return is_done(command, *options, *(["--no-edit"] if command == "merge" else []))
 
 
 def look(execute: Execute, edits: list[Edit], names: Names, settings: str) -> None:
