@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -39,3 +41,33 @@ def test_a_stamp_never_changes_the_rest_of_a_broken_text(text: str, data: st.Dat
     start = data.draw(st.integers(0, len(text)))
     broken = text[:start] + text[data.draw(st.integers(start, len(text))) :]
     assert split(stamped(broken, STAMP))[0] == broken
+
+
+@pytest.mark.parametrize("text", TEXTS)
+@pytest.mark.parametrize("comment", ["  // mine\n", "/* mine, ( */", '  // "mine,\n  /* ; */ // )\n'])
+def test_a_comment_of_the_users_may_stand_anywhere(text: str, comment: str) -> None:
+    """In front of the stamp, and behind it: no part of the text goes with the stamp, which can be renewed."""
+    marked = stamped(text, STAMP)
+    strings = [found.span() for found in re.finditer(r'"[^"]*"', marked)]
+    for place in (found.start() for found in re.finditer(r"\b|\n|$", marked)):
+        if any(start < place < end for start, end in strings) or marked[place - 2 : place] in ("__", '= "'):
+            continue
+        edited = marked[:place] + comment + marked[place:]
+        bare, stamp = split(edited)
+        if stamp is None:  # the comment is inside of it
+            assert place in range(marked.index("__urdfsync"), marked.index(STAMP.base) + 20)
+            continue
+        left = code_of(bare)  # an annotation with a comment stays, even if it is empty
+        assert code_of(text) in (left, left.replace("annotation();", ""), left.replace("annotation()", "")), edited
+        assert comment.strip() in bare
+        again = with_stamp(edited.encode(), Stamp("2", "3")).decode()
+        assert split(again) == (bare, Stamp("2", "3")), again
+        assert re.search(r"[,(]\s*__urdfsync", without_comments(again)), again
+
+
+def without_comments(text: str) -> str:
+    return re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*|/\*.*?\*/', lambda found: found[1] or " ", text, flags=re.DOTALL)
+
+
+def code_of(text: str) -> str:
+    return "".join(without_comments(text).split())

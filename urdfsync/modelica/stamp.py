@@ -25,9 +25,10 @@ _FIRST = re.compile(
 )
 """Git's markers around stamps that begin both sides, with the lines after our one."""
 _ALONE = re.compile(r"(\s*\))\s*;[ \t]*(\r?\n)?")
+_OPENING = re.compile(r"\bannotation\s*\($")
 _TOKENS = re.compile(r'"(?:[^"\\]|\\.)*+(?:"|\\?\Z)|//[^\n]*+|/\*(?:[^*]|\*(?!/))*+(?:\*/|\Z)|[;\[\]]', re.DOTALL)
-_END = re.compile(r"\bend\s++[^\s;]++\s*+$")
 _BLANKS = r"(?:\s|//[^\n]*\n|/\*(?:[^*]|\*(?!/))*+\*/)*+"
+_END = re.compile(rf"\bend\b{_BLANKS}[^\s;/]++{_BLANKS}$")
 _PREFIXES = r"(?:(?:encapsulated|partial|operator|expandable|pure|impure)\s++)*+"
 _STRINGS = rf"(?:\"(?:[^\"\\]|\\.)*+\"{_BLANKS}\+?{_BLANKS})*+"
 _HEAD = (
@@ -66,20 +67,38 @@ def split(text: str) -> tuple[str, Stamp | None]:
     if (found := _STAMP.match(text, at)) is None:
         return text, None
     before, after = text[:at], text[found.end() :]
-    if (left := before.rstrip()).endswith(","):
-        bare = left[:-1] + after
-    elif (right := after.lstrip()).startswith(","):
+    code, comments = _code_before(before)
+    if code.endswith(","):
+        bare = code[:-1] + comments + after
+    elif not comments and (right := after.lstrip()).startswith(","):
         bare = before + right[1:].lstrip()
-    elif (alone := _ALONE.match(after)) and (head := before.rpartition("annotation")[0]):
+    elif not code.endswith("("):
+        return text, None
+    elif comments or not ((alone := _ALONE.match(after)) and (opening := _OPENING.search(code))):
+        bare = before + after
+    else:
+        head, rest = code[: opening.start()], after[alone.end(1) :]
         if re.search(r"\bend\b", after) is None:  # nothing follows the annotation of a short class
-            bare = head.rstrip() + after[alone.end(1) :]
+            bare = (head if _code_before(head)[1] else head.rstrip()) + rest
         else:
             line = head.rstrip(" \t")
             is_line = line.endswith("\n") and alone[2]
-            bare = line + after[alone.end() :] if is_line else head + after[alone.end(1) + 1 :].lstrip(" ")
-    else:
-        return text, None
+            bare = line + after[alone.end() :] if is_line else head + rest[1:].lstrip(" ")
     return bare, Stamp(*found.groups())
+
+
+def _code_before(text: str) -> tuple[str, str]:
+    """Split a text behind its last code; the second part is empty without comments."""
+    code = text.rstrip()
+    if "//" not in code[code.rfind("\n") + 1 :] and not code.endswith("*/"):
+        return code, ""
+    end = len(text)
+    for token in reversed([one for one in _TOKENS.finditer(text) if one[0].startswith(("//", "/*"))]):
+        if text[token.end() : end].strip():
+            break
+        end = token.start()
+    code = text[:end].rstrip()
+    return code, text[len(code) :] if end < len(text) else ""
 
 
 def stamped(bare: str, stamp: Stamp) -> str:
@@ -99,13 +118,20 @@ def _stamped(bare: str, stamp: Stamp) -> str:
     line_end = "\r\n" if bare.endswith("\r\n") else "\n"
     if last := _END.search(bare, ends[-2] + 1, end):
         if _ANNOTATION.match(bare, ends[-3] + 1, ends[-2]):
-            close = bare.rindex(")", 0, ends[-2])
-            comma = "" if bare[:close].rstrip().endswith("(") else f",{line_end}    "
-            return f"{bare[:close]}{comma}{mark}{bare[close:]}"
+            return _with_argument(bare, ends[-2], mark, f",{line_end}    ")
         place = last.start()
         clause = f"  annotation ({mark});{line_end}" if bare[:place].endswith("\n") else f"annotation ({mark}); "
         return bare[:place] + clause + bare[place:]
     if re.search(r"\bannotation\s*\(", bare[ends[-2] + 1 : end]) and bare[:end].rstrip().endswith(")"):
-        close = bare.rindex(")", 0, end)
-        return f"{bare[:close]}, {mark}{bare[close:]}"
-    return f"{bare[:end]} annotation ({mark}){bare[end:]}"
+        return _with_argument(bare, end, mark, ", ")
+    blank = "" if _code_before(bare[:end])[1] else " "
+    return f"{bare[:end]}{blank}annotation ({mark}){bare[end:]}"
+
+
+def _with_argument(text: str, end: int, argument: str, separator: str) -> str:
+    """Return a text with one more argument of the annotation that ends before this place."""
+    close = len(_code_before(text[:end])[0]) - 1
+    code, comments = _code_before(text[:close])
+    if comments:  # the comma in front of them
+        return f"{code}{'' if code.endswith('(') else ','}{comments}{argument}{text[close:]}"
+    return f"{text[:close]}{'' if code.endswith('(') else separator}{argument}{text[close:]}"
