@@ -164,7 +164,8 @@ def record(
         mujoco.mj_forward(model, data)
         q, v, a = wanted(data.time)
         gain = a + 400 * (q - data.qpos[axes]) + 40 * (v - data.qvel[axes])
-        mujoco.mj_fullM(model, data, inertia)
+        for row, unit in zip(inertia, np.eye(model.nv), strict=True):  # `mj_fullM` has other arguments in each version
+            mujoco.mj_mulM(model, data, row, unit)
         effort = inertia[np.ix_(axes, axes)] @ gain + data.qfrc_bias[axes] + 0.9 * friction * np.tanh(20 * v)
         if k % every == 0:
             rows.append(np.array([data.time, *data.qpos[axes], *effort]))

@@ -349,7 +349,9 @@ def solve(
     first_guess = np.maximum((guess - start)[chosen] / sizes[chosen], lower)
     if not np.isfinite(residuals(first_guess)).all():  # rounded over the edge
         first_guess = np.zeros(len(chosen))
-    best = least_squares(residuals, first_guess, slopes, bounds=(lower, np.inf), max_nfev=_MOST_STEPS)
-    x, losses = start + unit @ best.x, slice(first, problem.count)
+    best = first_guess
+    if chosen:  # SciPy before 1.16 refuses a fit of no number
+        best = least_squares(residuals, best, slopes, bounds=(lower, np.inf), max_nfev=_MOST_STEPS).x
+    x, losses = start + unit @ best, slice(first, problem.count)
     x[losses] = np.maximum(x[losses], 0.0)
-    return x, slopes(best.x)
+    return x, slopes(best)
