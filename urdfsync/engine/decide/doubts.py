@@ -23,6 +23,7 @@ from urdfsync.engine.inspect.inputs import Inputs
 from urdfsync.engine.inspect.last_build import lines_of
 from urdfsync.engine.package.generate import Package
 from urdfsync.modelica.files import code_of, text_of
+from urdfsync.modelica.stamp import Stamp
 from urdfsync.project.state.record import edit_key
 
 EDITED = (Reason.KEEP, Reason.CONFLICT)
@@ -50,21 +51,10 @@ def find_doubts(
     unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
     others = other_meanings(inputs, generation, differences.parts) if unknown else {}
     commits = [(one, one.texts(action.path for action in unknown)) for one in inputs.commits] if unknown else []
-    package, nothing = generation.package, ("", None)
     for action in unknown if others or commits or inputs.last.notes.lines else ():
-        lines = added_lines(inputs, package, action)
-        shared = [(commit, lines & lines_of(texts.get(action.path, nothing)[0])) for commit, texts in commits]
-        meanings = (_meanings_in(inputs, package, differences, commit, action, both) for commit, both in shared if both)
-        for found in (others, *meanings):
-            if (element := _element(action)) is None:
-                doubt = _named(inputs, lines, found, generation.now.snapshot)
-            else:
-                doubt = found.get(element)
-            doubts[action.path] = doubts.get(action.path) or doubt
-        renamed = (one for one, texts in commits if action.path not in texts and _element(action))
-        mixed = (_mixed_by_git(inputs, package, differences, one, action, lines) for one in renamed)
-        doubts[action.path] = doubts.get(action.path) or next(filter(None, mixed), None)
-        doubts[action.path] = doubts[action.path] or _seen_elsewhere(inputs, package, differences, action, lines)
+        doubts[action.path] = doubts.get(action.path) or _of_unknown(
+            inputs, generation, differences, action, others, commits
+        )
     reopened = inputs.settled.doubts
     doubts |= {one.path: reopened[one.path] for one in actions if one.path in reopened and one.reason in EDITED}
     return {path: doubt for path, doubt in doubts.items() if doubt}
@@ -83,6 +73,27 @@ def _of_other_parts(
         if own and seen and own != seen and _element(action):
             doubts[action.path] = _moved(generation.package, action.owner, differences.paths.get(seen))
     return doubts
+
+
+def _of_unknown(
+    inputs: Inputs,
+    generation: Generation,
+    differences: Differences,
+    action: Action,
+    others: Mapping[ElementKey, Doubt],
+    commits: Sequence[tuple[PastCommit, Mapping[str, tuple[str, Stamp | None]]]],
+) -> Doubt | None:
+    """Return the doubt about an edit that no build has seen, from `others` (by element), commits, or seen lines."""
+    package, element, lines = generation.package, _element(action), added_lines(inputs, generation.package, action)
+    shared = [(commit, lines & lines_of(texts.get(action.path, ("", None))[0])) for commit, texts in commits]
+    meanings = (_meanings_in(inputs, package, differences, commit, action, both) for commit, both in shared if both)
+    for found in (others, *meanings):
+        named = found.get(element) if element else _named(inputs, lines, found, generation.now.snapshot)
+        if named:
+            return named
+    renamed = (one for one, texts in commits if action.path not in texts and element)
+    mixed = (_mixed_by_git(inputs, package, differences, one, action, lines) for one in renamed)
+    return next(filter(None, mixed), None) or _seen_elsewhere(inputs, package, differences, action, lines)
 
 
 def _meanings_in(
