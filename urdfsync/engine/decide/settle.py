@@ -33,8 +33,8 @@ _EDITED = frozenset({Reason.KEEP, Reason.MOVE, Reason.MERGE})
 def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settled:
     """Apply the choices of the options.
 
-    A choice is ignored if one of the two texts has changed, or if the choice does not fit the file. Raises OutputError
-    if no choice has an effect, so nothing is written, and for `--keep` on a file with markers of git.
+    A choice is ignored if one of the two texts has changed, or if the texts do not merge. Raises OutputError if another
+    choice has no effect, so nothing is written, and for `--keep` on a file with markers of git.
     """
     choices, wanted = _Choices(inputs, generation, decision), dict(inputs.options.choices)
     by_path, refused = {action.path: action for action in decision.actions}, list[Diagnostic]()
@@ -48,13 +48,13 @@ def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settle
             if choices.apply(action, chosen):
                 choices.settled.keys.add(key)
             elif chosen.choice in (Choice.UNDO, Choice.MOVED) or not (action.is_conflict or action.is_left_by_git):
-                refused.append(without_effect(chosen.choice, action, shown(inputs.files.path(action.present))))
-    if refused and not choices.settled.keys:
+                refused.append(_without_effect(chosen.choice, action, shown(inputs.files.path(action.present))))
+    if refused:
         raise OutputError(*refused)
     return choices.settled
 
 
-def without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
+def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
     """Return why a choice has no effect on a file."""
     code, message, hint = "no-conflict", "the file has no conflict", "see `urdfsync status`"
     if choice is Choice.UNDO:
