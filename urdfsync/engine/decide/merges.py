@@ -62,12 +62,12 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, decision: 
     if mine is None:
         mine = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
         rejected = describe_doubt(doubt) if doubt else "you turned the class into a folder"
-    elif doubt:
-        is_own = action.owner == doubt.element
-        rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
     elif branches := files.left_by_git.get(key):
         merge = msgspec.structs.replace(branches, contradictions=(_describe_branches(branches.contradictions, mine),))
         return Conflict(action.path, base, mine, generated, merge, origin=action.origin, is_of_branches=True)
+    elif doubt:
+        is_own = action.owner == doubt.element
+        rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
     if rejected:
         texts = base, mine, generated, None
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)

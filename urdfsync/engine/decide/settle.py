@@ -62,7 +62,7 @@ def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
         message = "nothing to undo: nothing was replaced here, or the file has changed since"
     elif action.is_conflict:
         code, hint = "wrong-rename", "choose again: `urdfsync status` lists the choices"
-        message = "--moved is only for an edit that may belong to another part; this edit belongs here"
+        message = "--moved is only for an edit that may belong to another part"
     elif action.present.endswith("/package.mo") and not action.is_on_disk:
         message, hint = "you turned the class into a folder", "delete the folder and build to get the generated file"
     elif action.reason is Reason.ORPHAN:
@@ -172,6 +172,8 @@ class _Choices:
         base = action.generated
         if conflict.is_of_branches:  # the text was merged with no generated one: the build does that next
             base = self._inputs.last.base_of(key, action.role) or base
+            doubts = self._decision.doubts
+            self.settled.doubts |= {key: doubts[key]} if key in doubts else {}  # the question comes after git's markers
         elif action.origin:
             base, text = self._former_base(action, conflict), self._with_former_names(action, conflict, text)
         reason = Reason.KEEP if text == conflict.mine else Reason.MERGE
