@@ -146,11 +146,11 @@ def _files_to_name(target: DisputedFile, choice: Sequence[str]) -> list[str]:
     if choice != ["--moved"]:
         return [target.shown]
     moved = {(one.action.role, one.action.owner): one for one in target.result.conflicts if _is_likely_moved(one)}
-    files, kind, next_target = list[str](), target.action.owner.partition(" ")[0], target
-    while next_target and next_target.shown not in files:
-        files.append(next_target.shown)
-        name = next_target.texts.moved_to if next_target.texts else ""
-        next_target = moved.get((target.action.role, f"{kind} {name}"))
+    files, following = list[str](), moved.get((target.action.role, target.action.owner))
+    while following and following.texts and following.shown not in files:
+        files.append(following.shown)
+        kind = following.action.owner.partition(" ")[0]
+        following = moved.get((following.action.role, f"{kind} {following.texts.moved_to}"))
     return files
 
 
