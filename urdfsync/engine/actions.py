@@ -203,7 +203,7 @@ class Action(msgspec.Struct, frozen=True):
         if self.restores_stamp:
             return "its stamp is missing"
         if self.reason is Reason.KEEP and self.lacks_stamp:
-            return "you edited it; without its stamp, its path counts"
+            return "you edited it; without its stamp, its path counts: `resolve FILE --keep` stamps it"
         words = _OF_COPIES.get(self.reason, "") if self.copy_of else ""
         return words.format(self.copy_of) or self.reason.text
 

@@ -124,7 +124,7 @@ class _Choices:
         if action.reason is Reason.ORPHAN:
             self._add(action, self._stamped(action, inputs.files.read_on_disk(key), None), Reason.KEEP, Choice.KEEP)
             return True
-        if not action.is_conflict:
+        if not (action.is_conflict or action.lacks_stamp):
             return False
         base, content = action.generated, inputs.files.read(key)
         if action.reason is Reason.ASKED:  # the user says that the part is the same: later exports still merge
