@@ -108,6 +108,7 @@ class Reason(enum.StrEnum):
     MARKERS = "markers", Kind.CONFLICT, FileStatus.CONFLICT, "git could not merge the edits of two branches"
     UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "this file exists, and urdfsync did not write it"
     ASKED = "asked", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and it may belong to another part now"
+    SECOND = "second", Kind.CONFLICT, FileStatus.CONFLICT, "another edited file belongs to the same part"
     RENAMED = "renamed", Kind.CONFLICT, FileStatus.CONFLICT, "it uses a name that has changed"
     UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "urdfsync neither generates this file nor has a record of it"
     UNCHANGED = "unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"

@@ -57,8 +57,8 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     mergeable = sum(target.merges for target in conflicts)
     option = "--merge"
     what = "merges it" if len(conflicts) == 1 else f"merges what can be merged: {mergeable} of {len(conflicts)}"
-    if all(map(_is_likely_moved, conflicts)):
-        option, what = "--moved", "moves each edit to the part that it may belong to"
+    if all(next(iter(_choices(target))) == "--moved" for target in conflicts):
+        option, what = "--moved", "moves each edit to its likely file"
     elif not mergeable and not all("--keep" in _choices(target) for target in conflicts):
         return  # git's markers can't be kept
     elif not mergeable:
@@ -115,6 +115,9 @@ def _choices(target: DisputedFile) -> dict[str, str]:
     """Return the options that settle a conflict, best first, with their effects."""
     texts, is_on_disk = target.texts, target.action.is_on_disk
     choices, is_users = {}, target.action.generated is None and target.action.reason is Reason.RENAMED
+    if target.action.reason is Reason.SECOND:
+        merged = f"your edits of both files, in {target.action.copy_of}"
+        return {"--moved": merged, "--keep": "it is a class of your own", "--take": "deletes the file"}
     if target.merges:
         choices["--merge"] = NEW_NAMES if is_users else "both sides' changes"
     elif sides := [side for choice, side in _SIDES.items() if target.offers(choice)]:
@@ -143,7 +146,7 @@ def _is_likely_moved(target: DisputedFile) -> bool:
 
 def _files_to_name(target: DisputedFile, choice: Sequence[str]) -> list[str]:
     """Return the files that one command names for a choice: --moved can't move an edit over another doubtful edit."""
-    if choice != ["--moved"]:
+    if choice != ["--moved"] or not _is_likely_moved(target):
         return [target.shown]
     moved = {(one.action.role, one.action.owner): one for one in target.result.conflicts if _is_likely_moved(one)}
     files, following = list[str](), moved.get((target.action.role, target.action.owner))

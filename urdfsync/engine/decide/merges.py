@@ -56,6 +56,9 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, decision: 
     doubt, names = decision.doubts.get(action.path), decision.names
     key, files, last = action.origin or action.path, inputs.files, inputs.last
     path = inputs.folder.path(action.path)
+    if action.reason is Reason.SECOND:
+        base, rejected = last.base(action.base), f"{action.copy_of} has edits of the same part: --moved merges both"
+        return Conflict(action.path, base, files.text(key) or "", base or "", None, rejected=rejected)
     mine, generated = files.text(key), generation.package.content(path).decode()
     base = generated if action.base == action.generated else last.base(action.base)
     rejected, moved_to = "", ""

@@ -43,10 +43,12 @@ def find_places(
             place = msgspec.structs.replace(place, is_displaced=is_displaced)
         places[key] = place
 
-    def is_copied(key: str, stamp: Stamp) -> bool:
-        """Whether a file, whose part may be gone, has a text that was generated for another path."""
+    def is_copy(key: str, stamp: Stamp) -> bool:
+        """Whether a file that is not recorded is a copy, and not an edit that git brought under a former name."""
         text = _base_text(inputs, key, stamp)
-        return text is not None and not is_in_place(text, last.target, last.folder.path(key))
+        is_elsewhere = text is not None and not is_in_place(text, last.target, last.folder.path(key))
+        is_edit = text is not None and files.hash(key, Role.MODEL) != stamp.base
+        return is_elsewhere or (stamp.id in present and not is_edit)
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
@@ -56,8 +58,8 @@ def find_places(
         stamp, recorded = files.stamp(key), last.record.files
         is_folder = as_file(key) in places or as_file(key) in recorded
         path = last.folder.path(key)
-        is_copy = stamp is not None and key not in moved and (stamp.id in present or is_copied(key, stamp))
-        if key not in recorded and (is_folder or is_copy):
+        is_users = is_folder or (stamp is not None and key not in moved and is_copy(key, stamp))
+        if key not in recorded and is_users:
             continue  # the user turned the class into a folder, copied it, or gave it another name
         # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
         old = last.package.artifacts.get(path) if last.package else None
