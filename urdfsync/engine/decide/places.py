@@ -44,11 +44,9 @@ def find_places(
         places[key] = place
 
     def is_copy(key: str, stamp: Stamp) -> bool:
-        """Whether a file that is not recorded is a copy, and not an edit that git brought under a former name."""
+        """Whether a file that is not recorded was generated for another path; git may bring one with a former name."""
         text = _base_text(inputs, key, stamp)
-        is_elsewhere = text is not None and not is_in_place(text, last.target, last.folder.path(key))
-        is_edit = text is not None and files.hash(key, Role.MODEL) != stamp.base
-        return is_elsewhere or (stamp.id in present and not is_edit)
+        return stamp.id in present if text is None else not is_in_place(text, last.target, last.folder.path(key))
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
