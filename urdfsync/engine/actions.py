@@ -170,7 +170,7 @@ class Action(msgspec.Struct, frozen=True):
     lacks_stamp: bool = False
     """Whether the class on disk has no stamp: then its path says which part it is."""
     copy_of: str = ""
-    """The path, below the package, of the generated file with the same stamp; empty unless this file is a copy."""
+    """The path, below the package, of the generated file with the same id; empty unless this file is another one."""
 
     @property
     def kind(self) -> Kind:
