@@ -215,7 +215,9 @@ class Scenario:
         old.replace(new)
 
     def copy(self, rest: str) -> None:
-        shutil.copy(*map(self.path, rest.split()))
+        old, new = map(self.path, rest.split())
+        new.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(old, new)
 
     def keep(self, rest: str) -> None:
         name, file = rest.split()

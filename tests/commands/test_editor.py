@@ -87,6 +87,17 @@ def test_an_edited_text_that_cannot_be_used_changes_nothing(
     assert "; --edit begins anew" in error
 
 
+def test_a_proposed_merge_is_taken_only_if_the_editor_saves_it(clean: Path, execute: Execute, editor: Editor) -> None:
+    """It has no markers, so an editor that the user just closes would confirm it."""
+    editor("")
+    with unchanged(clean, but=".urdfsync/lock"):
+        error = execute("resolve", MODEL, "--edit", code=2).err
+    assert "the text was not saved in the editor; nothing was changed; save it there, even if it is right" in error
+    editor("file.write_text(file.read_text())")
+    execute("resolve", MODEL, "--edit")
+    execute("build", "--check")
+
+
 def test_an_edited_text_in_latin_1_is_no_bug_while_another_file_waits(
     contradictory: Path, execute: Execute, editor: Editor
 ) -> None:

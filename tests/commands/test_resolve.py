@@ -9,21 +9,12 @@ from typing import Any
 import pytest
 from support.commands import SETTLE, Editor, Execute
 from support.crashes import Operation, before_each
-from support.networks import FRESH, LADDER, MINE, MODEL, add_resistor, edit
+from support.networks import FRESH, LADDER, MINE, MODEL, edit
 
 from urdfsync.api import build_and_check
 from urdfsync.commands import cli
 from urdfsync.engine.result import Result
 from urdfsync.project.state.lock import build_lock
-
-
-@pytest.fixture
-def clean(execute: Execute, project: Path) -> Path:
-    """The network's model is edited, one more resistor is in the source: both fit together."""
-    execute("build")
-    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
-    add_resistor("R3")
-    return project
 
 
 def conflicts(execute: Execute) -> list[str]:

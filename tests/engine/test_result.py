@@ -72,7 +72,7 @@ def test_what_happened_is_said_in_a_line(build: Result, summary: str) -> None:
         (result(Reason.UPDATE, writes=True), Exit.IN_STEP, Exit.IN_STEP),
         (result(Reason.UPDATE, writes=True, dry=True), Exit.IN_STEP, Exit.OUT_OF_STEP),
         (result(Reason.UNCHANGED, stale=("a",)), Exit.IN_STEP, Exit.OUT_OF_STEP),
-        (result(Reason.KEEP, is_broken=True, dry=True), Exit.OUT_OF_STEP, Exit.OUT_OF_STEP),
+        (result(Reason.KEEP, is_broken=True, dry=True), Exit.CONFLICT, Exit.CONFLICT),
         (result(Reason.KEEP, is_broken=True), Exit.CONFLICT, Exit.CONFLICT),
         (result(Reason.CONFLICT), Exit.CONFLICT, Exit.CONFLICT),
         (result(failed=True, locked=True), Exit.LOCKED, Exit.LOCKED),

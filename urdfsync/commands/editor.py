@@ -23,6 +23,8 @@ from urdfsync.modelica.markers import find_markers, read_sides
 from urdfsync.modelica.parser import parse
 
 _HINT = "set $VISUAL or $EDITOR"
+_UNSAVED = 1_000_000_000
+"""The time of a file, in s, until the editor saves it."""
 
 
 def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[str, str]]:
@@ -45,6 +47,7 @@ def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[s
         file.parent.mkdir()
         proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
         file.write_bytes(encode(proposal if edited is None else edited))
+        os.utime(file, (_UNSAVED, _UNSAVED))  # else a save within the clock's step would not show
         try:  # not in the project's folder, where an editor may look for settings
             code = subprocess.run(system.command([*words, str(file)]), cwd=file.parent, check=False).returncode  # noqa: S603
         except OSError as error:
@@ -56,12 +59,16 @@ def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[s
             message = f"the editor ended with exit code {code}; nothing was changed"
             raise UrdfsyncError.of("editor-failed", message, hint=hint)
         try:
-            content = read_unrecorded(file)
+            content, is_saved = read_unrecorded(file), file.stat().st_mtime != _UNSAVED
         except OSError as error:
             message = f"the editor left no file that can be read ({error.strerror}); nothing was changed"
             raise UrdfsyncError.of("no-edit", message, conflict.path, hint=hint) from None
         if flaw := _flaw(content, conflict):
             raise UrdfsyncError.of("no-edit", f"the edited text {flaw}; nothing was changed", conflict.path, hint=hint)
+        if not is_saved:  # as with `git mergetool`, the end of the editor alone confirms nothing
+            message = "the text was not saved in the editor; nothing was changed"
+            hint = "save it there, even if it is right as it is"
+            raise UrdfsyncError.of("no-edit", message, conflict.path, hint=hint)
         texts[conflict.path] = content.decode()
     return folder, texts
 

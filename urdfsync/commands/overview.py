@@ -7,7 +7,7 @@ from urdfsync.common import streams
 from urdfsync.common.version import __version__
 
 CODES = (
-    "exit codes: 0 in step or done, 1 out of step, broken or different, 2 error, 3 conflict, "
+    "exit codes: 0 in step or done, 1 out of step or different, 2 error, 3 conflict or broken, "
     "4 another build is running, 5 a log of another robot, 130 interrupted"
 )
 VERSION = f"urdfsync {__version__}"

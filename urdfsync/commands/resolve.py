@@ -18,7 +18,6 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Choice, Reason, UsersChoice
 from urdfsync.engine.build import build
 from urdfsync.engine.decide.conflicts import PREFERENCES
-from urdfsync.engine.decide.settle import without_effect
 from urdfsync.engine.inspect.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.output.build_section import show_result
@@ -90,8 +89,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     accepted, problems = _compare(targets, results, choice)
     code = exit_code(results)
     if problems and code is Exit.IN_STEP:
-        is_error = any(problem.severity is Severity.ERROR for problem in problems)
-        code = Exit.ERROR if is_error else Exit.CONFLICT
+        code = Exit.CONFLICT
     if folder and not args.dry_run and edited.keys() <= accepted:
         shutil.rmtree(folder)
     elif folder:
@@ -188,7 +186,7 @@ def _compare(
             continue
         if path in result_of[result.robot].settled:
             accepted.add(path)
-        elif after is not None and after.sides != before.sides:
+        elif after is None or after.sides != before.sides:
             message = "the file or its generated text changed after they were read, so your choice was not applied"
             hint = "look at the file, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
@@ -196,6 +194,4 @@ def _compare(
             refused = file.texts and (file.texts.refused.get(choice) or file.texts.rejected)
             message = f"not merged: {refused or file.relation}"
             problems.append(Diagnostic(Severity.WARNING, "no-merge", message, place, hint=settle_hint([file])))
-        elif choice in (Choice.UNDO, Choice.MOVED) or not (before.is_conflict or before.is_left_by_git):
-            problems.append(without_effect(choice, before, place))
     return accepted, problems

@@ -108,6 +108,7 @@ class Reason(enum.StrEnum):
     MARKERS = "markers", Kind.CONFLICT, FileStatus.CONFLICT, "git could not merge the edits of two branches"
     UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "this file exists, and urdfsync did not write it"
     ASKED = "asked", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and it may belong to another part now"
+    SECOND = "second", Kind.CONFLICT, FileStatus.CONFLICT, "another edited file belongs to the same part"
     RENAMED = "renamed", Kind.CONFLICT, FileStatus.CONFLICT, "it uses a name that has changed"
     UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "urdfsync neither generates this file nor has a record of it"
     UNCHANGED = "unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
@@ -169,7 +170,7 @@ class Action(msgspec.Struct, frozen=True):
     lacks_stamp: bool = False
     """Whether the class on disk has no stamp: then its path says which part it is."""
     copy_of: str = ""
-    """The path, below the package, of the generated file with the same stamp; empty unless this file is a copy."""
+    """The path, below the package, of the generated file with the same id; empty unless this file is another one."""
 
     @property
     def kind(self) -> Kind:
@@ -203,7 +204,7 @@ class Action(msgspec.Struct, frozen=True):
         if self.restores_stamp:
             return "its stamp is missing"
         if self.reason is Reason.KEEP and self.lacks_stamp:
-            return "you edited it; without its stamp, its path counts"
+            return "you edited it; without its stamp, its path counts: `resolve FILE --keep` stamps it"
         words = _OF_COPIES.get(self.reason, "") if self.copy_of else ""
         return words.format(self.copy_of) or self.reason.text
 

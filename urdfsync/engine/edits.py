@@ -31,6 +31,7 @@ class EditedFile(msgspec.Struct, frozen=True):
     base: str | None
     """The base: the text that urdfsync wrote last. None if the base is lost, or if urdfsync never wrote the file."""
     mine: str
+    is_in_conflict: bool = False
 
     @property
     def edits(self) -> Sequence[merge_edits.Edit] | None:
@@ -76,7 +77,7 @@ def find_edited(
             base = inputs.last.base(action.base) if action.base else None
             if action.generated and action.reason is Reason.KEEP:  # the text has all changes of the generated one
                 base = generation.package.content(inputs.folder.path(action.path)).decode()
-            yield EditedFile(key, action.owner, base, files.any_text(key))
+            yield EditedFile(key, action.owner, base, files.any_text(key), action.is_conflict)
 
 
 def find_edits(paths: Sequence[str], config: Config, options: BuildOptions) -> Iterator[RobotEdits]:

@@ -31,6 +31,7 @@ class Exit(enum.IntEnum):
     OUT_OF_STEP = 1
     ERROR = 2
     CONFLICT = 3
+    """A file is in conflict, or the package is broken."""
     LOCKED = 4
     DOUBTFUL = 5
     """A log is hardly that of the robot."""
@@ -265,17 +266,15 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
-    """Return the exit code of the worst result: error, then lock, then conflict, then out of step.
+    """Return the exit code of the worst result: error, then lock, then conflict or broken, then out of step.
 
-    Packages out of step count only with `check`, or if they are broken.
+    Packages out of step count only with `check`.
     """
     results = list(results)
     if any((result.failed and not result.locked) or result.checked is Checked.WRONG for result in results):
         return Exit.ERROR
     if any(result.locked for result in results):
         return Exit.LOCKED
-    if any(result.conflicts or (result.is_broken and not result.dry) for result in results):
+    if any(result.conflicts or result.is_broken for result in results):
         return Exit.CONFLICT
-    if any(result.is_broken for result in results):
-        return Exit.OUT_OF_STEP
     return Exit.IN_STEP if not check or all(result.in_step for result in results) else Exit.OUT_OF_STEP

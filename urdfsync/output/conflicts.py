@@ -55,10 +55,15 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     if len(conflicts) == 1 and full:
         return
     mergeable = sum(target.merges for target in conflicts)
+    option = "--merge"
     what = "merges it" if len(conflicts) == 1 else f"merges what can be merged: {mergeable} of {len(conflicts)}"
-    if not mergeable:
-        what = "keeps all your files as they are; --take replaces them by the generated ones"
-    command = ["resolve", result.robot, "--merge" if mergeable else "--keep"]
+    if all(next(iter(_choices(target))) == "--moved" for target in conflicts):
+        option, what = "--moved", "moves each edit to its likely file"
+    elif not mergeable and not all("--keep" in _choices(target) for target in conflicts):
+        return  # git's markers can't be kept
+    elif not mergeable:
+        option, what = "--keep", "keeps all your files as they are; --take replaces them by the generated ones"
+    command = ["resolve", result.robot, option]
     yield from (line(("", "")), line((f"  {_command(command, console)}", "bold"), (f"  {what}", "dim")))
     never_built = all(action.base is None for action in result.actions)
     if never_built and all(target.action.reason is Reason.UNOWNED for target in conflicts):
@@ -86,15 +91,20 @@ def _full_lines(target: DisputedFile, console: Console, choices: Mapping[str, st
         if not result.dry:
             folder = Path(saved["generated"]).parent
             yield line((f"    saved in {folder}: {', '.join(Path(path).name for path in saved.values())}", "dim"))
-    typed = f"./{name}" if name.startswith("-") else name
-    yield line((f"    {_command(['resolve', typed, *next(iter(choices)).split()], console)}", "bold"))
+    best = next(iter(choices)).split()
+    files = [f"./{file}" if file.startswith("-") else file for file in _files_to_name(target, best)]
+    yield line((f"    {_command(['resolve', *files, *best], console)}", "bold"))
 
 
 def settle_hint(conflicts: Sequence[DisputedFile]) -> str:
     """Return a hint with the options of `resolve` that settle each of these conflicts."""
+    moved = [target for target in conflicts if _is_likely_moved(target)]
+    if moved and (unmoved := [target for target in conflicts if not _is_likely_moved(target)]):
+        return f"{settle_hint(moved)}; {settle_hint(unmoved)}"
     first, *others = map(_choices, conflicts)
     best, *more = [choice for choice in first if all(choice in choices for choices in others)]
-    what, file = ("each conflict", "FILE") if others else ("the conflict", conflicts[0].shown)
+    files = dict.fromkeys(file for target in conflicts for file in _files_to_name(target, [best]))
+    what, file = ("each conflict" if others else "the conflict"), " ".join(files) if moved or not others else "FILE"
     or_more = f" (or {', '.join(more)})" if more else ""
     merges = sum("--merge" in choices for choices in (first, *others))
     and_merge = f"; --merge settles {merges} of {len(conflicts)}" if 0 < merges < len(conflicts) else ""
@@ -105,6 +115,9 @@ def _choices(target: DisputedFile) -> dict[str, str]:
     """Return the options that settle a conflict, best first, with their effects."""
     texts, is_on_disk = target.texts, target.action.is_on_disk
     choices, is_users = {}, target.action.generated is None and target.action.reason is Reason.RENAMED
+    if target.action.reason is Reason.SECOND:
+        merged = f"your edits of both files, in {target.action.copy_of}"
+        return {"--moved": merged, "--keep": "it is a class of your own", "--take": "deletes the file"}
     if target.merges:
         choices["--merge"] = NEW_NAMES if is_users else "both sides' changes"
     elif sides := [side for choice, side in _SIDES.items() if target.offers(choice)]:
@@ -112,11 +125,10 @@ def _choices(target: DisputedFile) -> dict[str, str]:
         choices[f"--merge --prefer {sides[0][0]}"] = f"both sides' changes; {sides[0][1]}{either} where they contradict"
     if target.action.reason is Reason.ASKED and " " not in target.action.owner:
         choices = {"--keep": "your file as it is: its names are right"}
+    elif texts and _is_likely_moved(target):
+        choices = {"--moved": f"your edit belongs to `{texts.moved_to}`", "--keep": "it is the same part"}
     elif target.action.reason is Reason.ASKED:
-        likely = texts.moved_to if texts else ""
-        moved = {f"--moved {likely or 'NAME'}": "your edit belongs to the part of this name"}
-        keep = {"--keep": "it is the same part"}
-        choices = {**moved, **keep} if likely else {**keep, **moved}
+        choices = {"--keep": "it is the same part", "--moved NAME": "your edit belongs to the part of this name"}
     if target.action.reason is Reason.ASKED:
         return choices | {"--take": "the generated file"}
     edit = {"--edit": "both sides in your editor, between markers"} if texts and is_on_disk else {}
@@ -125,6 +137,24 @@ def _choices(target: DisputedFile) -> dict[str, str]:
         keep = {}
     choices |= {**edit, **keep} if texts and texts.merge else {**keep, **edit}
     return choices | ({"--take": "the generated file"} if is_on_disk and not is_users else {})
+
+
+def _is_likely_moved(target: DisputedFile) -> bool:
+    """Return whether an edit may belong to another part, and its likely name is known."""
+    return target.action.reason is Reason.ASKED and target.texts is not None and target.texts.moved_to != ""
+
+
+def _files_to_name(target: DisputedFile, choice: Sequence[str]) -> list[str]:
+    """Return the files that one command names for a choice: --moved can't move an edit over another doubtful edit."""
+    if choice != ["--moved"] or not _is_likely_moved(target):
+        return [target.shown]
+    moved = {(one.action.role, one.action.owner): one for one in target.result.conflicts if _is_likely_moved(one)}
+    files, following = list[str](), moved.get((target.action.role, target.action.owner))
+    while following and following.texts and following.shown not in files:
+        files.append(following.shown)
+        kind = following.action.owner.partition(" ")[0]
+        following = moved.get((following.action.role, f"{kind} {following.texts.moved_to}"))
+    return files
 
 
 # --- the lines at issue -------------------------------------------------------------------------------------------

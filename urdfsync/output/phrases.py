@@ -48,7 +48,7 @@ def _cause(action: Action, changes: Changes | None) -> str:
         kept = "yours from now on" if action.choice is Choice.KEEP else "deleted; --undo brings it back"
         if action.role is Role.IMPORT and action.choice is Choice.TAKE:
             return "the source's file; a copy of yours is below .urdfsync/aside"
-        return kept if is_orphan else _CHOSEN[action.choice]
+        return kept if is_orphan and action.choice is not Choice.MOVED else _CHOSEN[action.choice]
     if action.reason not in _NAMED or changes is None or action.restores_stamp:
         return action.cause
     # changes of an element update its records, structural changes update models and packages

@@ -27,6 +27,8 @@ class EditedValue(NamedTuple):
     """The new numbers as the user wrote them."""
     told: str
     """The edit in words."""
+    is_in_conflict: bool
+    """Whether the record is in conflict."""
 
     @property
     def changed(self) -> list[int]:
@@ -66,7 +68,7 @@ def edited_values(file: EditedFile, path: str) -> Iterator[EditedValue | Staying
         elif old and len(old) != len(new):
             yield Staying(file.path, told, "it has another count of numbers")
         else:
-            yield EditedValue((path, value.path), old or (), new, tuple(words), told)
+            yield EditedValue((path, value.path), old or (), new, tuple(words), told, file.is_in_conflict)
 
 
 def other_edits(file: EditedFile, values: Sequence[str]) -> Iterator[Staying]:

@@ -74,7 +74,8 @@ class Search:
         """Find the changes."""
         for value in self._values.values():
             if value.old and self.before.values.get(value.key) != value.old:
-                self.reasons[value.key] = "the source has changed it, too: build first"
+                first = "settle the conflict with `urdfsync resolve`" if value.is_in_conflict else "build"
+                self.reasons[value.key] = f"the source has changed it, too: {first} first"
         known = [value for value in self._values.values() if value.key not in self.reasons]
         self._trace_literals([value for value in known if value.old])
         trials = list(self._by_literal(known))

@@ -56,18 +56,21 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, decision: 
     doubt, names = decision.doubts.get(action.path), decision.names
     key, files, last = action.origin or action.path, inputs.files, inputs.last
     path = inputs.folder.path(action.path)
+    if action.reason is Reason.SECOND:
+        base, rejected = last.base(action.base), f"{action.copy_of} has edits of the same part: --moved merges both"
+        return Conflict(action.path, base, files.text(key) or "", base or "", None, rejected=rejected)
     mine, generated = files.text(key), generation.package.content(path).decode()
     base = generated if action.base == action.generated else last.base(action.base)
     rejected, moved_to = "", ""
     if mine is None:
         mine = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
         rejected = describe_doubt(doubt) if doubt else "you turned the class into a folder"
-    elif doubt:
-        is_own = action.owner == doubt.element
-        rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
     elif branches := files.left_by_git.get(key):
         merge = msgspec.structs.replace(branches, contradictions=(_describe_branches(branches.contradictions, mine),))
         return Conflict(action.path, base, mine, generated, merge, origin=action.origin, is_of_branches=True)
+    elif doubt:
+        is_own = action.owner == doubt.element
+        rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
     if rejected:
         texts = base, mine, generated, None
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)

@@ -190,7 +190,11 @@ def keep_needed(after: PackageAfter, present: Collection[tuple[str, str]]) -> tu
     for path in sorted(packages.keys() & deleted, key=lambda path: path.count("/"), reverse=True):  # innermost first
         if after.inputs.files.has_classes(path, deleted - kept):
             kept.add(path)
-    stays = {key: msgspec.structs.replace(action, path=key, origin=None) for key, action in packages.items()}
+    hashes = {key: after.inputs.files.hash(key, Role.PACKAGE) for key in packages}
+    stays = {  # an action that brings its text to another path leaves this file
+        key: msgspec.structs.replace(action, path=key, origin=None, generated=None, mine=hashes[key])
+        for key, action in packages.items()
+    }
     stays |= {action.path: action for action in actions if action.path in kept}
     needed = [msgspec.structs.replace(stays[path], reason=Reason.NEEDED) for path in sorted(kept)]
     return *(action for action in actions if action.path not in kept), *needed

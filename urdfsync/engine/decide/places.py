@@ -43,10 +43,10 @@ def find_places(
             place = msgspec.structs.replace(place, is_displaced=is_displaced)
         places[key] = place
 
-    def is_edited_copy(key: str, stamp: Stamp) -> bool:
-        """Whether a file, whose part may be gone, has an edit of a text that was generated for another path."""
-        text = last.base(stamp.base) if files.hash(key, Role.MODEL) != stamp.base else None
-        return text is not None and not is_in_place(text, last.target, last.folder.path(key))
+    def is_copy(key: str, stamp: Stamp) -> bool:
+        """Whether a file that is not recorded was generated for another path; git may bring one with a former name."""
+        text = _base_text(inputs, key, stamp)
+        return stamp.id in present if text is None else not is_in_place(text, last.target, last.folder.path(key))
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
@@ -56,8 +56,8 @@ def find_places(
         stamp, recorded = files.stamp(key), last.record.files
         is_folder = as_file(key) in places or as_file(key) in recorded
         path = last.folder.path(key)
-        is_copy = stamp is not None and key not in moved and (stamp.id in present or is_edited_copy(key, stamp))
-        if key not in recorded and (is_folder or is_copy):
+        is_users = is_folder or (stamp is not None and key not in moved and is_copy(key, stamp))
+        if key not in recorded and is_users:
             continue  # the user turned the class into a folder, copied it, or gave it another name
         # `last.package` takes 20 ms with 100 links: only files that are no longer generated need it
         old = last.package.artifacts.get(path) if last.package else None
@@ -67,7 +67,7 @@ def find_places(
 
 def find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
     """Return old keys by new keys of the files whose stamps, or else paths, say that they belong at another path."""
-    files, last, moves = inputs.files, inputs.last, dict[str, str]()
+    files, last, moves, strays = inputs.files, inputs.last, dict[str, str](), dict[str, str]()
     targets = {file_id: inputs.folder.key(path) for path, file_id in ids.items()}
     for folder in dict.fromkeys((last.folder, inputs.folder)):
         for key, stamp in _stamps(inputs, folder).items():
@@ -79,17 +79,22 @@ def find_moves(inputs: Inputs, ids: Mapping[str, str]) -> dict[str, str]:
             is_there = (
                 there is not None and file_id == last.edits.get(text_there, there.id) and there.base != text_there
             )
-            is_edited = files.hash(key, Role.MODEL) != stamp.base
-            is_trusted = files.is_chosen(key) or (
-                is_in_place(last.base(stamp.base), last.target, folder.path(key))
-                if is_edited
-                else last.has_written(stamp.base)  # a stranger may have written the stamp
-            )
+            is_edited, is_chosen = files.hash(key, Role.MODEL) != stamp.base, files.is_chosen(key)
+            is_own = is_chosen or is_in_place(_base_text(inputs, key, stamp), last.target, folder.path(key))
+            # a stranger may have written the stamp
+            is_trusted = is_chosen or (is_own if is_edited else last.has_written(stamp.base))
             if is_there or not is_trusted:
                 continue  # the class is the user's own: a copy, or with another name
             place = as_file(key)  # if the class is a folder, the file that it was
-            moves.setdefault(target, place if place in last.record.files else key)
-    return moves
+            (moves if is_own else strays).setdefault(target, place if place in last.record.files else key)
+    # an unedited file elsewhere was moved by the user if its part has no other file; else it is a copy
+    return {target: key for target, key in strays.items() if files.on_disk(target, Role.MODEL) is None} | moves
+
+
+def _base_text(inputs: Inputs, key: str, stamp: Stamp) -> str | None:
+    """Return the generated text that a file came from: its own one, if it is unedited; None if that is lost."""
+    is_edited = inputs.files.hash(key, Role.MODEL) != stamp.base
+    return inputs.last.base(stamp.base) if is_edited else inputs.files.text(key)
 
 
 def _stamps(inputs: Inputs, folder: Folder) -> dict[str, Stamp]:

@@ -33,8 +33,8 @@ _EDITED = frozenset({Reason.KEEP, Reason.MOVE, Reason.MERGE})
 def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settled:
     """Apply the choices of the options.
 
-    A choice is ignored if one of the two texts has changed, or if the choice does not fit the file. Raises OutputError
-    if no choice has an effect, so nothing is written, and for `--keep` on a file with markers of git.
+    A choice is ignored if one of the two texts has changed, or if the texts do not merge. Raises OutputError if another
+    choice has no effect, so nothing is written, and for `--keep` on a file with markers of git.
     """
     choices, wanted = _Choices(inputs, generation, decision), dict(inputs.options.choices)
     by_path, refused = {action.path: action for action in decision.actions}, list[Diagnostic]()
@@ -48,13 +48,13 @@ def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settle
             if choices.apply(action, chosen):
                 choices.settled.keys.add(key)
             elif chosen.choice in (Choice.UNDO, Choice.MOVED) or not (action.is_conflict or action.is_left_by_git):
-                refused.append(without_effect(chosen.choice, action, shown(inputs.files.path(action.present))))
-    if refused and not choices.settled.keys:
+                refused.append(_without_effect(chosen.choice, action, shown(inputs.files.path(action.present))))
+    if refused:
         raise OutputError(*refused)
     return choices.settled
 
 
-def without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
+def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
     """Return why a choice has no effect on a file."""
     code, message, hint = "no-conflict", "the file has no conflict", "see `urdfsync status`"
     if choice is Choice.UNDO:
@@ -62,7 +62,7 @@ def without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
         message = "nothing to undo: nothing was replaced here, or the file has changed since"
     elif action.is_conflict:
         code, hint = "wrong-rename", "choose again: `urdfsync status` lists the choices"
-        message = "--moved is only for an edit that may belong to another part; this edit belongs here"
+        message = "--moved is only for an edit that may belong to another part"
     elif action.present.endswith("/package.mo") and not action.is_on_disk:
         message, hint = "you turned the class into a folder", "delete the folder and build to get the generated file"
     elif action.reason is Reason.ORPHAN:
@@ -84,7 +84,8 @@ class _Choices:
         """Apply one choice; return whether the choice fits its file."""
         match chosen.choice:
             case Choice.MOVED:
-                return action.reason is Reason.ASKED and self._move(action, chosen.text)
+                is_second = action.reason is Reason.SECOND and not chosen.text
+                return (is_second or action.reason is Reason.ASKED) and self._move(action, chosen.text)
             case Choice.UNDO:
                 return self._undo(action)
             case Choice.KEEP:
@@ -124,7 +125,7 @@ class _Choices:
         if action.reason is Reason.ORPHAN:
             self._add(action, self._stamped(action, inputs.files.read_on_disk(key), None), Reason.KEEP, Choice.KEEP)
             return True
-        if not action.is_conflict:
+        if not (action.is_conflict or action.lacks_stamp):
             return False
         base, content = action.generated, inputs.files.read(key)
         if action.reason is Reason.ASKED:  # the user says that the part is the same: later exports still merge
@@ -143,7 +144,7 @@ class _Choices:
     def _take(self, action: Action, chosen: UsersChoice) -> bool:
         """Take the generated text, or delete a file that is not generated any more."""
         inputs, key = self._inputs, action.origin or action.path
-        if action.reason is Reason.ORPHAN:
+        if action.reason in (Reason.ORPHAN, Reason.SECOND):
             self._add(action, None, Reason.DELETE, Choice.TAKE)
             return True
         if action.mine is None or not (action.is_conflict or action.reason in _EDITED):
@@ -164,7 +165,7 @@ class _Choices:
     def _merge(self, action: Action, chosen: UsersChoice) -> bool:
         """Take a merge of both sides, or the text that the user has edited."""
         conflict, key = self._decision.disputed.get(action.path), action.origin or action.path
-        if conflict is None or action.reason is Reason.MOVE:
+        if conflict is None or action.reason in (Reason.MOVE, Reason.SECOND):
             return False
         text = chosen.text if chosen.choice is Choice.EDIT else conflict.merged(chosen.choice)
         if text is None:
@@ -172,6 +173,8 @@ class _Choices:
         base = action.generated
         if conflict.is_of_branches:  # the text was merged with no generated one: the build does that next
             base = self._inputs.last.base_of(key, action.role) or base
+            doubts = self._decision.doubts
+            self.settled.doubts |= {key: doubts[key]} if key in doubts else {}  # the question comes after git's markers
         elif action.origin:
             base, text = self._former_base(action, conflict), self._with_former_names(action, conflict, text)
         reason = Reason.KEEP if text == conflict.mine else Reason.MERGE
@@ -217,7 +220,7 @@ class _Choices:
         settled.actions[key] = msgspec.structs.replace(action, **changes)
 
     def _move(self, action: Action, named: str | None) -> bool:
-        """Move an edit to another element's file, by default the likely one's.
+        """Move an edit to another element's file, by default the likely one's; a second edit of a part to its file.
 
         Raises ConfigError for an impossible move. If another edit leaves a file in the same command, this edit may move
         there.
@@ -225,8 +228,13 @@ class _Choices:
         inputs, decision, settled, package = self._inputs, self._decision, self.settled, self._generation.package
         (kind, _, name), key, choices = action.owner.partition(" "), action.path, inputs.options.choices
         conflict = decision.disputed[key]
-        new = named or conflict.moved_to
-        path = self._find_target(action, new)
+        if action.reason is Reason.SECOND:
+            path, renamed = action.copy_of, decision.differences.former
+        else:
+            new = named or conflict.moved_to
+            path = self._find_target(action, new)
+            names = inputs.domain.names(self._generation.now.snapshot, inputs.robot.target)[f"{kind}s"]
+            renamed = {names[name]: names[new]}
         target, sha256 = inputs.folder.key(path), package.hash(path)
         is_leaving = target in choices and choices[target].choice is Choice.MOVED
         is_asked = any(one.path == target and one.reason is Reason.ASKED for one in decision.actions)
@@ -245,16 +253,20 @@ class _Choices:
         text = (inputs.files.text(target) or "") if is_edited else package.content(path).decode()
         if target in settled.contents:
             text = (settled.contents[target] or b"").decode()
-        merged = self._merge_into(conflict, f"{kind}s", name, new, text)
+        is_lost = action.reason is Reason.SECOND and conflict.base is None
+        merged = None if is_lost else self._merge_into(conflict, renamed, text)
         if merged is None:
             message, hint = "your edit contradicts this file", "move the edit by hand, then use --take"
             raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
         if key not in settled.contents:  # another edit may have moved here already
             mine_bytes = inputs.files.read(key) or b""
-            source = self._generation.content(inputs.folder.path(key), action.role, mine_bytes)
-            self._add(action, self._stamped(action, source, action.generated), Reason.UPDATE, Choice.MOVED)
+            source, reason = None, Reason.DELETE
+            if action.generated:
+                source = self._generation.content(inputs.folder.path(key), action.role, mine_bytes)
+                reason = Reason.UPDATE
+            self._add(action, self._stamped(action, source, action.generated), reason, Choice.MOVED)
         content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
-        other = Action(target, Reason.MERGE, action.role, f"{kind} {new}", generated=sha256, mine=mine)
+        other = Action(target, Reason.MERGE, action.role, package.owners[path], generated=sha256, mine=mine)
         stamped = self._stamped(other, content, base if is_edited else sha256)
         self._add(other, stamped, Reason.MERGE, Choice.MOVED)
         return True
@@ -280,15 +292,13 @@ class _Choices:
             raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(action.path)), hint=hint)
         return path
 
-    def _merge_into(self, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
-        """Merge the edit of another element's file into a text of the element `new`; None for a contradiction."""
+    def _merge_into(self, conflict: Conflict, renamed: Mapping[str, str], text: str) -> str | None:
+        """Merge the edit of another file into a text, with new identifiers (`renamed`); None for a contradiction."""
         from urdfsync.merge.texts import merge  # imports the parser
         from urdfsync.modelica.lexer import words_in
 
-        inputs, generation = self._inputs, self._generation
         base = conflict.generated if conflict.base is None else conflict.base
-        identifiers = inputs.domain.names(generation.now.snapshot, inputs.robot.target)[kind]
-        names = names_of(inputs, generation, {identifiers[old]: identifiers[new]}, frozenset(words_in(base)))
+        names = names_of(self._inputs, self._generation, renamed, frozenset(words_in(base)))
         merged = merge(base, conflict.mine, text, is_modelica=True, names=names)
         return None if merged.flaw else merged.text
 

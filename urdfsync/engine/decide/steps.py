@@ -27,7 +27,6 @@ from urdfsync.engine.decide.rules import put_off
 from urdfsync.engine.decide.triage import triage
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
-from urdfsync.engine.inspect.package_files import PackageFiles
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.markers import find_markers
 from urdfsync.project import git
@@ -39,7 +38,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     decision = merge_edits(inputs, generation, decision)
     decision = follow(inputs, generation, decision)
     decision = decide_orders(inputs, generation.package, decision)
-    _refuse_markers(inputs.files, decision)
+    _refuse_markers(inputs, decision)
     decision = _put_off(inputs, generation, decision)
     return _look_at_result(inputs, generation, decision)
 
@@ -89,9 +88,9 @@ def _find_value_only(after: PackageAfter, changes: Changes | None, conflicts: Ma
     return frozenset(keys)
 
 
-def _refuse_markers(files: PackageFiles, decision: Decision) -> None:
+def _refuse_markers(inputs: Inputs, decision: Decision) -> None:
     """Refuse files in which version control left its merge markers. Raises OutputError."""
-    errors = []
+    files, errors = inputs.files, []
     orders = (action.path for action in decision.actions if action.role is Role.ORDER)
     marked = [key for key in orders if find_markers(decision.texts.get(key, ""))]
     others = Reason.UPDATE, Reason.UNKNOWN  # a class of the user's own may have markers: `fit` tells its syntax error
@@ -105,8 +104,10 @@ def _refuse_markers(files: PackageFiles, decision: Decision) -> None:
         if found and key not in told:
             file = shown(files.path(key))
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
-            if git.find_top(files.path(key).parent):  # it was added to the index with its markers
-                hint = f"settle them in the file, or bring git's conflict back: `git checkout -m {file}`; then build"
+            if key not in inputs.unmerged and git.find_top(files.path(key).parent):
+                # it was added to the index with its markers; `git checkout -m` would discard what the user wrote since
+                back = f"`git update-index --unresolve {file}`"
+                hint = f"settle them in the file, or bring git's conflict back with {back}; then build"
             errors.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, found[0][1], hint=hint))
     if errors:
         raise OutputError(*errors)

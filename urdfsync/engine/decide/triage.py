@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -12,7 +12,7 @@ from urdfsync.domain.matching import Doubt
 from urdfsync.engine.actions import DISPUTED, Action, Actions, Reason
 from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
-from urdfsync.engine.decide.doubts import find_doubts
+from urdfsync.engine.decide.doubts import EDITED, find_doubts
 from urdfsync.engine.decide.package_names import renamed_names
 from urdfsync.engine.decide.places import find_places
 from urdfsync.engine.decide.rules import decide
@@ -28,6 +28,7 @@ def triage(inputs: Inputs, generation: Generation, differences: Differences) -> 
     decided = decide(find_places(inputs, generation, differences.ids, moves), moves)
     doubts = find_doubts(inputs, generation, differences, decided)
     actions = tuple(_adjust(inputs, package, action, doubts, differences) for action in decided)
+    actions = tuple(_find_seconds(inputs, package, differences, actions))
     names: Mapping[str, str] = {}
     is_disputed = any(one.reason in DISPUTED and one.role is not Role.IMPORT for one in actions)
     if differences.other_elements or inputs.last.aside or is_disputed:
@@ -63,6 +64,20 @@ def _adjust(
         stamp = inputs.files.stamp(action.path)
         return msgspec.structs.replace(action, copy_of=differences.paths.get(stamp.id, "") if stamp else "")
     return action
+
+
+def _find_seconds(
+    inputs: Inputs, package: Package, differences: Differences, actions: Sequence[Action]
+) -> Iterator[Action]:
+    """Yield the actions. An edit of a part of which another file is edited, too, is in conflict."""
+    edited = {action.path for action in actions if action.reason in EDITED}
+    for action in actions:
+        stamp = inputs.files.stamp(action.path) if action.reason is Reason.ORPHAN else None
+        path = differences.paths.get(stamp.id, "") if stamp else ""
+        if inputs.folder.key(path) in edited:
+            changes = {"reason": Reason.SECOND, "owner": package.owners[path], "copy_of": path}
+            action = msgspec.structs.replace(action, **changes)
+        yield action
 
 
 def _with_other_names(

@@ -64,7 +64,7 @@ class Settled(msgspec.Struct):
     keys: set[str] = msgspec.field(default_factory=set)
     """Keys of the choices that were applied."""
     doubts: dict[str, Doubt] = msgspec.field(default_factory=dict)
-    """The questions that are open again, since a choice was undone, by key."""
+    """The questions that are open after the choices, by key: a choice was undone, or settled git's markers only."""
 
 
 class Inputs(msgspec.Struct, frozen=True, dict=True):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -10,7 +12,13 @@ import msgspec
 
 from urdfsync.common.dependencies import reads
 from urdfsync.common.dependencies.facts import Facts
-from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_that_use, modelica_files
+from urdfsync.modelica.files import (
+    PACKAGE_FILE,
+    TooManyFoldersError,
+    class_of_file,
+    files_that_use,
+    modelica_files,
+)
 from urdfsync.project.config import FILE_NAME, Config, RobotConfig
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
@@ -55,8 +63,26 @@ class UsersFiles(msgspec.Struct, frozen=True, dict=True):
     all: Mapping[Path, bytes]
     mentioning: Mapping[Path, bytes]
     """The files that use the robot, or a class of another file in this list."""
+    names: frozenset[str] = frozenset()
+    """The names of the robot's package, present and former ones."""
     is_too_wide: bool = False
     """Whether there are too many folders to search."""
+
+    @cached_property
+    def using(self) -> list[Path]:
+        """The files of `mentioning` that can mean the robot: a copied package has a class of its own with its name."""
+        direct = set[Path]()
+        for name in self.names:
+            direct |= {path for path in files_that_use(self.mentioning, [name]) if not self._is_hidden(name, path)}
+        using = direct | files_that_use(self.mentioning, map(class_of_file, direct)).keys()
+        return [path for path in self.mentioning if path in using]
+
+    def _is_hidden(self, name: str, path: Path) -> bool:
+        """Whether a name means a class of a package around this file, which Modelica finds first."""
+        if re.search(rf"(?<![\w'\])])\.{re.escape(name)}\b".encode(), self.all[path]):
+            return False
+        around = itertools.takewhile(lambda folder: folder / PACKAGE_FILE in self.all, path.parents)
+        return any(folder / file in self.all for folder in around for file in (f"{name}.mo", f"{name}/{PACKAGE_FILE}"))
 
     @cached_property
     def tops(self) -> dict[str, Path]:
@@ -95,4 +121,5 @@ def read_users_files(
         return UsersFiles({}, {}, is_too_wide=True)
     paths = (*below, *(place for place in places if place.suffix == ".mo"))
     files = _FilesOnDemand(path for path in paths if not any(str(parent) in packages for parent in path.parents))
-    return UsersFiles(files, files_that_use(files, names))
+    names = frozenset(names)
+    return UsersFiles(files, files_that_use(files, names), names)

@@ -257,10 +257,10 @@ def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dic
     differences, uses = decision.differences, inputs.read_unsaved_uses()
     if not decision.is_complete:
         return uses
-    own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
-    files = [*inputs.users_files.mentioning, *own]
-    if files and (names := _other_names(inputs, generation, decision)):
-        for path in files:
+    own = [inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN]
+    has_models = bool(own or inputs.users_files.mentioning)
+    if has_models and (names := _other_names(inputs, generation, decision)):
+        for path in (*inputs.users_files.using, *own):
             earlier = uses[str(path)].names if str(path) in uses else {}
             used = {name: names.get(new, new) for name, new in earlier.items()}
             used = {name: names[name] for name in _lines(inputs, path, names) if name not in earlier} | used
