@@ -281,7 +281,8 @@ def _find_other_case(path: Path) -> Path | None:
         names = sorted(os.listdir(place(folder))) if folder else []  # noqa: PTH208
     except OSError:
         return None
-    return next((folder / name for name in names if folder and name.lower() == path.name.lower()), None)
+    wanted = path.name.lower()
+    return next((folder / name for name in names if folder and name.lower() == wanted), None)
 
 
 def find_dependencies(
