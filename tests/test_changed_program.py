@@ -18,6 +18,8 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import edit
 from support.urdfs import ELBOW_ARM
 
+from urdfsync.common.version import __version__
+
 ROOT = Path(__file__).parents[1]
 CHANGES = {
     "template": ("templates/urdf/link/record.mo.jinja", '("Numbers of " ~ title)', '("All numbers of " ~ title)'),
@@ -117,7 +119,7 @@ def test_two_versions_in_a_team(program: Path, tmp_path: Path, monkeypatch: pyte
     assert call(ROOT, "build", "--check") == 0
     repository.commit()
     name, old, new = CHANGES["template"]
-    newer = {program / "urdfsync/common/version.py": ('"0.1.0"', '"0.2.0"'), program / name: (old, new)}
+    newer = {program / "urdfsync/common/version.py": (f'"{__version__}"', '"9.0.0"'), program / name: (old, new)}
     for file, words in newer.items():
         edit(file, *words)
     try:
@@ -130,9 +132,8 @@ def test_two_versions_in_a_team(program: Path, tmp_path: Path, monkeypatch: pyte
         for command in (["build"], ["build", "--check"], ["status"], ["hook", "check"], ["resolve", "--all", "--take"]):
             refused = run(ROOT, *command)
             assert refused.returncode == 2, command
-            assert (
-                "urdfsync 0.2.0 wrote this state, and this is 0.1.0, which is older; update urdfsync" in refused.stderr
-            )
+            told = f"urdfsync 9.0.0 wrote this state, and this is {__version__}, which is older; update urdfsync"
+            assert told in refused.stderr
         edit(Path("arm.urdf"), 'effort="6"', 'effort="5"')
         assert all(file.read_bytes() == content for file, content in files.items() if "deps" not in file.parts)
         assert call(program, "build", "--check") == 0

@@ -138,7 +138,7 @@ def test_a_snapshot_comes_back_from_a_state(case: Case) -> None:
         package="Sample",
         class_="Sample",
         folder="Sample",
-        generator=Generator("sample", "0.1.0", ""),
+        generator=Generator("sample", "1.0.0", ""),
         snapshot=as_recorded(case.snapshot),
         imports=case.imports,
     )

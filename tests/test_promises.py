@@ -23,7 +23,7 @@ def present() -> dict[str, str]:
 @pytest.mark.parametrize("form", FORMS)
 def test_no_form_is_lost(present: dict[str, str], form: str) -> None:
     lost = set((KEPT / form).read_text(encoding="utf-8").splitlines()) - set(present[form].splitlines())
-    assert not lost, f"{form}: a promise is broken; until 1.0, `python -m tests --renew` takes it back"
+    assert not lost, f"{form}: a promise is broken (docs/promises.md)"
 
 
 def test_each_form_is_kept(present: dict[str, str]) -> None:

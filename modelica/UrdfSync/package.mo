@@ -5,7 +5,7 @@ package UrdfSync "Robots from URDF files, with multibody parts of the Modelica S
 
   annotation (
     preferredView="info",
-    version="0.1.0",
+    version="1.0.0",
     uses(Modelica(version="4.0.0")),
     Icon(
       coordinateSystem(extent={{-100, -100}, {100, 100}}),

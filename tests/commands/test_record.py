@@ -27,7 +27,7 @@ def test_the_record_is_that_of_a_package(execute: Execute) -> None:
 
 
 def test_a_record_on_its_own_names_the_libraries_that_it_uses(execute: Execute) -> None:
-    uses = '    uses(\n      Modelica(version="4.0.0"),\n      UrdfSync(version="0.1.0")),\n    '
+    uses = '    uses(\n      Modelica(version="4.0.0"),\n      UrdfSync(version="1.0.0")),\n    '
     inside = golden("record").texts["TwigParameters.mo"].replace("within Zoo.Twig;", "within ;", 1)
     assert execute("record", TWIG).out == inside.replace("  annotation (", f"  annotation (\n{uses}")
 

@@ -16,7 +16,7 @@ from urdfsync.analysis.simulation.export import Exported, export
 from urdfsync.analysis.simulation.results import SimulateOptions, SimulateResult
 from urdfsync.project import config
 
-DESCRIPTION = b"""<fmiModelDescription description="Arm.ArmRun, exported by urdfsync 0.1.0">
+DESCRIPTION = b"""<fmiModelDescription description="Arm.ArmRun, exported by urdfsync 1.0.0">
   <ModelExchange modelIdentifier="Arm_ArmRun">
     <SourceFiles/>
   </ModelExchange>

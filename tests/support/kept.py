@@ -1,7 +1,7 @@
 """What later versions have to keep: the forms that people and programs rely on, and projects as a release built them.
 
 A form is a text with one line for each thing that is promised, such as `build --check`: a later version has every line.
-`python -m tests --renew` writes forms and projects anew while the version is below 1.0; after that, only new ones come.
+`python -m tests --renew` adds lines and projects, and changes none: what a release has written is a promise.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ from support.networks import edit
 from support.urdfs import ELBOW_ARM
 from urdfsync.commands.schema import document_schema
 from urdfsync.common.diagnostics import IGNORABLE
-from urdfsync.common.version import __version__
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import declared
 from urdfsync.project.config import schema
@@ -231,22 +230,21 @@ def make(project: Project, folder: Path) -> None:
 
 
 def renew(tell: Callable[[Path], object]) -> None:
-    """Write the forms and the projects of this version, unless a release has promised them."""
-    if not __version__.startswith("0."):
-        return
+    """Add what is new in this version to the forms, and the projects that are missing."""
     for name, text in forms().items():
-        if not (file := KEPT / name).exists() or file.read_text(encoding="utf-8") != text:
-            file.write_text(text, encoding="utf-8")
+        file, kept = KEPT / name, set[str]()
+        if file.exists():
+            kept = set(file.read_text(encoding="utf-8").splitlines())
+        if new := set(text.splitlines()) - kept:
+            file.write_text("".join(f"{line}\n" for line in sorted(kept | new)), encoding="utf-8")
             tell(file)
-    for name, project in PROJECTS.items():
+    for name in PROJECTS.keys() - {folder.name for folder in KEPT.iterdir()}:
         with tempfile.TemporaryDirectory() as place:
             made = Path(place, name)
             made.mkdir()
-            make(project, made)
-            if contents(made) != contents(KEPT / name):
-                shutil.rmtree(KEPT / name, ignore_errors=True)
-                shutil.copytree(made, KEPT / name)
-                tell(KEPT / name)
+            make(PROJECTS[name], made)
+            shutil.copytree(made, KEPT / name)
+        tell(KEPT / name)
 
 
 def contents(folder: Path) -> dict[str, bytes]:

@@ -6,7 +6,7 @@ class ReleaseNotes "What changed from version to version"
   annotation (
     preferredView="info",
     Documentation(info="<html>
-<h4>Version 0.1.0</h4>
+<h4>Version 1.0.0</h4>
 <p>
 First version: records, links, seven kinds of joints, friction, mimic couplings, ground contact, shapes, robots and benches, examples. Generic robots
 that are read from a record, and functions of their kinematics and dynamics.

@@ -62,7 +62,7 @@ def test_a_model_that_can_not_be_exported_is_told_with_what_the_compiler_says(op
 
 def test_a_stranger_s_file_at_the_default_name_is_read_within_limits(tmp_path: Path) -> None:
     """A bomb of 5 MB may have a description of 5 GB; the first 64 KB of it tell."""
-    file, words = tmp_path / "ArmRun.fmu", b'<a description="Arm.ArmRun, exported by urdfsync 0.1.0">'
+    file, words = tmp_path / "ArmRun.fmu", b'<a description="Arm.ArmRun, exported by urdfsync 1.0.0">'
     for compression, is_ours in ((zipfile.ZIP_DEFLATED, True), (zipfile.ZIP_BZIP2, False), (zipfile.ZIP_LZMA, False)):
         with zipfile.ZipFile(file, "w", compression) as bomb, bomb.open("modelDescription.xml", "w") as entry:
             entry.write(words)

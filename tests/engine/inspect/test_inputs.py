@@ -10,6 +10,8 @@ from support.files import unchanged
 from support.networks import MANIFEST, edit, failure, make_parent, run, said, source
 from support.networks import set_keys as configure
 
+from urdfsync.common.version import __version__
+
 REFUSED: dict[str, tuple[dict[str, str], Callable[[], object]]] = {
     "urdfsync.toml:5: error: robot `ladder`: the output folder … does not exist; create it": (
         *({"output": '"../elsewhere"'}, Path),
@@ -35,7 +37,7 @@ REFUSED: dict[str, tuple[dict[str, str], Callable[[], object]]] = {
     "urdfsync.toml:5: error: robot `ladder`: `prefix` names `in`, which is a node; choose another one "
     "[prefix-is-node]": ({"prefix": '"in"'}, Path),
     ".urdfsync/robots/ladder.state:2: error: urdfsync 10.1.0 wrote this state, and this is": (
-        *({}, lambda: edit(MANIFEST, '"release":"0', '"release":"10')),
+        *({}, lambda: edit(MANIFEST, f'"release":"{__version__}', '"release":"10.1.0')),
     ),
 }
 """What stops a build, by how its message begins: keys of the robot, and what is done to files."""

@@ -36,7 +36,7 @@ record PostParameters "Numbers of robot Post as a whole"
   annotation (
     uses(
       Modelica(version="4.0.0"),
-      UrdfSync(version="0.1.0")),
+      UrdfSync(version="1.0.0")),
     Documentation(info="<html>
 <p>
 All numbers of robot Post in one record, with the tables by which <code>UrdfSync.Robots.GenericRobot</code> reads how links and joints hang together. The tables refer to the numbers below them. Where the package has models of the links and joints, these read the records of their elements, and the numbers here are a copy: an edit here changes no such model.

@@ -9,7 +9,7 @@ import msgspec
 
 from urdfsync.formats.urdf.robot import Command, LoopKind, Vector
 
-USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
+USES = (("Modelica", "4.0.0"), ("UrdfSync", "1.0.0"))
 """Libraries that all generated packages need."""
 
 FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
