@@ -47,7 +47,7 @@ def find_doubts(
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(inputs, generation, differences, action) or doubts.get(action.path)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
-    doubts |= open_doubts
+    doubts |= _of_corrected(inputs, generation, differences, unconfirmed) | open_doubts
     unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
     others = other_meanings(inputs, generation, differences.parts) if unknown else {}
     commits = [(one, one.texts(action.path for action in unknown)) for one in inputs.commits] if unknown else []
@@ -164,6 +164,29 @@ def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Actio
     asked = {} if is_undone or last.record.open is None else last.record.open.asked
     keys = {action.path: edit_key(action.path, action.mine) for action in actions}
     return {path: asked[key] for path, key in keys.items() if key in asked}
+
+
+def _of_corrected(
+    inputs: Inputs, generation: Generation, differences: Differences, actions: Sequence[Action]
+) -> dict[str, Doubt]:
+    """Return a doubt for each edit that uses a name that has meant two parts, if the user wrote after a question.
+
+    What he has corrected means the present part, and what stood there before the former one.
+    """
+    is_asked = inputs.last.record.open is not None and inputs.last.seen == generation.now.snapshot
+    asked = set(inputs.last.record.open.asked) if inputs.last.record.open and is_asked else set[str]()
+    if asked <= {edit_key(one.path, one.mine) for one in actions}:
+        return {}
+    now = generation.now.snapshot
+    present = inputs.domain.features(now)
+    other = {
+        key: Doubt(" ".join(key), moved_to=new, is_certain=True)
+        for key, new in differences.renames.items()
+        if key in present
+    }
+    common = [one for one in actions if not _element(one) and edit_key(one.path, one.mine) not in asked]
+    named = {one.path: _named(inputs, added_lines(inputs, generation.package, one), other, now) for one in common}
+    return {path: doubt for path, doubt in named.items() if doubt}
 
 
 def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:
