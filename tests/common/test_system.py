@@ -112,9 +112,42 @@ def test_another_error_is_told_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
         system.patiently(Path("missing").read_bytes)
 
 
-def test_a_held_file_is_told_in_words() -> None:
-    (finding,) = failure(HeldError(), "arm.mo").diagnostics
+def test_a_held_file_is_told_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(system, "PATIENCE", 0)
+
+    def rename() -> None:
+        raise HeldError
+
+    with pytest.raises(HeldError) as caught:
+        system.patiently(rename)
+    (finding,) = failure(caught.value, "arm.mo").diagnostics
     assert str(finding).startswith("arm.mo: error: it can't be written: another program has it open; close it there")
+
+
+@pytest.mark.parametrize(("path", "words"), [
+    ("ladder.json", ("status",)),
+    ("ladder.json", ("init", "ladder.json", "--domain=rcnetwork", "--config=new.toml")),
+    ("urdfsync.toml", ("build",)),
+])  # fmt: skip
+def test_a_held_input_is_told_in_the_same_words(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, path: str, words: tuple[str, ...]
+) -> None:
+    """A CAD program that still writes its export, or an editor, may hold a file."""
+    monkeypatch.setattr(system, "PATIENCE", 0)
+    opened = os.open
+
+    def hold() -> None:
+        raise HeldError
+
+    def open_file(name: str | os.PathLike[str], *arguments: int) -> int:
+        if Path(name).name == path:
+            system.patiently(hold)
+        return opened(name, *arguments)
+
+    monkeypatch.setattr(os, "open", open_file)
+    monkeypatch.setattr(system, "open_file", open_file)
+    error = execute(*words, code=2).err
+    assert "can't be read: another program has it open; close it there" in error
 
 
 @pytest.mark.windows

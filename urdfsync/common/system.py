@@ -117,8 +117,16 @@ def is_held(error: OSError) -> bool:
     return getattr(error, "winerror", None) in _HELD
 
 
+def held_hint(error: OSError) -> str:
+    """Return what to do about a file that another program has open; empty for other errors."""
+    return "close it there" if is_held(error) else ""
+
+
 def patiently(function: Callable[[], R]) -> R:
-    """Call a function of the system; while another program holds its file, again for `PATIENCE` seconds."""
+    """Call a function of the system; while another program holds its file, again for `PATIENCE` seconds.
+
+    Raises OSError. The text of the error (`strerror`) then names the program, where Windows only says that it is busy.
+    """
     return _repeat(function, is_held)
 
 
@@ -140,6 +148,9 @@ def _repeat(function: Callable[[], R], may_pass: Callable[[OSError], bool]) -> R
         except OSError as error:
             end = end or time.monotonic() + PATIENCE
             if not may_pass(error) or time.monotonic() > end:
+                if is_held(error):
+                    path = error.filename2 or error.filename or ""
+                    error.strerror = f"{find_holder(path) or 'another program'} has it open"
                 raise
         time.sleep(_PAUSE)
 

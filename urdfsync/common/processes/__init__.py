@@ -45,7 +45,7 @@ def reserve_stdin() -> IO[bytes]:
     (numpy's OpenBLAS): both wait for ever.
     """
     pipe = os.fdopen(os.dup(0), "rb")
-    with open(os.devnull, "rb") as nothing:
+    with Path(os.devnull).open("rb") as nothing:
         os.dup2(nothing.fileno(), 0)
     return pipe
 
