@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import shutil
 import stat
@@ -23,6 +24,7 @@ import urdfsync
 from urdfsync.common import noop, system
 from urdfsync.common.dependencies import facts
 from urdfsync.common.files import failure
+from urdfsync.common.streams import Stream
 from urdfsync.project.state.lock import build_lock
 
 PROGRAM = "git.exe" if system.IS_WINDOWS else "git"
@@ -299,6 +301,20 @@ def test_a_pipe_gets_signs_that_its_encoding_has(built: Path, encoding: str) -> 
     assert "\\u" not in lines
 
 
+@pytest.mark.windows
+@pytest.mark.parametrize(("page", "content"), [(850, b"M\x81ller"), (65001, "Müller".encode()), (0, b"M\xfcller")])
+def test_a_pipe_has_the_encoding_of_the_console(monkeypatch: pytest.MonkeyPatch, page: int, content: bytes) -> None:
+    """PowerShell reads it so; Python itself takes that of Windows."""
+    monkeypatch.setattr("urdfsync.common.system._kernel.GetConsoleOutputCP", lambda: page)
+    monkeypatch.setattr("urdfsync.common.system._kernel.GetACP", lambda: 1252)
+    pipe = io.BytesIO()
+    Stream(io.TextIOWrapper(pipe, encoding="cp1252", write_through=True)).write("Müller")
+    assert pipe.getvalue() == content
+    chosen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+    Stream(chosen)
+    assert chosen.encoding == "utf-8"
+
+
 def test_documents_and_scripts_have_the_same_bytes_everywhere(built: Path) -> None:
     change(built)
     documents = [
@@ -399,6 +415,20 @@ def test_a_name_that_windows_refuses_gets_one_line(folder: Path, execute: Execut
     assert error.startswith("arm: 1 error, nothing was changed\n")
     assert len(error.splitlines()) == 2
     assert not Path("modelica").exists()
+
+
+def test_patterns_name_sources_where_the_shell_leaves_them_to_programs(
+    tmp_path: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(system, "IS_WINDOWS", True)
+    for name in ("arm", "leg"):
+        Path("cad", name).mkdir(parents=True)
+        Path("cad", name, f"{name}.urdf").write_text(robot_of("base tip 1"))
+    execute("init", "cad/*/*.urdf")
+    sources = [line for line in Path("urdfsync.toml").read_text().splitlines() if line.startswith("source")]
+    assert sources == [f'source = "cad/{name}/{name}.urdf"' for name in ("arm", "leg")]
+    assert "can't be read" in execute("add", "cad/*/*.xacro", code=2).err
 
 
 @pytest.mark.windows

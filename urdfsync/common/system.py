@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 import stat
@@ -84,6 +85,13 @@ def split_words(line: str) -> list[str]:
     lexer = shlex.shlex(line, posix=True)
     lexer.whitespace_split, lexer.escape, lexer.commenters, lexer.quotes = True, "", "", '"'
     return list(lexer)
+
+
+def expand(pattern: str) -> list[str]:
+    """Return the paths that a pattern of the command line names; a shell of Windows leaves this to the program."""
+    import glob
+
+    return (IS_WINDOWS and sorted(glob.glob(pattern))) or [pattern]
 
 
 def join_words(words: Iterable[str]) -> str:
@@ -255,6 +263,20 @@ if sys.platform == "win32":
         if not _kernel.SetInformationJobObject(_job, _EXTENDED_LIMITS, limits, ctypes.sizeof(limits)):
             raise ctypes.WinError(ctypes.get_last_error())
 
+    def pipe_encoding(encoding: str) -> str:
+        """Return the encoding for a pipe or a file that Python writes in `encoding`.
+
+        Python takes the code page of Windows (1252), but PowerShell reads a pipe in that of its console (850): `ü` in
+        the name of a user would be another letter in the line of `urdfsync library`.
+        """
+        page = f"cp{_kernel.GetConsoleOutputCP()}"
+        if encoding != f"cp{_kernel.GetACP()}":  # the user has chosen another one
+            return encoding
+        try:
+            return codecs.lookup(page).name
+        except LookupError:  # there is no console, which has page 0
+            return encoding
+
     def change_time(path: str, status: os.stat_result, *, follow: bool = False) -> int:  # noqa: ARG001 - see below
         """Return the time (ns) of the last change of a file's content or status, which is `st_ctime` elsewhere.
 
@@ -281,6 +303,10 @@ else:
 
     def check_unheld(paths: Iterable[str]) -> None:
         """Do nothing: an open file can be renamed."""
+
+    def pipe_encoding(encoding: str) -> str:
+        """Return the encoding as it is."""
+        return encoding
 
     def change_time(path: str, status: os.stat_result, *, follow: bool = False) -> int:  # noqa: ARG001
         """Return the time (ns) of the last change of a file's content or status."""
