@@ -308,7 +308,8 @@ def test_a_pipe_has_the_encoding_of_the_console(monkeypatch: pytest.MonkeyPatch,
     monkeypatch.setattr("urdfsync.common.system._kernel.GetConsoleOutputCP", lambda: page)
     monkeypatch.setattr("urdfsync.common.system._kernel.GetACP", lambda: 1252)
     pipe = io.BytesIO()
-    Stream(io.TextIOWrapper(pipe, encoding="cp1252", write_through=True)).write("Müller")
+    inner = io.TextIOWrapper(pipe, encoding="cp1252", write_through=True)
+    Stream(inner).write("Müller")
     assert pipe.getvalue() == content
     chosen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
     Stream(chosen)

@@ -45,7 +45,7 @@ class Stream:
                 from urdfsync.common.system import pipe_encoding
 
                 # a shell or a program reads it: bash refuses `\r`
-                inner.reconfigure(newline="\n", encoding=pipe_encoding(inner.encoding))
+                inner.reconfigure(newline="\n", encoding=pipe_encoding(inner.encoding), errors=_FALLBACK)
 
     def write(self, text: str) -> int:
         """Write `text` unless an earlier write failed. Returns its length, even if it is dropped."""
