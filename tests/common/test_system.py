@@ -341,6 +341,12 @@ def test_json_names_files_with_slashes(project: Path, execute: Execute) -> None:
     assert document["results"][0]["diagnostics"][0]["file"] == "export/ladder.json"
 
 
+def test_a_command_to_copy_has_quotes_where_powershell_needs_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(system, "IS_WINDOWS", True)
+    words = ["urdfsync", "simulate", "arm", "--set", "a={1}", "--model", "HEAD~1", "C:\\My arms", ""]
+    assert system.join_words(words) == 'urdfsync simulate arm --set "a={1}" --model HEAD~1 "C:\\My arms" ""'
+
+
 @pytest.mark.parametrize(("shell", "begin"), [
     ("sh", "export MODELICAPATH="), ("powershell", "$env:MODELICAPATH = '"), ("cmd", "if defined MODELICAPATH (set "),
 ])  # fmt: skip

@@ -97,7 +97,7 @@ def expand(pattern: str) -> list[str]:
 def join_words(words: Iterable[str]) -> str:
     """Return a command line to copy into a shell; on Windows, `cmd` and PowerShell read it alike."""
     if IS_WINDOWS:
-        return " ".join(word if word and not set(word) & set(" \t'&|<>()^;,@`$") else f'"{word}"' for word in words)
+        return " ".join(word if word and not set(word) & set(" \t'&|<>(){}^;,@`$") else f'"{word}"' for word in words)
     import shlex
 
     return shlex.join(words)
