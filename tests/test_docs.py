@@ -112,6 +112,13 @@ def test_pages_name_options_that_their_command_has(command: str, page: str, caps
     assert set(re.findall(r"--[a-z-]+", paragraph)) <= options
 
 
+def test_the_table_of_systems_has_each_command_once(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["--help"]) == 0
+    commands = re.findall(r"(?m)^  ([a-z][a-z-]+) ", capsys.readouterr().out.partition("commands:")[2])
+    rows = re.findall(r"(?m)^\| (`.*?) \|", text_of("windows").partition("## Commands by system")[2])
+    assert sorted(re.findall(r"`([a-z-]+)`", " ".join(rows))) == sorted(commands)
+
+
 def text_of(page: str) -> str:
     return (REPOSITORY / f"docs/{page}.md").read_text(encoding="utf-8")
 

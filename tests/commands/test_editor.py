@@ -184,7 +184,8 @@ def test_no_folder_of_the_project_chooses_what_is_started(
         (folder / "config").write_text(HOSTILE)
     for name in ("VISUAL", "EDITOR"):
         monkeypatch.delenv(name, raising=False)
-    assert "there is no editor to open; set $VISUAL or $EDITOR" in execute("resolve", MODEL, "--edit", code=2).err
+    error = execute("resolve", MODEL, "--edit", code=2).err
+    assert "there is no editor to open; name one in the environment variable VISUAL or EDITOR" in error
     monkeypatch.setenv("VISUAL", "editor-of-nobody")
     (contradictory / "editor-of-nobody").write_text("#!/bin/sh\ntouch pwned\n")
     (contradictory / "editor-of-nobody").chmod(0o755)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import shutil
 import stat
@@ -23,6 +24,7 @@ import urdfsync
 from urdfsync.common import noop, system
 from urdfsync.common.dependencies import facts
 from urdfsync.common.files import failure
+from urdfsync.common.streams import Stream
 from urdfsync.project.state.lock import build_lock
 
 PROGRAM = "git.exe" if system.IS_WINDOWS else "git"
@@ -112,9 +114,42 @@ def test_another_error_is_told_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
         system.patiently(Path("missing").read_bytes)
 
 
-def test_a_held_file_is_told_in_words() -> None:
-    (finding,) = failure(HeldError(), "arm.mo").diagnostics
+def test_a_held_file_is_told_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(system, "PATIENCE", 0)
+
+    def rename() -> None:
+        raise HeldError
+
+    with pytest.raises(HeldError) as caught:
+        system.patiently(rename)
+    (finding,) = failure(caught.value, "arm.mo").diagnostics
     assert str(finding).startswith("arm.mo: error: it can't be written: another program has it open; close it there")
+
+
+@pytest.mark.parametrize(("path", "words"), [
+    ("ladder.json", ("status",)),
+    ("ladder.json", ("init", "ladder.json", "--domain=rcnetwork", "--config=new.toml")),
+    ("urdfsync.toml", ("build",)),
+])  # fmt: skip
+def test_a_held_input_is_told_in_the_same_words(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, path: str, words: tuple[str, ...]
+) -> None:
+    """A CAD program that still writes its export, or an editor, may hold a file."""
+    monkeypatch.setattr(system, "PATIENCE", 0)
+    opened = os.open
+
+    def hold() -> None:
+        raise HeldError
+
+    def open_file(name: str | os.PathLike[str], *arguments: int) -> int:
+        if Path(name).name == path:
+            system.patiently(hold)
+        return opened(name, *arguments)
+
+    monkeypatch.setattr(os, "open", open_file)
+    monkeypatch.setattr(system, "open_file", open_file)
+    error = execute(*words, code=2).err
+    assert "can't be read: another program has it open; close it there" in error
 
 
 @pytest.mark.windows
@@ -266,6 +301,21 @@ def test_a_pipe_gets_signs_that_its_encoding_has(built: Path, encoding: str) -> 
     assert "\\u" not in lines
 
 
+@pytest.mark.windows
+@pytest.mark.parametrize(("page", "content"), [(850, b"M\x81ller"), (65001, "Müller".encode()), (0, b"M\xfcller")])
+def test_a_pipe_has_the_encoding_of_the_console(monkeypatch: pytest.MonkeyPatch, page: int, content: bytes) -> None:
+    """PowerShell reads it so; Python itself takes that of Windows."""
+    monkeypatch.setattr("urdfsync.common.system._kernel.GetConsoleOutputCP", lambda: page)
+    monkeypatch.setattr("urdfsync.common.system._kernel.GetACP", lambda: 1252)
+    pipe = io.BytesIO()
+    inner = io.TextIOWrapper(pipe, encoding="cp1252", write_through=True)
+    Stream(inner).write("Müller")
+    assert pipe.getvalue() == content
+    chosen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+    Stream(chosen)
+    assert chosen.encoding == "utf-8"
+
+
 def test_documents_and_scripts_have_the_same_bytes_everywhere(built: Path) -> None:
     change(built)
     documents = [
@@ -289,6 +339,12 @@ def test_json_names_files_with_slashes(project: Path, execute: Execute) -> None:
     edit("export/ladder.json", '"ohm": 100}', '"ohm": }')
     document = execute("build", "--format=json", code=2).json
     assert document["results"][0]["diagnostics"][0]["file"] == "export/ladder.json"
+
+
+def test_a_command_to_copy_has_quotes_where_powershell_needs_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(system, "IS_WINDOWS", True)
+    words = ["urdfsync", "simulate", "arm", "--set", "a={1}", "--model", "HEAD~1", "C:\\My arms", ""]
+    assert system.join_words(words) == 'urdfsync simulate arm --set "a={1}" --model HEAD~1 "C:\\My arms" ""'
 
 
 @pytest.mark.parametrize(("shell", "begin"), [
@@ -366,6 +422,20 @@ def test_a_name_that_windows_refuses_gets_one_line(folder: Path, execute: Execut
     assert error.startswith("arm: 1 error, nothing was changed\n")
     assert len(error.splitlines()) == 2
     assert not Path("modelica").exists()
+
+
+def test_patterns_name_sources_where_the_shell_leaves_them_to_programs(
+    tmp_path: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(system, "IS_WINDOWS", True)
+    for name in ("arm", "leg"):
+        Path("cad", name).mkdir(parents=True)
+        Path("cad", name, f"{name}.urdf").write_text(robot_of("base tip 1"))
+    execute("init", "cad/*/*.urdf")
+    sources = [line for line in Path("urdfsync.toml").read_text().splitlines() if line.startswith("source")]
+    assert sources == [f'source = "cad/{name}/{name}.urdf"' for name in ("arm", "leg")]
+    assert "can't be read" in execute("add", "cad/*/*.xacro", code=2).err
 
 
 @pytest.mark.windows

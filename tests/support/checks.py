@@ -77,6 +77,8 @@ def act(*deeds: str) -> Iterator[str]:
                 Path("started").touch()
                 while not Path("seen").exists():
                     time.sleep(0.01)
+            case "stdin":
+                yield os.read(0, 1).decode() or "empty"
             case "print":
                 os.write(1, b"noise")
             case "abort":

@@ -20,7 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 QUICK = (
     *("test_scenarios", "common", "commands", "merge", "project", "formats/urdf/parse", "formats/urdf/meshes"),
-    *("engine/test_saved_in_between", "watch/test_robot"),
+    *("engine/test_saved_in_between", "watch/test_robot", "analysis/checks/test_process"),
 )
 """Tests of which those marked slow are left out."""
 SLOW = ("common/test_system", "test_state_machine")

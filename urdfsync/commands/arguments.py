@@ -15,6 +15,7 @@ import msgspec
 
 from urdfsync.api import load
 from urdfsync.commands.overview import CODES
+from urdfsync.common import system
 from urdfsync.common.dependencies.facts import read_unrecorded
 from urdfsync.common.dependencies.reads import Reads
 from urdfsync.common.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -257,7 +258,7 @@ def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> list
             values[name] = value
         else:
             values = {} if sources else values
-            sources.append((Path(text), values))
+            sources.extend((Path(path), values) for path in system.expand(text))
     if values and not sources:
         raise UsageError(parser, f"`{next(iter(values))}:=` is an argument of xacro, and no source is named")
     for source, given in sources:

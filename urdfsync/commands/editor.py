@@ -22,13 +22,15 @@ from urdfsync.merge.texts import find_flaw
 from urdfsync.modelica.markers import find_markers, read_sides
 from urdfsync.modelica.parser import parse
 
-_HINT = "set $VISUAL or $EDITOR"
+_HINT = "name one in the environment variable VISUAL or EDITOR"
 _UNSAVED = 1_000_000_000
 """The time of a file, in s, until the editor saves it."""
 
 
-def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[str, str]]:
-    """Let the user write one text for each conflict; beside it, the proposed merge as the user edited it before.
+def edit(conflicts: Sequence[tuple[Conflict, str, str | None]]) -> tuple[Path, dict[str, str]]:
+    """Let the user write one text for each conflict.
+
+    Beside a conflict stand its file as messages show it, and the proposed merge as the user edited it before.
 
     Returns the folder with the edited files, and the texts by the conflicts' paths. Raises UrdfsyncError without an
     editor, if the editor fails, and for an unusable text; the folder stays.
@@ -42,7 +44,7 @@ def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[s
         raise UrdfsyncError.of("no-editor", "there is no editor to open", hint=_HINT)
     folder, texts = Path(tempfile.mkdtemp(prefix="urdfsync-edit-")), dict[str, str]()
     hint = f"your text is in {folder}; --edit begins anew"
-    for number, (conflict, edited) in enumerate(conflicts):
+    for number, (conflict, place, edited) in enumerate(conflicts):
         file = folder / str(number) / PurePosixPath(conflict.path).name  # several conflicts may have the same name
         file.parent.mkdir()
         proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
@@ -62,13 +64,13 @@ def edit(conflicts: Sequence[tuple[Conflict, str | None]]) -> tuple[Path, dict[s
             content, is_saved = read_unrecorded(file), file.stat().st_mtime != _UNSAVED
         except OSError as error:
             message = f"the editor left no file that can be read ({error.strerror}); nothing was changed"
-            raise UrdfsyncError.of("no-edit", message, conflict.path, hint=hint) from None
+            raise UrdfsyncError.of("no-edit", message, place, hint=hint) from None
         if flaw := _flaw(content, conflict):
-            raise UrdfsyncError.of("no-edit", f"the edited text {flaw}; nothing was changed", conflict.path, hint=hint)
+            raise UrdfsyncError.of("no-edit", f"the edited text {flaw}; nothing was changed", place, hint=hint)
         if not is_saved:  # as with `git mergetool`, the end of the editor alone confirms nothing
             message = "the text was not saved in the editor; nothing was changed"
             hint = "save it there, even if it is right as it is"
-            raise UrdfsyncError.of("no-edit", message, conflict.path, hint=hint)
+            raise UrdfsyncError.of("no-edit", message, place, hint=hint)
         texts[conflict.path] = content.decode()
     return folder, texts
 

@@ -101,8 +101,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _edit(planned: Iterable[Result], targets: Container[str]) -> tuple[Path | None, Mapping[str, str]]:
     """Let the user edit the conflicts of these files; return the folder of the texts, and the edited texts by path."""
-    conflicts = (one for result in planned for one in result.conflicts if one.action.path in targets)
-    disputed = [(one.texts, one.versions.edited) for one in conflicts if one.texts]
+    conflicts = ((result, one) for result in planned for one in result.conflicts if one.action.path in targets)
+    disputed = [
+        (one.texts, result.shown(one.action.path), one.versions.edited) for result, one in conflicts if one.texts
+    ]
     return editor.edit(disputed) if disputed else (None, {})
 
 

@@ -9,6 +9,8 @@ from typing import Self
 
 import msgspec
 
+from urdfsync.common import system
+
 IGNORABLE = frozenset(
     "as-recorded broken-state byte-order-mark compiler-warning connector-changed does-not-compile dotted-modifier "
     "empty-cell equal-connections fmu-differs fmu-not-simulated fmu-not-valid kept-save other-part "
@@ -185,4 +187,5 @@ def findings_of(error: Exception) -> tuple[Diagnostic, ...]:
     if not isinstance(error, OSError):
         return (internal_error(error),)
     place = os.fsdecode(error.filename or "")
-    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)
+    hint = system.held_hint(error)
+    return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place, hint=hint),)

@@ -122,21 +122,19 @@ def templates_digest(folders: Sequence[Path]) -> str:
 def failure(error: OSError, path: str | Path, what: str = "it can't be written") -> OutputError:
     """Return an error of the system about a file or folder, with a hint."""
     hint = "; ".join(filter(None, [_hint(error, path), "then build again"]))
-    message = f"{what}: {reason(error, path)}"
+    message = f"{what}: {reason(error)}"
     return OutputError.of("output-not-writable", message, shown(path), hint=hint)
 
 
-def reason(error: OSError, path: str | Path) -> str:
+def reason(error: OSError) -> str:
     """Return why a file can't be read or written, in words."""
-    if system.is_held(error):
-        return f"{system.find_holder(str(path)) or 'another program'} has it open"
     return error.strerror or str(error)
 
 
 def _hint(error: OSError, path: str | Path) -> str:
     if system.IS_WINDOWS and len(str(path)) > _LONGEST_PATH:
         return "choose shorter names, or allow long paths in Windows (LongPathsEnabled)"
-    return "close it there" if system.is_held(error) else _HINTS.get(error.errno or 0, "")
+    return system.held_hint(error) or _HINTS.get(error.errno or 0, "")
 
 
 def kind_of(mode: int) -> str:
@@ -190,7 +188,7 @@ class Tree:
             return None  # somebody deleted the file meanwhile
         except OSError as error:
             raise _refusal(
-                "output-unreadable", path, f"it can't be read: {reason(error, path)}", _hint(error, path)
+                "output-unreadable", path, f"it can't be read: {reason(error)}", _hint(error, path)
             ) from None
         message = f"{kind_of(mode)} is where urdfsync would write a file"
         raise _refusal("output-in-the-way", path, message, "move it away")

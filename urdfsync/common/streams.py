@@ -42,7 +42,10 @@ class Stream:
         if hasattr(inner, "reconfigure"):
             inner.reconfigure(errors=_FALLBACK)
             if sys.platform == "win32" and not inner.isatty():
-                inner.reconfigure(newline="\n")  # a shell or a program reads it: bash refuses `\r`
+                from urdfsync.common.system import pipe_encoding
+
+                # a shell or a program reads it: bash refuses `\r`
+                inner.reconfigure(newline="\n", encoding=pipe_encoding(inner.encoding), errors=_FALLBACK)
 
     def write(self, text: str) -> int:
         """Write `text` unless an earlier write failed. Returns its length, even if it is dropped."""

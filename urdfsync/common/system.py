@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 import stat
@@ -86,10 +87,17 @@ def split_words(line: str) -> list[str]:
     return list(lexer)
 
 
+def expand(pattern: str) -> list[str]:
+    """Return the paths that a pattern of the command line names; a shell of Windows leaves this to the program."""
+    import glob
+
+    return (IS_WINDOWS and sorted(glob.glob(pattern))) or [pattern]
+
+
 def join_words(words: Iterable[str]) -> str:
     """Return a command line to copy into a shell; on Windows, `cmd` and PowerShell read it alike."""
     if IS_WINDOWS:
-        return " ".join(word if word and not set(word) & set(" \t'&|<>()^;,@`$") else f'"{word}"' for word in words)
+        return " ".join(word if word and not set(word) & set(" \t'&|<>(){}^;,@`$") else f'"{word}"' for word in words)
     import shlex
 
     return shlex.join(words)
@@ -117,8 +125,16 @@ def is_held(error: OSError) -> bool:
     return getattr(error, "winerror", None) in _HELD
 
 
+def held_hint(error: OSError) -> str:
+    """Return what to do about a file that another program has open; empty for other errors."""
+    return "close it there" if is_held(error) else ""
+
+
 def patiently(function: Callable[[], R]) -> R:
-    """Call a function of the system; while another program holds its file, again for `PATIENCE` seconds."""
+    """Call a function of the system; while another program holds its file, again for `PATIENCE` seconds.
+
+    Raises OSError. The text of the error (`strerror`) then names the program, where Windows only says that it is busy.
+    """
     return _repeat(function, is_held)
 
 
@@ -140,6 +156,9 @@ def _repeat(function: Callable[[], R], may_pass: Callable[[OSError], bool]) -> R
         except OSError as error:
             end = end or time.monotonic() + PATIENCE
             if not may_pass(error) or time.monotonic() > end:
+                if is_held(error):
+                    path = error.filename2 or error.filename or ""
+                    error.strerror = f"{find_holder(path) or 'another program'} has it open"
                 raise
         time.sleep(_PAUSE)
 
@@ -244,6 +263,20 @@ if sys.platform == "win32":
         if not _kernel.SetInformationJobObject(_job, _EXTENDED_LIMITS, limits, ctypes.sizeof(limits)):
             raise ctypes.WinError(ctypes.get_last_error())
 
+    def pipe_encoding(encoding: str) -> str:
+        """Return the encoding for a pipe or a file that Python writes in `encoding`.
+
+        Python takes the code page of Windows (1252), but PowerShell reads a pipe in that of its console (850): `ü` in
+        the name of a user would be another letter in the line of `urdfsync library`.
+        """
+        page = f"cp{_kernel.GetConsoleOutputCP()}"
+        if encoding != f"cp{_kernel.GetACP()}":  # the user has chosen another one
+            return encoding
+        try:
+            return codecs.lookup(page).name
+        except LookupError:  # there is no console, which has page 0
+            return encoding
+
     def change_time(path: str, status: os.stat_result, *, follow: bool = False) -> int:  # noqa: ARG001 - see below
         """Return the time (ns) of the last change of a file's content or status, which is `st_ctime` elsewhere.
 
@@ -270,6 +303,10 @@ else:
 
     def check_unheld(paths: Iterable[str]) -> None:
         """Do nothing: an open file can be renamed."""
+
+    def pipe_encoding(encoding: str) -> str:
+        """Return the encoding as it is."""
+        return encoding
 
     def change_time(path: str, status: os.stat_result, *, follow: bool = False) -> int:  # noqa: ARG001
         """Return the time (ns) of the last change of a file's content or status."""

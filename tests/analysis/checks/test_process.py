@@ -75,6 +75,11 @@ def test_what_a_process_has_started_ends_with_it(tmp_path: Path, monkeypatch: py
     assert len(looks[0]) == 2
 
 
+def test_native_code_finds_an_empty_stdin_while_a_thread_waits_for_the_parent() -> None:
+    """Windows lets nobody ask a pipe for its kind while somebody reads it, as libraries do while they are loaded."""
+    assert run(act, "stdin", limits=limits()) == ["empty", "stdin"]
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="no such groups")
 def test_a_process_keeps_the_session_and_so_the_priority_but_gets_no_interruption() -> None:
     assert run(act, "session", limits=limits())[0] == f"{os.getsid(0)} True"

@@ -31,8 +31,9 @@ _GRACE = 10.0
 """Seconds of processor time beyond the limit after which a process ends itself: its parent has not ended it."""
 _MOST_IDLE = 60.0
 """Seconds by the clock after which an idle process is ended."""
-_WORK = 0.01
-"""A process that takes at most so many seconds of processor time is idle: waiting takes a little, too."""
+_WORK = 0.1
+"""A process that takes at most so many seconds of processor time is idle: waiting takes a little, too, and Windows
+counts in steps of 0.016 s."""
 
 
 class Limits(msgspec.Struct):
@@ -189,10 +190,12 @@ def _loaded(answers: IO[bytes]) -> Iterator[Any]:
 
 def main() -> None:
     """Call the function from stdin. Write each result, then None or an error, to stdout."""
+    parent = processes.reserve_stdin()
     with processes.reserve_stdout() as answers:
-        seconds, function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from a process of ours
+        seconds, function, arguments = pickle.load(parent)  # noqa: S301 - from a process of ours
         _end_after(seconds)
-        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python's exit
+        # not by `parent`, whose lock would disturb Python's exit
+        processes.end_with_parent(lambda: os.read(parent.fileno(), 1))
         last = None
         try:
             for result in function(*arguments):

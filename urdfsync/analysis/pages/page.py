@@ -23,6 +23,7 @@ from urdfsync.analysis.pages import threejs
 from urdfsync.analysis.pages.content import Content
 from urdfsync.analysis.simulation.files import check_file, not_writable
 from urdfsync.analysis.simulation.results import SimulateResult
+from urdfsync.common import system
 from urdfsync.common.spelling import counted
 from urdfsync.common.version import __version__
 from urdfsync.domain.experiment import Deviation
@@ -115,7 +116,7 @@ def is_page(file: Path) -> bool:
     """Return whether a file is a page that urdfsync wrote."""
     if not file.is_file():  # reading a pipe would wait
         return False
-    with file.open("rb") as opened:
+    with open(file, "rb", opener=system.open_file) as opened:
         return _GENERATOR in opened.read(_BEGINNING)
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from urdfsync.analysis.simulation.outcomes import Study, table
 from urdfsync.analysis.simulation.results import SimulateResult
+from urdfsync.common import system
 from urdfsync.common.diagnostics import ConfigError, OutputError
 from urdfsync.common.extras import install_command
 from urdfsync.common.files import kind_of, put, shown
@@ -78,7 +79,8 @@ def write_file(file: Path, content: bytes) -> None:
     try:
         put(Path(os.path.realpath(file)), content)
     except OSError as error:
-        hint = "check that its folder may be written to, and that there is space on the disk"
+        usual = "check that its folder may be written to, and that there is space on the disk"
+        hint = system.held_hint(error) or usual
         raise not_writable(file, f"the file can't be written: {error.strerror}", hint) from None
 
 

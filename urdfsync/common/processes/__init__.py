@@ -38,6 +38,18 @@ def reserve_stdout() -> IO[bytes]:
     return answers
 
 
+def reserve_stdin() -> IO[bytes]:
+    """Return the stdin of this process, a pipe from its parent; from now on, native code finds an empty stdin.
+
+    On Windows, a library that asks for the kind of its stdin while it is loaded waits for a thread that reads the pipe
+    (numpy's OpenBLAS): both wait for ever.
+    """
+    pipe = os.fdopen(os.dup(0), "rb")
+    with Path(os.devnull).open("rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
+    return pipe
+
+
 def end_with_parent(read: Callable[[], object]) -> None:
     """End this process and its children when the parent closes a pipe: `read` then returns nothing, or raises."""
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from urdfsync.common import system
 from urdfsync.common.dependencies.facts import PATH, look, read_unrecorded
 from urdfsync.common.dependencies.places import label, real
 from urdfsync.common.dependencies.reads import (
@@ -232,7 +233,8 @@ def read_file_source(
     try:
         content = read_unrecorded(file)
     except OSError as error:
-        message, hint = f"the source can't be read: {error.strerror}", "name an existing, readable file"
+        message = f"the source can't be read: {error.strerror}"
+        hint = system.held_hint(error) or "name an existing, readable file"
         raise SourceError.of("no-source", message, shown(file), hint=hint) from None
     translator = find_translator(domain.name, file, content)
     if translator is None:
@@ -264,15 +266,16 @@ def _warnings(made: Expansion, file: Path, place: tuple[str, int], robot: str = 
 
 def _read(config: Config, robot: RobotConfig) -> bytes:
     """Return the bytes of the robot's source. Raises SourceError at the line of the configuration that names it."""
+    hint = "`urdfsync build` runs its command" if robot.command else "correct `source`, or export the file again"
     try:
         if (mode := file_type(robot.source)) in (0, stat.S_IFREG):
             return read_file(robot.source)
         reason = f"is {kind_of(mode)}"
     except OSError as error:
         reason = "does not exist" if isinstance(error, FileNotFoundError) else f"can't be read: {error.strerror}"
+        hint = system.held_hint(error) or hint
     message = f"robot `{robot.name}`: the source {shown(robot.source)} {reason}"
     line = robot.lines.get("source", 0)
-    hint = "`urdfsync build` runs its command" if robot.command else "correct `source`, or export the file again"
     raise SourceError.of("no-source", message, shown(config.file), line, hint=hint)
 
 

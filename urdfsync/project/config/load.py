@@ -18,6 +18,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 
 import msgspec
 
+from urdfsync.common import system
 from urdfsync.common.dependencies import reads
 from urdfsync.common.diagnostics import IGNORABLE, OF_SOURCES, ConfigError, Diagnostic, Severity
 from urdfsync.common.files import shown
@@ -75,7 +76,8 @@ def load(file: Path) -> Config:
         line = error.object.count(b"\n", 0, error.start) + 1
         message, hint = "the configuration is not UTF-8", "save it as UTF-8"
     except OSError as error:
-        message, hint = f"the configuration can't be read: {error.strerror}", "name a file that you may read"
+        message = f"the configuration can't be read: {error.strerror}"
+        hint = system.held_hint(error) or "name a file that you may read"
     raise ConfigError.of(code, message, shown(file), line, hint=hint)
 
 

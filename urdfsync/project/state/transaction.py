@@ -135,7 +135,7 @@ class Transactions:
             done = sum(_hash(one.path) == one.new for one in targets) + sum(move.is_done() for move in moves)
             if not done:
                 raise failure(error, place) from None
-            message = f"{done} of {counted(len(targets), 'file')} are written, then: {reason(error, place)}"
+            message = f"{done} of {counted(len(targets), 'file')} are written, then: {reason(error)}"
             hint = "correct this, then build again: the next build writes the rest"
             raise OutputError.of(UNFINISHED, message, shown(place), hint=hint) from error
         return Applied(overtaken, tuple(notes), {target.path: target.new for target in targets})
