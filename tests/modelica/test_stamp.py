@@ -30,10 +30,17 @@ def test_a_stamp_comes_back_and_leaves_the_text_as_it_was(text: str) -> None:
     assert split(with_stamp(marked.encode(), Stamp("2", "3")).decode()) == (text, Stamp("2", "3"))
 
 
-@pytest.mark.parametrize("text", ["", "// nothing\n", 'record A\n<p>&quot;a&quot;. They;\n</html>"));\nend A;\n'])
+@pytest.mark.parametrize("text", ["", "// nothing\n", 'model A\n  annotation (Documentation(info="<p>;\nend A;\n'])
 def test_a_text_that_is_no_class_or_too_broken_has_none(text: str) -> None:
-    """A stamp would stand in the middle of a documentation that somebody has broken."""
     assert stamped(text, STAMP) == text
+
+
+@pytest.mark.parametrize(
+    "text", ['record A\n<p>&quot;a&quot;. They;\n</html>"));\nend A;\n', 'model A "a\n  );\nend A;\n']
+)
+def test_a_broken_string_that_ends_as_it_should_has_its_stamp_there(text: str) -> None:
+    assert split(stamped(text, STAMP)) == (text, STAMP)
+    assert ", __urdfsync" in stamped(text, STAMP)
 
 
 @given(st.sampled_from(TEXTS), st.data())
@@ -71,3 +78,16 @@ def without_comments(text: str) -> str:
 
 def code_of(text: str) -> str:
     return "".join(without_comments(text).split())
+
+
+def test_a_stamp_in_a_comment_is_none() -> None:
+    text = f'model M\n  annotation (Icon\n    //, __urdfsync(id = "{STAMP.id}", base = "{STAMP.base}")\n  );\nend M;\n'
+    assert split(text.replace("//,", "//")) == (text.replace("//,", "//"), None)
+
+
+def test_a_stamp_behind_broken_code_counts_and_takes_nothing_else_with_it() -> None:
+    broken = stamped('model M\n  annotation (Documentation(info="<html>\n</html>"));\nend M;\n', STAMP)
+    assert split(broken.replace('</html>"),\n', "")) == (
+        'model M\n  annotation (Documentation(info="<html>\n    );\nend M;\n',
+        STAMP,
+    )

@@ -34,6 +34,7 @@ _STRINGS = rf"(?:\"(?:[^\"\\]|\\.)*+\"{_BLANKS}\+?{_BLANKS})*+"
 _HEAD = (
     rf"(?:{_PREFIXES}(?:package|model|record|block|class|connector|function|type)\s++[^\s;\"]++{_BLANKS}{_STRINGS})?+"
 )
+_BROKEN_END = re.compile(r"\)\s*;\s*end\s+[^\s;]+\s*;\s*$")
 _ANNOTATION = re.compile(
     rf"{_BLANKS}{_HEAD}(?:(?:public|protected|initial|equation|algorithm)\b{_BLANKS})*+annotation\s*\(", re.DOTALL
 )
@@ -72,8 +73,8 @@ def split(text: str) -> tuple[str, Stamp | None]:
         bare = code[:-1] + comments + after
     elif not comments and (right := after.lstrip()).startswith(","):
         bare = before + right[1:].lstrip()
-    elif not code.endswith("("):
-        return text, None
+    elif "//" in comments.rpartition("\n")[2]:
+        return text, None  # the user has turned it into a comment
     elif comments or not ((alone := _ALONE.match(after)) and (opening := _OPENING.search(code))):
         bare = before + after
     else:
@@ -103,12 +104,15 @@ def _code_before(text: str) -> tuple[str, str]:
 
 def stamped(bare: str, stamp: Stamp) -> str:
     """Return the text of a class with its stamp; the text itself if it has no class, or is too broken for a stamp."""
-    text = _stamped(bare, stamp)
-    return text if split(text)[0] == bare else bare
+    mark = f'{_WORD}(id = "{stamp.id}", base = "{stamp.base}")'
+    text = _stamped(bare, mark)
+    if split(text) != (bare, stamp) and (end := _BROKEN_END.search(bare)):  # a broken string goes on to the end
+        text = f"{bare[: end.start()]}, {mark}{end[0]}"
+    return text if split(text) == (bare, stamp) else bare
 
 
-def _stamped(bare: str, stamp: Stamp) -> str:
-    mark, ends, depth = f'{_WORD}(id = "{stamp.id}", base = "{stamp.base}")', [-1, -1], 0
+def _stamped(bare: str, mark: str) -> str:
+    ends, depth = [-1, -1], 0
     for token in _TOKENS.finditer(bare):
         if token[0] == ";" and depth == 0:
             ends.append(token.start())

@@ -173,19 +173,15 @@ def _of_corrected(
 
     What he has corrected means the present part, and what stood there before the former one.
     """
-    is_asked = inputs.last.record.open is not None and inputs.last.seen == generation.now.snapshot
-    asked = set(inputs.last.record.open.asked) if inputs.last.record.open and is_asked else set[str]()
+    last, now = inputs.last, generation.now.snapshot
+    asked = set(last.record.open.asked) if last.record.open and last.seen == now else set[str]()
     if asked <= {edit_key(one.path, one.mine) for one in actions}:
         return {}
-    now = generation.now.snapshot
     present = inputs.domain.features(now)
-    other = {
-        key: Doubt(" ".join(key), moved_to=new, is_certain=True)
-        for key, new in differences.renames.items()
-        if key in present
-    }
-    common = [one for one in actions if not _element(one) and edit_key(one.path, one.mine) not in asked]
-    named = {one.path: _named(inputs, added_lines(inputs, generation.package, one), other, now) for one in common}
+    renamed = {key: new for key, new in differences.renames.items() if key in present}
+    doubts = {key: Doubt(" ".join(key), moved_to=new, is_certain=True) for key, new in renamed.items()}
+    common = [one for one in actions if not _element(one)]
+    named = {one.path: _named(inputs, added_lines(inputs, generation.package, one), doubts, now) for one in common}
     return {path: doubt for path, doubt in named.items() if doubt}
 
 

@@ -103,7 +103,8 @@ def _open_record(
     # a decision about an earlier export does not answer a question, not in the next build either
     questions = (one for one in decision.actions if one.reason is Reason.ASKED)
     asked = {edit_key(one.path, one.mine): decision.doubts[one.path] for one in questions}
-    chosen = {bare_hash(text) for text in inputs.settled.contents.values() if text is not None}
+    texts = ((inputs.settled.actions[key].choice, text) for key, text in inputs.settled.contents.items())
+    chosen = {bare_hash(text) for choice, text in texts if text is not None and choice is not Choice.UNDO}
     confirmed |= last.record.confirmed | chosen
     ids = find_part_ids(inputs, generation, Matching(decision.differences.undeclared))
     new = msgspec.structs.replace(
