@@ -74,8 +74,8 @@ def _conflict(inputs: Inputs, generation: Generation, action: Action, decision: 
     if rejected:
         texts = base, mine, generated, None
         return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
-    if last.seen == generation.now.snapshot and action.mine in last.record.confirmed:
-        return find_conflict(action, base, mine, generated, {})  # the user says that its names are right
+    if last.record.open and action.mine in last.record.open.named and last.seen == generation.now.snapshot:
+        return find_conflict(action, base, mine, generated, {})
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
     words = words_in(base or "")

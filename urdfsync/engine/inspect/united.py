@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -27,12 +27,11 @@ from urdfsync.project.git.revisions import open_repository
 from urdfsync.project.state.record import role_of
 
 if TYPE_CHECKING:
+    import pygit2
+
     from urdfsync.merge import Merge
 
 _Version: TypeAlias = tuple[str, Stamp | None]
-_Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
-"""Changed lines and their replacements. The order of lines does not count: a diff can cut added blocks in several
-ways."""
 
 
 class Sides(NamedTuple):
@@ -46,6 +45,8 @@ class Sides(NamedTuple):
     """The stamps of all three."""
     deleted: int = 0
     """The side that has deleted the file, 1 or 2; it has the other side's text."""
+    left: str | None = None
+    """The text with markers that git has noted; None if it has noted none."""
 
 
 class _Unmerged(NamedTuple):
@@ -91,7 +92,8 @@ def with_git_merges(inputs: Inputs, package: Package, ids: Mapping[str, str]) ->
         if found is None and (is_edited or key in inputs.unmerged):
             found = _find_meant_text(inputs, key, unmerged.get(key))
         if isinstance(found, _Meant):
-            if (text_hash(found.text), found.stamp) == (files.hash(key, role), files.stamp(key)):
+            is_there = (text_hash(found.text), found.stamp) == (files.hash(key, role), files.stamp(key))
+            if is_there and not markers.find_markers(_text_on_disk(inputs, key)):
                 continue  # the file has the meant text already, and only `git add` is missing
             contents[key], left[key] = with_stamp(encode(found.text), found.stamp), None
         elif found is not None:
@@ -111,6 +113,8 @@ def _find_meant_text(inputs: Inputs, key: str, unmerged: _Unmerged | None) -> _M
             return _meant(last, sides)
         other = theirs if unmerged.text == ours else ours
         return _Meant(*split(content)) if _are_generated(last, [other]) else _merge_edits(last, sides)
+    if has_markers and not markers.find_markers(split(content)[0]):
+        return _Meant(*split(content))  # they are around the stamp alone
     if has_markers:
         (ours, stamp), (theirs, _) = (split(side) for side in markers.read_sides(content))
         return _Meant(ours, stamp) if _are_generated(last, (ours, theirs)) else None  # no edit is lost
@@ -203,7 +207,7 @@ def _read_unmerged(inputs: Inputs, key: str) -> _Unmerged | None:
     content = _text_on_disk(inputs, key)
     text = split(content)[0]
     if markers.find_markers(content):
-        return _Unmerged(sides, text, _is_untouched(text, sides))
+        return _Unmerged(sides, text, content == sides.left or _is_untouched(text, sides))
     return _Unmerged(sides, text, text in sides[1:3] and not _is_chosen(inputs, key, text, sides))
 
 
@@ -237,6 +241,8 @@ def _merge_edits(last: LastBuild, sides: Sides) -> _Meant | Merge:
         merges += [(merge_branches(our_base, sides.ours, moved), ours)] if moved is not None else []
     if not merges:  # both branches added the file
         merges.append((merge_branches("", sides.ours, sides.theirs), ours))
+    if before and ours and theirs and before.base not in (ours.base, theirs.base):
+        merges.reverse()  # both exported: numbers of their export are no edits of ours
     best, stamp = min(merges, key=lambda one: len(one[0].contradictions))
     return best if best.text is None else _Meant(best.text, stamp)
 
@@ -274,7 +280,8 @@ def _read_staged(file: Path) -> Sides | None:
                 base, ours, theirs = (None if blob is None else plain(blob.decode(errors="replace")) for blob in blobs)
                 # if both branches renamed a file, each of them has only one of the two paths
                 sides = _sides(base, ours or theirs or "", theirs or ours or "")
-                sides = sides._replace(deleted=1 if ours is None else 2 if theirs is None else 0)
+                deleted = 1 if ours is None else 2 if theirs is None else 0
+                sides = sides._replace(deleted=deleted, left=_read_left(repository, path))
                 # if renames of both branches end here, git has merged two other files
                 return None if any(map(markers.find_markers, sides[1:3])) else sides
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
@@ -282,53 +289,50 @@ def _read_staged(file: Path) -> Sides | None:
     return None
 
 
+def _read_left(repository: pygit2.Repository, path: str) -> str | None:
+    """Return the text that a merge, a rebase or a cherry-pick has left at a path, as git notes it since 2.34."""
+    import pygit2
+
+    try:
+        tree = Path(repository.path, "AUTO_MERGE").read_text(encoding="ascii").strip()
+        blob = repository[tree].peel(pygit2.Tree)[path].peel(pygit2.Blob)
+        return plain(blob.data.decode(errors="surrogateescape"))
+    except (FileNotFoundError, KeyError):
+        return None
+
+
 def _is_untouched(text: str, sides: Sides) -> bool:
     """Return whether a text with markers is git's merge of two versions, with the driver or by lines.
 
-    After a merge by lines, each side of a conflict has one version, with the other version's changes to unchanged
-    lines. This compares the changes, since git may compare lines in several ways.
+    After a merge by lines, each side of the markers has one version, with the other one's changes elsewhere. This
+    compares which lines came and went, not where: git may pair lines in several ways.
     """
     from urdfsync.merge.texts import merge_branches
 
     base, ours, theirs = sides.base or "", sides.ours, sides.theirs
     readings = [split(side)[0] for side in markers.read_sides(text)]
     if not any(map(markers.find_markers, readings)):  # nested markers come only from the driver
-        of_ours, of_theirs = _apart(base, ours, theirs)
-        if _changes(ours, readings[0]) <= of_theirs and _changes(theirs, readings[1]) <= of_ours:
+        ways = (ours, readings[0], theirs), (theirs, readings[1], ours)
+        if all(_has_only_changes(side, reading, base, other) for side, reading, other in ways):
             return True
     first, middle, last = markers.signs(text)
     driven = merge_branches(base, ours, theirs, ((first, "mine"), (middle, "generated"), (last, "")))
     return driven.proposal == markers.without_labels(text)
 
 
-def _changes(old: str, new: str) -> _Changes:
+def _has_only_changes(side: str, reading: str, base: str, other: str) -> bool:
+    """Return whether a text is one side's version with changes that the other side has made, too."""
     from urdfsync.merge.lines import compare
 
-    lines, new_lines = _lines(old), _lines(new)
-    return Counter(
-        _change(lines[change.start : change.stop], new_lines[change.new_start : change.new_stop])
-        for change in compare(lines, new_lines)
-    )
-
-
-def _apart(*versions: str) -> tuple[_Changes, _Changes]:
-    """Return the changes of our and of their version that do not touch changes of the other one."""
-    from urdfsync.merge.lines import find_regions
-
-    lines = [_lines(text) for text in versions]
-    ours, theirs = _Changes(), _Changes()
-    for region in find_regions(*lines):
-        if not region.is_generated:
-            ours[_change(lines[0][region.base], lines[1][region.mine])] += 1
-        elif not region.is_mine:
-            theirs[_change(lines[0][region.base], lines[2][region.generated])] += 1
-    return ours, theirs
+    before, after = _lines(base), _lines(other)
+    gone, new = Counter(before) - Counter(after), Counter(after) - Counter(before)
+    hunks = [*compare(before, after)]  # a line that has moved is gone at one place
+    gone |= Counter(line for hunk in hunks for line in before[hunk.start : hunk.stop])
+    new |= Counter(line for hunk in hunks for line in after[hunk.new_start : hunk.new_stop])
+    old, now = Counter(_lines(side)), Counter(_lines(reading))
+    return old - now <= gone and now - old <= new
 
 
 def _lines(text: str) -> list[str]:
     """Return the lines of a text, ignoring a missing line feed at the end: git adds one before a marker."""
     return text.removesuffix("\n").split("\n")
-
-
-def _change(old: Sequence[str], new: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    return tuple(sorted(old)), tuple(sorted(new))

@@ -103,13 +103,16 @@ def _open_record(
     # a decision about an earlier export does not answer a question, not in the next build either
     questions = (one for one in decision.actions if one.reason is Reason.ASKED)
     asked = {edit_key(one.path, one.mine): decision.doubts[one.path] for one in questions}
-    texts = ((inputs.settled.actions[key].choice, text) for key, text in inputs.settled.contents.items())
-    chosen = {bare_hash(text) for choice, text in texts if text is not None and choice is not Choice.UNDO}
+    settled = inputs.settled
+    chosen = {bare_hash(text) for text in settled.contents.values() if text is not None}
+    answered = (key for key, one in settled.before.items() if one.doubt and settled.actions[key].choice is Choice.KEEP)
+    named = before.named if last.seen == generation.now.snapshot else frozenset[str]()
+    named |= {bare_hash(text) for key in answered if (text := settled.contents[key]) is not None}
     confirmed |= last.record.confirmed | chosen
     ids = find_part_ids(inputs, generation, Matching(decision.differences.undeclared))
     new = msgspec.structs.replace(
         old,
-        open=Open(as_recorded(generation.now.snapshot), ids, renewed, files, asked),
+        open=Open(as_recorded(generation.now.snapshot), ids, renewed, files, asked, named),
         confirmed=confirmed.difference(asked),
     )
     return old if new == old else _with_ancestors(msgspec.structs.replace(new, edits=edits), last.records[:1])

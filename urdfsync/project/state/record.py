@@ -63,6 +63,8 @@ class Open(msgspec.Struct, frozen=True, omit_defaults=True):
     asked: Mapping[str, Doubt] = {}
     """The questions whether an edited file belongs to another part, by `edit_key`. Each clone asks until the user
     answers."""
+    named: frozenset[str] = frozenset()
+    """Hashes of the edited texts of which the user says that their names are right."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
