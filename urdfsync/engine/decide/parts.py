@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from urdfsync.common.files import digest
@@ -42,9 +43,10 @@ def recorded_ids(last: LastBuild) -> Iterator[tuple[Record, Snapshot, Mapping[El
 def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) -> dict[str, str]:
     """Return the ids of the parts that have another id than `first_id`, by owner."""
     last, renames, now = inputs.last, matching.renames, generation.now.snapshot
-    if not (last.is_united or last.record.ids or renames):
+    ids = dict[str, str]() if last.records else _ids_of_stamps(inputs, generation)
+    if not (last.is_united or last.record.ids or renames or ids):
         return {}
-    present, ids, taken = inputs.domain.features(now), dict[str, str](), set[str]()
+    present, taken = inputs.domain.features(now), set(ids.values())
     for record, model, parts in recorded_ids(last):
         if record is not last.records[0]:
             renames = find_matching(inputs.domain, model, now, {}).renames
@@ -61,6 +63,17 @@ def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) ->
                 ids[owner] = first_id(ids[owner])
             taken.add(ids[owner])
     return {owner: part for owner, part in ids.items() if part != first_id(owner)}
+
+
+def _ids_of_stamps(inputs: Inputs, generation: Generation) -> dict[str, str]:
+    """Return the ids of the parts whose files, at their paths, have stamps, by owner: the recorded state is lost."""
+    found = dict[str, set[str]]()
+    for path, artifact in generation.package.artifacts.items():
+        stamp = inputs.files.stamp(inputs.folder.key(path)) if " " in artifact.owner else None
+        if stamp and stamp.id[_DIGITS : _DIGITS + 1] == "-":
+            found.setdefault(artifact.owner, set()).add(stamp.id[:_DIGITS])
+    counts = Counter(part for parts in found.values() for part in parts)
+    return {owner: min(parts) for owner, parts in found.items() if len(parts) == 1 and counts[min(parts)] == 1}
 
 
 def find_former_ids(inputs: Inputs, generation: Generation, parts: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
