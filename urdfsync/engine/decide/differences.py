@@ -12,7 +12,14 @@ from urdfsync.domain import ChangeClass, ElementKey, Role, Snapshot, Target, dis
 from urdfsync.domain import comparison as changes
 from urdfsync.domain.comparison import Changes
 from urdfsync.domain.matching import Matching, without_exchanges
-from urdfsync.engine.decide.parts import file_ids, find_former_ids, find_part_ids, ids_of, recorded_ids
+from urdfsync.engine.decide.parts import (
+    file_ids,
+    find_former_ids,
+    find_part_ids,
+    ids_of,
+    is_older_than_package,
+    recorded_ids,
+)
 from urdfsync.engine.decide.places import find_moves
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.inputs import Inputs
@@ -69,6 +76,8 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
     declared = pending(inputs)
     matching = _find_matching(inputs, now, declared)
     undeclared = _match_with_last(inputs, now, {}).renames if declared else matching.renames
+    if last.records and is_older_than_package(inputs, generation):
+        matching = Matching(matching.renames)  # the build of the package has settled the doubts
     news = _find_changes(inputs, generation, matching)
     parts = find_part_ids(inputs, generation, matching)
     ids = file_ids(package.artifacts.values(), parts)

@@ -47,7 +47,7 @@ def find_doubts(
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(inputs, generation, differences, action) or doubts.get(action.path)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
-    doubts |= _of_corrected(inputs, generation, differences, unconfirmed) | open_doubts
+    doubts |= _of_names(inputs, generation, differences, unconfirmed) | open_doubts
     unknown = [one for one in unconfirmed if one.path not in open_doubts and one.mine not in (None, *inputs.last.edits)]
     others = other_meanings(inputs, generation, differences.parts) if unknown else {}
     commits = [(one, one.texts(action.path for action in unknown)) for one in inputs.commits] if unknown else []
@@ -166,21 +166,25 @@ def _open_doubts(inputs: Inputs, generation: Generation, actions: Iterable[Actio
     return {path: asked[key] for path, key in keys.items() if key in asked}
 
 
-def _of_corrected(
+def _of_names(
     inputs: Inputs, generation: Generation, differences: Differences, actions: Sequence[Action]
 ) -> dict[str, Doubt]:
-    """Return a doubt for each edit that uses a name that has meant two parts, if the user wrote after a question.
+    """Return a doubt for each edit that uses a name that has meant two parts, if it is unknown when it was written.
 
-    What he has corrected means the present part, and what stood there before the former one.
+    After a question the user may have corrected some names, and left others. A text with the names of an export that is
+    not recorded comes from a killed build, or from another commit.
     """
     last, now = inputs.last, generation.now.snapshot
     asked = set(last.record.open.asked) if last.record.open and last.seen == now else set[str]()
-    if asked <= {edit_key(one.path, one.mine) for one in actions}:
-        return {}
-    present = inputs.domain.features(now)
+    is_corrected = not asked <= {edit_key(one.path, one.mine) for one in actions}
+    bases = [*(record.files for record in last.records), last.record.open.files if last.record.open else {}]
+    common = [one for one in actions if not _element(one)]
+    if not is_corrected:
+        known = {one.path: {one.generated, *(files.get(one.path) for files in bases)} for one in common}
+        common = [one for one in common if one.base not in known[one.path]]
+    present = inputs.domain.features(now) if common else {}
     renamed = {key: new for key, new in differences.renames.items() if key in present}
     doubts = {key: Doubt(" ".join(key), moved_to=new, is_certain=True) for key, new in renamed.items()}
-    common = [one for one in actions if not _element(one)]
     named = {one.path: _named(inputs, added_lines(inputs, generation.package, one), doubts, now) for one in common}
     return {path: doubt for path, doubt in named.items() if doubt}
 

@@ -44,7 +44,8 @@ def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) ->
     """Return the ids of the parts that have another id than `first_id`, by owner."""
     last, renames, now = inputs.last, matching.renames, generation.now.snapshot
     ids = dict[str, str]() if last.records else _ids_of_stamps(inputs, generation)
-    if not (last.is_united or last.record.ids or renames or ids):
+    is_plain = not (last.is_united or last.record.ids or renames or ids)
+    if is_plain and not is_older_than_package(inputs, generation):
         return {}
     present, taken = inputs.domain.features(now), set(ids.values())
     for record, model, parts in recorded_ids(last):
@@ -62,11 +63,22 @@ def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) ->
             while ids[owner] in taken:  # a part that was renamed began with this name
                 ids[owner] = first_id(ids[owner])
             taken.add(ids[owner])
+    if last.records and is_older_than_package(inputs, generation):
+        ids |= _ids_of_stamps(inputs, generation)
     return {owner: part for owner, part in ids.items() if part != first_id(owner)}
 
 
+def is_older_than_package(inputs: Inputs, generation: Generation) -> bool:
+    """Return whether all files that the export changes were built from it: git, or the user, has an older state."""
+    package, recorded = generation.package, inputs.last.record.files
+    hashes = {inputs.folder.key(path): package.hash(path) for path in package.artifacts if path.endswith(".mo")}
+    changed = {key: sha256 for key, sha256 in hashes.items() if recorded.get(key) != sha256}
+    stamps = ((inputs.files.stamp(key), sha256) for key, sha256 in changed.items())
+    return bool(changed) and all(stamp is not None and stamp.base == sha256 for stamp, sha256 in stamps)
+
+
 def _ids_of_stamps(inputs: Inputs, generation: Generation) -> dict[str, str]:
-    """Return the ids of the parts whose files, at their paths, have stamps, by owner: the recorded state is lost."""
+    """Return the ids of the parts whose files, at their paths, have stamps, by owner: the state is lost or too old."""
     found = dict[str, set[str]]()
     for path, artifact in generation.package.artifacts.items():
         stamp = inputs.files.stamp(inputs.folder.key(path)) if " " in artifact.owner else None

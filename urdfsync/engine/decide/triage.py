@@ -14,6 +14,7 @@ from urdfsync.engine.decide.decision import Decision
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.doubts import EDITED, find_doubts
 from urdfsync.engine.decide.package_names import renamed_names
+from urdfsync.engine.decide.parts import is_of_part
 from urdfsync.engine.decide.places import find_places
 from urdfsync.engine.decide.rules import decide
 from urdfsync.engine.generation import Generation
@@ -54,7 +55,9 @@ def _adjust(
             is_stamped = stamp == Stamp(file_id, str(action.generated))
             stampless = msgspec.structs.replace(action, reason=Reason.UPDATE, lacks_stamp=stamp is None)
             return action if is_stamped else stampless
-        action = msgspec.structs.replace(action, lacks_stamp=stamp is None)
+        # of a stamp that was pasted from another file, only the path counts
+        is_pasted = stamp is not None and not is_of_part(stamp, file_id)
+        action = msgspec.structs.replace(action, lacks_stamp=stamp is None or is_pasted)
     if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
     if action.reason is Reason.DELETE and action.mine is not None and action.role is not Role.IMPORT:
@@ -87,7 +90,9 @@ def _with_other_names(
     for action in actions:
         is_chosen = inputs.files.is_chosen(action.path)
         is_edit = action.reason is Reason.KEEP and action.role is not Role.IMPORT and not is_chosen
-        if is_edit and action.base == action.generated:
+        # a text that was written for this export has its names: a build was killed, or the state is older
+        is_present = inputs.last.record.files.get(action.path) != action.generated
+        if is_edit and action.base == action.generated and not is_present:
             from urdfsync.modelica.lexer import words_in  # imports the parser
 
             text = inputs.files.text(action.path) or ""
