@@ -43,7 +43,7 @@ def find_doubts(
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
     # the user's decision about an export holds until the next export
     is_told = inputs.last.seen == generation.now.snapshot
-    doubts = _of_other_parts(inputs, generation, differences, unconfirmed)
+    doubts = _of_other_parts(inputs, generation, differences, edited)
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(inputs, generation, differences, action) or doubts.get(action.path)
     open_doubts = _open_doubts(inputs, generation, unconfirmed)
@@ -63,15 +63,19 @@ def find_doubts(
 def _of_other_parts(
     inputs: Inputs, generation: Generation, differences: Differences, actions: Iterable[Action]
 ) -> dict[str, Doubt | None]:
-    """Return a doubt for each edit that builds have seen in the file of another part, by key.
+    """Return a doubt for each edit that builds have seen in the file of another part, or whose stamp says so, by key.
 
     Such an edit moves there, unless that file is edited, too: as git leaves two edits of one part.
     """
     doubts = dict[str, Doubt | None]()
     for action in actions:
-        own, seen = differences.ids.get(inputs.folder.path(action.path)), inputs.last.edits.get(action.mine or "")
-        if own and seen and own != seen and _element(action):
-            doubts[action.path] = _moved(generation.package, action.owner, differences.paths.get(seen))
+        own, stamp = differences.ids.get(inputs.folder.path(action.path)), inputs.files.stamp(action.path)
+        is_foreign = own and stamp and stamp.id in differences.paths and not is_of_part(stamp, own)
+        other = inputs.last.edits.get(action.mine or "", stamp.id if stamp and is_foreign else None)
+        if action.mine in inputs.last.record.confirmed and not is_foreign:
+            continue  # an answer stamps the file
+        if own and other and own != other and _element(action):
+            doubts[action.path] = _moved(generation.package, action.owner, differences.paths.get(other))
     return doubts
 
 
