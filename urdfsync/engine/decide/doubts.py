@@ -16,7 +16,7 @@ from urdfsync.domain.matching import Doubt
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide.differences import Differences
 from urdfsync.engine.decide.package_names import elements_by_identifier, identifier_of
-from urdfsync.engine.decide.parts import is_of_part, other_meanings
+from urdfsync.engine.decide.parts import is_of_part, other_meanings, recorded_ids
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inspect.commits import PastCommit
 from urdfsync.engine.inspect.inputs import Inputs
@@ -183,12 +183,15 @@ def _of_names(
     is_corrected = not asked <= {edit_key(one.path, one.mine) for one in actions}
     bases = [*(record.files for record in last.records), last.record.open.files if last.record.open else {}]
     common = [one for one in actions if not _element(one)]
-    if not is_corrected:
+    if not is_corrected and not last.is_united:
         known = {one.path: {one.generated, *(files.get(one.path) for files in bases)} for one in common}
         common = [one for one in common if one.base not in known[one.path]]
     present = inputs.domain.features(now) if common else {}
     renamed = {key: new for key, new in differences.renames.items() if key in present}
     doubts = {key: Doubt(" ".join(key), moved_to=new, is_certain=True) for key, new in renamed.items()}
+    if last.is_united:
+        meant = [ids for _, _, ids in recorded_ids(last)]
+        doubts = {key: Doubt(" ".join(key)) for key in present if len({ids[key] for ids in meant if key in ids}) > 1}
     named = {one.path: _named(inputs, added_lines(inputs, generation.package, one), doubts, now) for one in common}
     return {path: doubt for path, doubt in named.items() if doubt}
 
