@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from urdfsync.merge import Merge
 
 _Version: TypeAlias = tuple[str, Stamp | None]
+_Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
+"""Changed lines and their replacements. The order of lines does not count: a diff can cut added blocks in several
+ways."""
 
 
 class Sides(NamedTuple):
@@ -207,7 +210,8 @@ def _read_unmerged(inputs: Inputs, key: str) -> _Unmerged | None:
     content = _text_on_disk(inputs, key)
     text = split(content)[0]
     if markers.find_markers(content):
-        return _Unmerged(sides, text, content == sides.left or _is_untouched(text, sides))
+        is_left = sides.left is not None and markers.without_labels(content) == markers.without_labels(sides.left)
+        return _Unmerged(sides, text, is_left or _is_untouched(text, sides))
     return _Unmerged(sides, text, text in sides[1:3] and not _is_chosen(inputs, key, text, sides))
 
 
@@ -304,35 +308,50 @@ def _read_left(repository: pygit2.Repository, path: str) -> str | None:
 def _is_untouched(text: str, sides: Sides) -> bool:
     """Return whether a text with markers is git's merge of two versions, with the driver or by lines.
 
-    After a merge by lines, each side of the markers has one version, with the other one's changes elsewhere. This
-    compares which lines came and went, not where: git may pair lines in several ways.
+    After a merge by lines, each side of a conflict has one version, with the other version's changes to unchanged
+    lines. This compares the changes, since git may compare lines in several ways.
     """
     from urdfsync.merge.texts import merge_branches
 
     base, ours, theirs = sides.base or "", sides.ours, sides.theirs
     readings = [split(side)[0] for side in markers.read_sides(text)]
     if not any(map(markers.find_markers, readings)):  # nested markers come only from the driver
-        ways = (ours, readings[0], theirs), (theirs, readings[1], ours)
-        if all(_has_only_changes(side, reading, base, other) for side, reading, other in ways):
+        of_ours, of_theirs = _apart(base, ours, theirs)
+        if _changes(ours, readings[0]) <= of_theirs and _changes(theirs, readings[1]) <= of_ours:
             return True
     first, middle, last = markers.signs(text)
     driven = merge_branches(base, ours, theirs, ((first, "mine"), (middle, "generated"), (last, "")))
     return driven.proposal == markers.without_labels(text)
 
 
-def _has_only_changes(side: str, reading: str, base: str, other: str) -> bool:
-    """Return whether a text is one side's version with changes that the other side has made, too."""
+def _changes(old: str, new: str) -> _Changes:
     from urdfsync.merge.lines import compare
 
-    before, after = _lines(base), _lines(other)
-    gone, new = Counter(before) - Counter(after), Counter(after) - Counter(before)
-    hunks = [*compare(before, after)]  # a line that has moved is gone at one place
-    gone |= Counter(line for hunk in hunks for line in before[hunk.start : hunk.stop])
-    new |= Counter(line for hunk in hunks for line in after[hunk.new_start : hunk.new_stop])
-    old, now = Counter(_lines(side)), Counter(_lines(reading))
-    return old - now <= gone and now - old <= new
+    lines, new_lines = _lines(old), _lines(new)
+    return Counter(
+        _change(lines[change.start : change.stop], new_lines[change.new_start : change.new_stop])
+        for change in compare(lines, new_lines)
+    )
+
+
+def _apart(*versions: str) -> tuple[_Changes, _Changes]:
+    """Return the changes of our and of their version that do not touch changes of the other one."""
+    from urdfsync.merge.lines import find_regions
+
+    lines = [_lines(text) for text in versions]
+    ours, theirs = _Changes(), _Changes()
+    for region in find_regions(*lines):
+        if not region.is_generated:
+            ours[_change(lines[0][region.base], lines[1][region.mine])] += 1
+        elif not region.is_mine:
+            theirs[_change(lines[0][region.base], lines[2][region.generated])] += 1
+    return ours, theirs
 
 
 def _lines(text: str) -> list[str]:
     """Return the lines of a text, ignoring a missing line feed at the end: git adds one before a marker."""
     return text.removesuffix("\n").split("\n")
+
+
+def _change(old: Sequence[str], new: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    return tuple(sorted(old)), tuple(sorted(new))
