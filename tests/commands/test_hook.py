@@ -368,6 +368,17 @@ def test_an_error_has_its_file_and_line(
         assert any(line.startswith(message) for line in lines), lines
 
 
+def test_a_broken_configuration_of_an_earlier_commit_is_told(repo: Repository, capsys: Capture) -> None:
+    with Path("urdfsync.toml").open("a") as file:
+        file.write("frames = all\n")
+    repo.commit()
+    Path("notes.txt").write_text("other")
+    repo.git("add", "-A")
+    (line,) = said(capsys, "check", code=2)
+    assert line.startswith("urdfsync.toml:")
+    assert line.endswith("[toml-syntax]")
+
+
 def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, capsys: Capture) -> None:
     resistor(120)
     edit(RECORD, "100", "140")

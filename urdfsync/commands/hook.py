@@ -111,7 +111,7 @@ def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
 
 def _find_rejections(commit: Commit, file: Path, options: BuildOptions, is_writing: bool) -> Iterator[Rejection]:
     """Yield the rejections of the robots of one configuration; with `is_writing`, build them. Raises UrdfsyncError."""
-    dry = msgspec.structs.replace(options, dry=True)
+    dry, config = msgspec.structs.replace(options, dry=True), None
     with commit.clone:
         if noop.is_in_step(str(file)):
             return
@@ -121,8 +121,8 @@ def _find_rejections(commit: Commit, file: Path, options: BuildOptions, is_writi
                     config = configuration.load(file)
                 results = list(build(config, config.select(()), dry))
             except UrdfsyncError:
-                if _is_touched(commit, everything.entries):
-                    raise
+                if config is None or _is_touched(commit, everything.entries):
+                    raise  # which files a broken configuration means is unknown
                 return
         if all(result.in_step for result in results):
             remember_configuration(config, settings)

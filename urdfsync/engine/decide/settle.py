@@ -64,7 +64,8 @@ def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
         code, hint = "wrong-rename", "choose again: `urdfsync status` lists the choices"
         message = "--moved is only for an edit that may belong to another part"
     elif action.present.endswith("/package.mo") and not action.is_on_disk:
-        message, hint = "you turned the class into a folder", "delete the folder and build to get the generated file"
+        more = " and build to get the generated file" if action.generated else ""
+        message, hint = "you turned the class into a folder", f"delete the folder{more}"
     elif action.reason is Reason.ORPHAN:
         code, message = "no-merge", "the file is no longer generated: there is nothing to merge"
         hint = "make it yours with --keep, or delete it with --take"
@@ -144,6 +145,8 @@ class _Choices:
     def _take(self, action: Action, chosen: UsersChoice) -> bool:
         """Take the generated text, or delete a file that is not generated any more."""
         inputs, key = self._inputs, action.origin or action.path
+        if action.reason is Reason.ORPHAN and not action.is_on_disk:
+            return False  # the class is a folder, which may have other classes
         if action.reason in (Reason.ORPHAN, Reason.SECOND):
             self._add(action, None, Reason.DELETE, Choice.TAKE)
             return True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Collection, Iterator, Mapping
 from functools import cached_property
@@ -12,7 +13,7 @@ import msgspec
 
 from urdfsync.common.dependencies.places import real
 from urdfsync.common.dependencies.reads import is_file, read_file
-from urdfsync.common.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.common.diagnostics import ConfigError, Diagnostic, OutputError, Severity, UrdfsyncError
 from urdfsync.common.files import Templates, digest, shown
 from urdfsync.common.version import __version__
 from urdfsync.domain import Domain, registry
@@ -169,9 +170,11 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     folder = Folder(files.key(robot.folder))
     above = Parents(listed=False) if options.removes else parents.check(config, robot, domain.uses(robot.options))
     (records, damage), name = store.load(robot.name), robot.name
-    others = {files.key(other.folder) for other in config.robots if other.name != robot.name}
-    # another robot may have a folder now: its files must not be deleted
-    records = tuple(record for record in records if record.folder not in others)
+    others = {files.key(other.folder): other.name for other in config.robots if other.name != robot.name}
+    # another robot may have built in a folder: its files must not be deleted
+    records = tuple(one for one in records if one.folder not in _folders(store, others.get(one.folder, "")))
+    if folder not in {record.folder for record in records} and os.path.lexists(robot.folder):
+        _refuse_taken(config, robot, store, folder)
     if not records:  # the folder may have the package of a robot that is no longer configured
         name = next((name for name, places in read_orphaned_robots(store, config) if folder in places), name)
         records = store.load(name)[0] if name != robot.name else ()
@@ -197,6 +200,22 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     last = LastBuild(name, record, records, notes, store, files, domain, robot, templates)
     read = domain, templates, generator, text, store, last, files, folder, above
     return Inputs(config, robot, options, *read, program, damage)
+
+
+def _folders(store: Store, name: str) -> set[str]:
+    """Return the keys of the folders in which a robot was built last; none without a readable record."""
+    with contextlib.suppress(UrdfsyncError):
+        return {record.folder for record in store.load(name)[0]} if name else set()
+    return set()
+
+
+def _refuse_taken(config: Config, robot: RobotConfig, store: Store, folder: Folder) -> None:
+    """Refuse a folder in which another robot was built last: its edits are there. Raises ConfigError."""
+    for other in config.robots:
+        if other.name != robot.name and folder in _folders(store, other.name):
+            message = f"robot `{robot.name}`: its package is so far that of robot `{other.name}`, with its edits"
+            hint = f"build `{other.name}` first; to exchange two packages, build one of them with a third name first"
+            raise ConfigError.of("package-taken", message, shown(config.file), robot.lines["package"], hint=hint)
 
 
 def read_orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, Collection[str]]]:
