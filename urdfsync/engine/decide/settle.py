@@ -315,7 +315,8 @@ def with_choices(inputs: Inputs, settled: Settled) -> Inputs:
     """Return the inputs with the files that choices have changed."""
     left = {key: merge for key, merge in inputs.files.left_by_git.items() if key not in settled.contents}
     inputs = inputs.laid_over({**inputs.files.overlay, **settled.contents}, left)
-    stampless = settled.contents.keys() - settled.bases.keys()
+    generated = {key for key, action in settled.actions.items() if action.generated}  # of these, the path counts
+    stampless = settled.contents.keys() - settled.bases.keys() - generated
     own = {key for key in stampless if settled.contents[key] is not None and not inputs.files.stamp(key)}
     recorded = {**inputs.last.record.files, **settled.bases}
     files = {key: base for key, base in recorded.items() if key not in own and base is not None}
