@@ -12,6 +12,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.commands import Execute
@@ -141,10 +142,10 @@ def test_a_held_input_is_told_in_the_same_words(
     def hold() -> None:
         raise HeldError
 
-    def open_file(name: str | os.PathLike[str], *arguments: int) -> int:
+    def open_file(name: str | os.PathLike[str], *arguments: Any, **more: Any) -> int:
         if Path(name).name == path:
             system.patiently(hold)
-        return opened(name, *arguments)
+        return opened(name, *arguments, **more)
 
     monkeypatch.setattr(os, "open", open_file)
     monkeypatch.setattr(system, "open_file", open_file)
@@ -224,6 +225,7 @@ def test_a_lock_of_an_ended_process_is_free_and_a_held_one_names_its_process(tmp
     script = f"""
 import sys
 from pathlib import Path
+from typing import Any
 from urdfsync.project.state.lock import build_lock
 build_lock(Path({str(tmp_path / ".urdfsync")!r}), 5).acquire()
 print(flush=True); sys.stdin.read()
