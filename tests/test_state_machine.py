@@ -51,7 +51,7 @@ ANSWERS = ("--merge", "--merge --prefer mine", "--merge --prefer generated", "--
 TAMED = ("comment", "declaration", "equation", "remark", "number", "sensor", "mention", "own class")
 """Edits that only add text, or change one number."""
 _SHARED = re.compile(r"  // shared mine\d{6}(?:\n *(?=[})\]])|$)", re.MULTILINE)
-"""A remark; if an export removed the items behind it, or a stamp was there, the closing brackets follow in a new line."""
+"""A remark; if an export removed the items behind it, or a stamp was there, closing brackets follow in a new line."""
 _OWN = re.compile(r"^.*mine\d{6}.*\n", re.MULTILINE)
 _TAG = re.compile(r"mine\d{6}|7171\.\d{6}")
 _DECLARED = re.compile(r"(?m)^  (?:(?:final|parameter|replaceable|inner|outer) )*[A-Z][\w.]* (\w+)")
