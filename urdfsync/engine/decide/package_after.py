@@ -188,7 +188,8 @@ def keep_needed(after: PackageAfter, present: Collection[tuple[str, str]]) -> tu
         kept |= _find_mentioned(after, present)
     packages = {action.origin or action.path: action for action in actions if action.role is Role.PACKAGE}
     for path in sorted(packages.keys() & deleted, key=lambda path: path.count("/"), reverse=True):  # innermost first
-        if after.inputs.files.has_classes(path, deleted - kept):
+        is_in_place = path.endswith("/package.mo")  # the user may have given the file another name
+        if is_in_place and after.inputs.files.has_classes(path, deleted - kept):
             kept.add(path)
     hashes = {key: after.inputs.files.hash(key, Role.PACKAGE) for key in packages}
     stays = {  # an action that brings its text to another path leaves this file

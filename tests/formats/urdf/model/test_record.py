@@ -40,8 +40,8 @@ from urdfsync.formats.urdf.robot import (
 @given(robots())
 def test_the_matrices_say_what_the_tree_is(robot: Robot) -> None:
     found = record_data(assembly(robot), {})
-    links = [part["numbers"]["name"] for part, *_ in found["parts"] if part["base"] == "Link"]
-    joints = [part["numbers"]["name"] for part, *_ in found["parts"] if part["base"] != "Link"]
+    links = [part.numbers["name"] for part, *_ in found["parts"] if part.base == "Link"]
+    joints = [part.numbers["name"] for part, *_ in found["parts"] if part.base != "Link"]
     matrices = found["structure"]["tables"]
 
     def rows(matrix: str) -> list[tuple[int, ...]]:
