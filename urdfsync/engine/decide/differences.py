@@ -17,6 +17,7 @@ from urdfsync.engine.decide.parts import (
     find_former_ids,
     find_part_ids,
     ids_of,
+    ids_of_stamps,
     is_older_than_package,
     recorded_ids,
 )
@@ -58,6 +59,8 @@ class Differences(msgspec.Struct, frozen=True, dict=True):
     """Whether an element has the former name of another element."""
     undeclared: Mapping[ElementKey, str]
     """The renames without the declarations that are not made yet: the user may delete a declaration."""
+    stamped: Mapping[str, str]
+    """The ids of parts that stamps on disk tell, by owner, if the recorded state is lost or older than the package."""
 
     @cached_property
     def paths(self) -> Mapping[str, str]:
@@ -76,10 +79,12 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
     declared = pending(inputs)
     matching = _find_matching(inputs, now, declared)
     undeclared = _match_with_last(inputs, now, {}).renames if declared else matching.renames
-    if last.records and is_older_than_package(inputs, generation):
+    is_older = bool(last.records) and is_older_than_package(inputs, generation)
+    if is_older:
         matching = Matching(matching.renames)  # the build of the package has settled the doubts
+    stamped = ids_of_stamps(inputs, generation) if is_older or not last.records else {}
     news = _find_changes(inputs, generation, matching)
-    parts = find_part_ids(inputs, generation, matching)
+    parts = find_part_ids(inputs, generation, matching, stamped)
     ids = file_ids(package.artifacts.values(), parts)
     moves = find_moves(inputs, ids)
     others, has_exchanges, renames = dict[str, str](), False, matching.renames
@@ -98,7 +103,7 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         former = {old: identifiers.get(new, new) for old, new in former.items()} | identifiers
         former = _other_identifiers(inputs, now, parts) | former
     names = identifiers, former, others, has_exchanges
-    return Differences(matching, news, is_structural, ids, parts, former_ids, moves, *names, undeclared)
+    return Differences(matching, news, is_structural, ids, parts, former_ids, moves, *names, undeclared, stamped)
 
 
 def _find_matching(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:

@@ -186,12 +186,16 @@ def _of_names(
     if not is_corrected and not last.is_united:
         known = {one.path: {one.generated, *(files.get(one.path) for files in bases)} for one in common}
         common = [one for one in common if one.base not in known[one.path]]
-    present = inputs.domain.features(now) if common else {}
-    renamed = {key: new for key, new in differences.renames.items() if key in present}
-    doubts = {key: Doubt(" ".join(key), moved_to=new, is_certain=True) for key, new in renamed.items()}
+    if not common:
+        return {}
+    present = inputs.domain.features(now)
     if last.is_united:
         meant = [ids for _, _, ids in recorded_ids(last)]
         doubts = {key: Doubt(" ".join(key)) for key in present if len({ids[key] for ids in meant if key in ids}) > 1}
+    else:
+        renamed = {key: new for key, new in differences.renames.items() if key in present}
+        doubts = {key: Doubt(" ".join(key), moved_to=new, is_certain=True) for key, new in renamed.items()}
+    common = common if doubts else []  # the rest reads and renders texts
     named = {one.path: _named(inputs, added_lines(inputs, generation.package, one), doubts, now) for one in common}
     return {path: doubt for path, doubt in named.items() if doubt}
 

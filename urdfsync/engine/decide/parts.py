@@ -40,14 +40,14 @@ def recorded_ids(last: LastBuild) -> Iterator[tuple[Record, Snapshot, Mapping[El
         yield record, model, ids_of(elements, record.ids)
 
 
-def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) -> dict[str, str]:
-    """Return the ids of the parts that have another id than `first_id`, by owner."""
+def find_part_ids(
+    inputs: Inputs, generation: Generation, matching: Matching, stamped: Mapping[str, str]
+) -> dict[str, str]:
+    """Return the ids of the parts that have another id than `first_id`, by owner; `stamped` has those of stamps."""
     last, renames, now = inputs.last, matching.renames, generation.now.snapshot
-    ids = dict[str, str]() if last.records else _ids_of_stamps(inputs, generation)
-    is_plain = not (last.is_united or last.record.ids or renames or ids)
-    if is_plain and not is_older_than_package(inputs, generation):
+    if not (last.is_united or last.record.ids or renames or stamped):
         return {}
-    present, taken = inputs.domain.features(now), set(ids.values())
+    present, ids, taken = inputs.domain.features(now), dict(stamped), set(stamped.values())
     for record, model, parts in recorded_ids(last):
         if record is not last.records[0]:
             renames = find_matching(inputs.domain, model, now, {}).renames
@@ -63,8 +63,6 @@ def find_part_ids(inputs: Inputs, generation: Generation, matching: Matching) ->
             while ids[owner] in taken:  # a part that was renamed began with this name
                 ids[owner] = first_id(ids[owner])
             taken.add(ids[owner])
-    if last.records and is_older_than_package(inputs, generation):
-        ids |= _ids_of_stamps(inputs, generation)
     return {owner: part for owner, part in ids.items() if part != first_id(owner)}
 
 
@@ -77,7 +75,7 @@ def is_older_than_package(inputs: Inputs, generation: Generation) -> bool:
     return bool(changed) and all(stamp is not None and stamp.base == sha256 for stamp, sha256 in stamps)
 
 
-def _ids_of_stamps(inputs: Inputs, generation: Generation) -> dict[str, str]:
+def ids_of_stamps(inputs: Inputs, generation: Generation) -> dict[str, str]:
     """Return the ids of the parts whose files, at their paths, have stamps, by owner: the state is lost or too old."""
     found = dict[str, set[str]]()
     for path, artifact in generation.package.artifacts.items():

@@ -109,7 +109,8 @@ def _open_record(
     named = before.named if last.seen == generation.now.snapshot else frozenset[str]()
     named |= {bare_hash(text) for key in answered if (text := settled.contents[key]) is not None}
     confirmed |= last.record.confirmed | chosen
-    ids = find_part_ids(inputs, generation, Matching(decision.differences.undeclared))
+    differences = decision.differences
+    ids = find_part_ids(inputs, generation, Matching(differences.undeclared), differences.stamped)
     new = msgspec.structs.replace(
         old,
         open=Open(as_recorded(generation.now.snapshot), ids, renewed, files, asked, named),
