@@ -368,15 +368,19 @@ def test_an_error_has_its_file_and_line(
         assert any(line.startswith(message) for line in lines), lines
 
 
-def test_a_broken_configuration_of_an_earlier_commit_is_told(repo: Repository, capsys: Capture) -> None:
-    with Path("urdfsync.toml").open("a") as file:
-        file.write("frames = all\n")
+@pytest.mark.parametrize(("text", "code"), [("frames = all\n", "toml-syntax"), ("[check]\n", "no-robots")])
+def test_a_broken_configuration_of_an_earlier_commit_is_told(
+    repo: Repository, capsys: Capture, text: str, code: str
+) -> None:
+    """As in a clone, whatever the commit changes."""
+    former = Path("urdfsync.toml").read_text() if code == "toml-syntax" else ""
+    Path("urdfsync.toml").write_text(f"{former}{text}")
     repo.commit()
     Path("notes.txt").write_text("other")
     repo.git("add", "-A")
     (line,) = said(capsys, "check", code=2)
     assert line.startswith("urdfsync.toml:")
-    assert line.endswith("[toml-syntax]")
+    assert line.endswith(f"[{code}]")
 
 
 def test_a_conflict_comes_with_the_command_that_settles_it(repo: Repository, capsys: Capture) -> None:

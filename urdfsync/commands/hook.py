@@ -111,18 +111,19 @@ def _find_configurations(commit: Commit, given: Path | None) -> list[Path]:
 
 def _find_rejections(commit: Commit, file: Path, options: BuildOptions, is_writing: bool) -> Iterator[Rejection]:
     """Yield the rejections of the robots of one configuration; with `is_writing`, build them. Raises UrdfsyncError."""
-    dry, config = msgspec.structs.replace(options, dry=True), None
+    dry = msgspec.structs.replace(options, dry=True)
     with commit.clone:
         if noop.is_in_step(str(file)):
             return
         with Reads() as everything:
+            with Reads() as settings:
+                config = configuration.load(file)
+            selected = config.select(())  # which files a broken configuration means is unknown
             try:
-                with Reads() as settings:
-                    config = configuration.load(file)
-                results = list(build(config, config.select(()), dry))
+                results = list(build(config, selected, dry))
             except UrdfsyncError:
-                if config is None or _is_touched(commit, everything.entries):
-                    raise  # which files a broken configuration means is unknown
+                if _is_touched(commit, everything.entries):
+                    raise
                 return
         if all(result.in_step for result in results):
             remember_configuration(config, settings)
