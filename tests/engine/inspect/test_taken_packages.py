@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -74,3 +75,14 @@ def test_a_chain_is_built_from_its_end(execute: Execute) -> None:
     assert "of_a" in link_of("b").read_text()
     assert "of_b" in link_of("c").read_text()
     execute("build", "--check")
+
+
+def test_a_package_is_not_taken_while_the_other_state_is_unreadable(execute: Execute) -> None:
+    state = Path(".urdfsync/robots/b.state")
+    state.write_text(re.sub(r'"release":"[^"]*"', '"release":"99.0"', state.read_text()))
+    name_packages(a="Plant.B", b="Plant.C")
+    before = {path: path.read_bytes() for path in Path("modelica").rglob("*") if path.is_file()}
+    printed = execute("build", code=2)
+    assert "a: 1 error, nothing was changed" in printed.err
+    assert "urdfsync 99.0 wrote this state" in printed.err
+    assert {path: path.read_bytes() for path in Path("modelica").rglob("*") if path.is_file()} == before

@@ -210,9 +210,12 @@ def _folders(store: Store, name: str) -> set[str]:
 
 
 def _refuse_taken(config: Config, robot: RobotConfig, store: Store, folder: Folder) -> None:
-    """Refuse a folder in which another robot was built last: its edits are there. Raises ConfigError."""
+    """Refuse a folder in which another robot was built last: its edits are there. Raises ConfigError.
+
+    Raises StateError or OutputError if another robot's record is unreadable: the folder may be its last one.
+    """
     for other in config.robots:
-        if other.name != robot.name and folder in _folders(store, other.name):
+        if other.name != robot.name and folder in {record.folder for record in store.load(other.name)[0]}:
             message = f"robot `{robot.name}`: its package is so far that of robot `{other.name}`, with its edits"
             hint = f"build `{other.name}` first; to exchange two packages, build one of them with a third name first"
             raise ConfigError.of("package-taken", message, shown(config.file), robot.lines["package"], hint=hint)
