@@ -36,7 +36,9 @@ def find_places(
         path = inputs.folder.path(key)
         base, mine, stamp, file_id = last.base_of(key, role), files.on_disk(key, role), None, ids.get(path)
         if file_id and (stamp := files.stamp(key)) and key not in moved and not is_of_part(stamp, file_id):
-            base = last.record.files.get(key)  # it is a copy of another part's file, or of another project's
+            is_plain = stamp.base == mine and last.has_written(stamp.base)  # a killed build has exchanged two files
+            # else it is a copy of another part's file, or of another project's
+            base = base if is_plain else last.record.files.get(key)
         place = Place(role, owner, base, mine, generated)
         if stamp and stamp.id == file_id and place.is_edited and (text := last.base(base)) is not None:
             is_displaced = not is_in_place(text, inputs.robot.target, path)
