@@ -29,7 +29,7 @@ _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()[^\S\n]*version\s*=\s
 # a string or comment without an end goes on to the end of the text: else each quotation mark would look for it
 _STRING_OR_REMARK = r'"(?:\\.|[^"\\])*+(?:"|\\?\Z)|//[^\n]*+|/\*.*?(?:\*/|\Z)'
 _NOISE = re.compile(_STRING_OR_REMARK.encode(), re.DOTALL)
-_NAME = re.compile(rf"{_STRING_OR_REMARK}|('(?:\\.|[^'\\])*+'|[A-Za-z_]\w*+)", re.DOTALL)
+_NAME = re.compile(rf"{_STRING_OR_REMARK}|('(?:\\.|[^'\\])*+(?:'|\\?\Z)|[A-Za-z_]\w*+)", re.DOTALL)
 _LIBRARY_NAME = re.compile(rb"\bimport\s+(?:\w+\s*=\s*)?\.?(\w+)|(?<![\w.\])'])\.?\b(\w+)\s*\.")
 _CALLED = {"constructor", "destructor", "equalityConstraint"}
 """Functions that Modelica calls although no text names them."""
